@@ -1,0 +1,54 @@
+#include "mechanism/math/se3.hpp"
+
+namespace bielle::mechanism {
+
+Frame exp_se3(const Vector6& d) {
+  const Vector3 u = d.head<3>(), psi = d.tail<3>();
+  return {tangent(psi).transpose() * u, exp_so3(psi)};
+}
+
+Vector6 log_se3(const Frame& H) {
+  Vector6 d;
+  const Vector3 psi = log_so3(H.R);
+  d << tangent_inverse(psi).transpose() * H.x, psi;
+  return d;
+}
+
+Matrix6 tangent_se3(const Vector6& d) {
+  Matrix6 T6;
+  const Matrix3 T = tangent(d.tail<3>());
+  T6 << T, tangent_derivative(d.tail<3>(), d.head<3>()), Matrix3::Zero(), T;
+  return T6;
+}
+
+Matrix6 tangent_se3_inverse(const Vector6& d) {
+  Matrix6 inverse;
+  const Matrix3 T = tangent_inverse(d.tail<3>());
+  inverse << T, tangent_inverse_derivative(d.tail<3>(), d.head<3>()), Matrix3::Zero(), T;
+  return inverse;
+}
+
+Matrix6 adjoint(const Frame& H) {
+  Matrix6 Ad;
+  Ad << H.R, skew(H.x) * H.R, Matrix3::Zero(), H.R;
+  return Ad;
+}
+
+Matrix6 inverse_transpose_gradient_se3(const Vector6& d, const Vector6& f) {
+  const Vector3 u = d.head<3>(), psi = d.tail<3>(), n = f.head<3>(), m = f.tail<3>();
+  const Matrix3 g = inverse_transpose_gradient(psi, n);
+  Matrix6 G;
+  G << Matrix3::Zero(), g, g, inverse_transpose_hessian(psi, u, n) + inverse_transpose_gradient(psi, m);
+  return G;
+}
+
+Matrix6 tangent_se3_inverse_gradient(const Vector6& d, const Vector6& w) {
+  // T^-1(psi) = T^-T(-psi), so that both derivatives are those of the transposed inverse at -psi.
+  const Vector3 u = d.head<3>(), psi = d.tail<3>(), a = w.head<3>(), c = w.tail<3>();
+  const Matrix3 gc = inverse_transpose_gradient(-psi, c);
+  Matrix6 G;
+  G << -gc, -inverse_transpose_gradient(-psi, a) + inverse_transpose_hessian(-psi, u, c), Matrix3::Zero(), -gc;
+  return G;
+}
+
+}  // namespace bielle::mechanism

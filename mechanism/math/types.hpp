@@ -1,0 +1,15 @@
+// Short names for the fixed-size vectors and matrices of the mechanics.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace bielle::mechanism {
+
+using Vector3 = Eigen::Vector3d;
+using Matrix3 = Eigen::Matrix3d;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using VectorX = Eigen::VectorXd;
+using MatrixX = Eigen::MatrixXd;
+
+}  // namespace bielle::mechanism

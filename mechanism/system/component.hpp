@@ -1,0 +1,110 @@
+// The one interface: whatever adds to the equations of motion (element, joint, drive, load) is a Component.
+//
+// All components together make
+//     r(q, v, a, lambda, y, ydot, t) = 0:   M a + g_internal - g_external + B^T lambda = 0,   Phi(q,t) = 0,   f(y, ydot, q, v) = 0.
+// A component sees its own nodes, second-order scalars ("amplitudes"), first-order unknowns and multipliers through a
+// LocalState, and writes into local vectors and matrices of the layout
+//     [ 6 per node: force (inertial), moment (node axes) | amplitudes | first-order rows | constraint rows ].
+// Columns follow the same layout: dx (inertial) and dTheta (node axes, R exp(dTheta~)) of each node, and so on.
+// That a node is free, fixed, driven or carried rigidly by another is system/'s business: components never ask.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mechanism/system/state.hpp"
+
+namespace bielle::mechanism {
+
+enum class ConstraintKind { holonomic, nonholonomic };  ///< Phi(q,t) = 0, or B(q) v + c(q,t) = 0
+
+/// Collects what a component needs. Names come back in messages and results: "moment z of joint 'main'".
+struct Declaration {
+  struct Scalar {
+    std::string name;   ///< e.g. "mode 3"
+    std::string units;  ///< of the unknown (amplitudes: of the modal amplitude; multipliers: "N" or "N m")
+    double start = 0;   ///< initial value
+    ConstraintKind kind = ConstraintKind::holonomic;  ///< multipliers only
+  };
+  std::vector<int> nodes;             ///< indices into the model's nodes
+  std::vector<Scalar> amplitudes, first_order, multipliers;
+  std::vector<double> memory;         ///< initial values
+  /// Which of the tangent's three matrices the component contributes to.
+  bool stiffness = false, damping = false, mass = false;
+};
+
+/// Local matrices to add to. Only those asked for (and declared) are valid; all are zero on entry.
+struct LocalTangent {
+  Eigen::Ref<MatrixX> K;  ///< d r / d(q, y, lambda) at fixed rates; unsymmetric in moment rows off equilibrium
+  Eigen::Ref<MatrixX> C;  ///< d r / d(v, ydot)
+  Eigen::Ref<MatrixX> M;  ///< d r / d a
+  bool wants_K = true, wants_C = true, wants_M = true;
+};
+
+/// Energies [J] and powers [W] of a component at a state.
+struct Energy {
+  double kinetic = 0, elastic = 0;
+  double gravity = 0;      ///< potential; zero where the mass is in the inertial origin's level
+  double dissipation = 0;  ///< power lost, >= 0
+  double input = 0;        ///< power that drives and loads put in
+};
+
+/// One quantity of the results file.
+struct OutputField {
+  std::string name;                ///< dataset name, e.g. "strain"
+  std::vector<std::size_t> shape;  ///< of one row; {} for a number
+  std::string units;
+  std::string description;
+  std::size_t size() const {
+    std::size_t n = 1;
+    for (std::size_t s : shape) n *= s;
+    return n;
+  }
+};
+
+/// See the head of this file. Const after construction: state lives in State, what must be remembered from step to step
+/// in its `memory`.
+class Component {
+ public:
+  Component(std::string type, std::string name) : type_(std::move(type)), name_(std::move(name)) {}
+  virtual ~Component() = default;
+  Component(const Component&) = delete;
+  Component& operator=(const Component&) = delete;
+  const std::string& type() const { return type_; }  ///< as in the input file: "hinge"
+  const std::string& name() const { return name_; }  ///< as in the input file: "main"
+
+  virtual void declare(Declaration& declaration) const = 0;
+
+  /// Adds the residual r at the state: inertia + internal - external forces, B^T lambda, and constraint rows Phi (for a
+  /// non-holonomic row B v + c).
+  virtual void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const = 0;
+
+  /// Adds the derivatives of the residual.
+  virtual void add_tangent(const LocalState& state, LocalTangent& tangent) const = 0;
+
+  /// Adds the first and second total time derivatives of this component's constraint rows along (v, a, t): for a
+  /// holonomic row `velocity` = dPhi/dt and `acceleration` = d2Phi/dt2; for a non-holonomic one B v + c and its rate.
+  /// Vectors of length `multipliers`. Components with multipliers must implement it.
+  virtual void add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
+                                    Eigen::Ref<VectorX> acceleration) const;
+
+  virtual void add_energy(const LocalState& /*state*/, Energy& /*energy*/) const {}
+
+  /// The quantities that the component can record, and their values one after the other in the same order.
+  virtual std::vector<OutputField> output_fields() const { return {}; }
+  virtual void write_output(const LocalState& /*state*/, double* /*values*/) const {}
+  /// Facts for those who read the results (e.g. {"file", "conrod.h5"}), written as attributes of the group.
+  virtual std::vector<std::pair<std::string, std::string>> attributes() const { return {}; }
+
+  /// After a converged step: new values of the component's memory, from the state (whose memory is still the old one).
+  virtual void accept(const LocalState& /*state*/, Eigen::Ref<VectorX> /*memory*/) const {}
+
+  /// Times at which the component's forces or prescribed motions have kinks: steps end there.
+  virtual void add_break_points(std::vector<double>& /*times*/) const {}
+
+ private:
+  std::string type_, name_;
+};
+
+}  // namespace bielle::mechanism

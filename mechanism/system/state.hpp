@@ -1,0 +1,79 @@
+// The state of a mechanism: nodes on R^3 x SO(3) and the scalar unknowns beside them.
+#pragma once
+
+#include <vector>
+
+#include "mechanism/math/types.hpp"
+
+namespace bielle::mechanism {
+
+/// A node: position and translational rates are inertial components, rotational rates are body components
+/// (dR/dt = R Omega~).
+struct NodeState {
+  Vector3 x = Vector3::Zero();         ///< position [m]
+  Matrix3 R = Matrix3::Identity();     ///< node axes -> inertial axes
+  Vector3 v = Vector3::Zero();         ///< [m/s]
+  Vector3 Omega = Vector3::Zero();     ///< [rad/s], node axes
+  Vector3 a = Vector3::Zero();         ///< [m/s^2]
+  Vector3 Omegadot = Vector3::Zero();  ///< [rad/s^2], node axes
+};
+
+/// Everything that moves. Restart, results and components read it; only system/ and solvers/ write it.
+struct State {
+  double time = 0;  ///< [s]
+  std::vector<NodeState> nodes;
+  VectorX amplitude, amplitude_rate, amplitude_acceleration;  ///< second-order scalars (modes of superelements)
+  VectorX first_order, first_order_rate;                      ///< first-order unknowns y (pressures)
+  VectorX multiplier;                                         ///< lambda: physical reactions
+  VectorX memory;  ///< what components keep from the last accepted step (turns of an angle, bristles)
+};
+
+/// What acts everywhere, as seen by components.
+struct Environment {
+  Vector3 gravity = Vector3::Zero();  ///< [m/s^2], inertial, already multiplied by the load factor
+  double load_factor = 1;             ///< on loads and drives: 1 but in a static analysis
+};
+
+/// Where a component's unknowns stand in the State. Nodes may repeat; the scalars are contiguous.
+struct Slots {
+  std::vector<int> nodes;
+  int amplitude_begin = 0, amplitudes = 0;
+  int first_order_begin = 0, first_orders = 0;
+  int multiplier_begin = 0, multipliers = 0;
+  int memory_begin = 0, memories = 0;
+  /// Size of the component's local vector: [6 per node (dx, dTheta) | amplitudes | first-order | multipliers].
+  int size() const { return amplitude_row() + amplitudes + first_orders + multipliers; }
+  int amplitude_row() const { return 6 * static_cast<int>(nodes.size()); }
+  int first_order_row() const { return amplitude_row() + amplitudes; }
+  int multiplier_row() const { return first_order_row() + first_orders; }
+};
+
+/// The part of a state that one component sees. A view: cheap, made on the spot, outlived by the state.
+class LocalState {
+ public:
+  using Segment = Eigen::Map<const VectorX>;
+  LocalState(const State& state, const Slots& slots, const Environment& environment)
+      : state_(state), slots_(slots), environment_(environment) {}
+  double time() const { return state_.time; }
+  const Environment& environment() const { return environment_; }
+  const Slots& slots() const { return slots_; }
+  const NodeState& node(int k) const { return state_.nodes[static_cast<std::size_t>(slots_.nodes[static_cast<std::size_t>(k)])]; }
+  Segment amplitude() const { return {state_.amplitude.data() + slots_.amplitude_begin, slots_.amplitudes}; }
+  Segment amplitude_rate() const { return {state_.amplitude_rate.data() + slots_.amplitude_begin, slots_.amplitudes}; }
+  Segment amplitude_acceleration() const {
+    return {state_.amplitude_acceleration.data() + slots_.amplitude_begin, slots_.amplitudes};
+  }
+  Segment first_order() const { return {state_.first_order.data() + slots_.first_order_begin, slots_.first_orders}; }
+  Segment first_order_rate() const {
+    return {state_.first_order_rate.data() + slots_.first_order_begin, slots_.first_orders};
+  }
+  Segment multiplier() const { return {state_.multiplier.data() + slots_.multiplier_begin, slots_.multipliers}; }
+  Segment memory() const { return {state_.memory.data() + slots_.memory_begin, slots_.memories}; }
+
+ private:
+  const State& state_;
+  const Slots& slots_;
+  const Environment& environment_;
+};
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,99 @@
+// HDF5 files that hold real matrices, names and text: no dataset without units.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "reduce/common/error.hpp"
+
+namespace bielle {
+
+/// Shape of a dataset, slowest index first (C order, as HDF5 and numpy see it).
+using Shape = std::vector<std::size_t>;
+
+/// An open HDF5 file. Objects are addressed by absolute paths ("/reduced/stiffness"); groups are made on the way.
+///
+/// A dataset cannot be written without its units ("-" for pure numbers). Long text is a dataset, since attributes over
+/// 64 kB fail. Written with the earliest file format, so that a file is readable after its writer was killed as long as
+/// it was flushed. Every failure is an InputError (reading) or ComputationError (writing) that names file and dataset.
+class Hdf5File {
+ public:
+  static Hdf5File create(const std::string& path);          ///< replaces an existing file
+  static Hdf5File open(const std::string& path);            ///< to read. @throws InputError: missing, truncated, no HDF5
+  static Hdf5File open_to_extend(const std::string& path);  ///< to read and write
+  Hdf5File(Hdf5File&&) noexcept;
+  Hdf5File& operator=(Hdf5File&&) noexcept;
+  ~Hdf5File();
+
+  const std::string& path() const;
+  void flush();
+  void close();  ///< @throws ComputationError when the disk is full etc.; the destructor closes silently
+
+  // -- attributes of a group or dataset ("/" is the root)
+  void write_attribute(const std::string& object, const std::string& name, const std::string& value);
+  void write_attribute(const std::string& object, const std::string& name, std::int64_t value);
+  std::string read_text_attribute(const std::string& object, const std::string& name) const;
+  std::int64_t read_integer_attribute(const std::string& object, const std::string& name) const;
+  bool has_attribute(const std::string& object, const std::string& name) const;
+
+  // -- whole datasets. Matrices appear in the file as (rows, cols), whatever their storage order in memory.
+  void write(const std::string& dataset, std::span<const double> values, const Shape& shape, const std::string& units,
+             const std::string& description = "");
+  void write(const std::string& dataset, std::span<const std::int64_t> values, const Shape& shape,
+             const std::string& units, const std::string& description = "");
+  void write(const std::string& dataset, const Eigen::MatrixXd& matrix, const std::string& units,
+             const std::string& description = "");
+  void write(const std::string& dataset, const Eigen::VectorXd& vector, const std::string& units,
+             const std::string& description = "");
+  void write(const std::string& dataset, double value, const std::string& units, const std::string& description = "");
+  void write_text(const std::string& dataset, const std::string& text);
+  void write_names(const std::string& dataset, const std::vector<std::string>& names);  ///< variable-length UTF-8
+
+  bool has(const std::string& object) const;
+  std::vector<std::string> names_in(const std::string& group) const;  ///< of its groups and datasets, in file order
+  Shape shape(const std::string& dataset) const;
+  std::string units(const std::string& dataset) const;
+  std::vector<double> read(const std::string& dataset) const;
+  std::vector<std::int64_t> read_integers(const std::string& dataset) const;
+  Eigen::MatrixXd read_matrix(const std::string& dataset) const;  ///< of a 2-d dataset
+  Eigen::VectorXd read_vector(const std::string& dataset) const;  ///< of a 1-d dataset
+  double read_number(const std::string& dataset) const;
+  std::string read_text(const std::string& dataset) const;
+  std::vector<std::string> read_names(const std::string& dataset) const;
+
+  // -- datasets that grow row by row (results)
+  /// A dataset of shape (0, row_shape...) to be extended along its first index.
+  void create_rows(const std::string& dataset, const Shape& row_shape, const std::string& units,
+                   const std::string& description = "");
+  /// Appends `rows` rows; `values` holds them one after the other.
+  void append_rows(const std::string& dataset, std::span<const double> values, std::size_t rows = 1);
+  /// `name` becomes another name of `target` within this file (a soft link).
+  void link(const std::string& target, const std::string& name);
+
+ private:
+  struct Handle;
+  explicit Hdf5File(std::unique_ptr<Handle> handle);
+  std::unique_ptr<Handle> handle_;
+};
+
+/// A file that takes its name only when it is complete: written beside as `<path>.partial`, renamed by `commit()`,
+/// removed when destroyed without it. An earlier file of that name is replaced by a complete one only.
+class AtomicOutput {
+ public:
+  explicit AtomicOutput(std::string path);
+  ~AtomicOutput();
+  AtomicOutput(const AtomicOutput&) = delete;
+  AtomicOutput& operator=(const AtomicOutput&) = delete;
+  const std::string& temporary_path() const { return temporary_path_; }
+  void commit();  ///< @throws ComputationError when the rename fails
+
+ private:
+  std::string path_, temporary_path_;
+  bool committed_ = false;
+};
+
+}  // namespace bielle

@@ -1,0 +1,48 @@
+// Long work shows progress: a bar with the time left on a terminal, plain lines elsewhere, nothing when quiet.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace bielle {
+
+/// One phase of work with its measured cost.
+struct PhaseReport {
+  std::string name;
+  double seconds = 0;         ///< wall time
+  double peak_memory_MB = 0;  ///< highest resident memory of the process so far, at the end of the phase
+};
+
+/// Reports the phases of a run on standard error and keeps their times and memory for the summary.
+///
+/// On a terminal a phase is one line that is redrawn (at most ten times a second); otherwise lines are printed at the
+/// start of a phase, when at least five seconds have passed, and at the end. Safe to call from the thread that works.
+class Progress {
+ public:
+  explicit Progress(bool quiet = false);
+  ~Progress();
+  void start(const std::string& phase);  ///< ends the running phase, if any
+  /// @param fraction  done of this phase, 0..1; @param detail  shown behind it ("t = 0.013 s")
+  void update(double fraction, const std::string& detail = "");
+  void finish();  ///< ends the running phase
+  /// A line that stays, e.g. a warning, printed in spite of `quiet`.
+  void warn(const std::string& message);
+  void note(const std::string& message);  ///< a line that stays, unless quiet
+  const std::vector<PhaseReport>& phases() const { return phases_; }
+  bool quiet() const { return quiet_; }
+
+ private:
+  void draw(bool end);
+  bool quiet_, terminal_, running_ = false;
+  double fraction_ = 0;
+  std::string phase_, detail_;
+  std::chrono::steady_clock::time_point phase_start_, last_draw_;
+  std::vector<PhaseReport> phases_;
+};
+
+/// Highest resident memory of this process so far [MB].
+double peak_memory_MB();
+
+}  // namespace bielle

@@ -1,0 +1,93 @@
+// Input files: yaml-cpp with file and line in every message, nearest names for unknown keys, and numbers that may be
+// expressions of the file's parameters.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "reduce/common/error.hpp"
+#include "reduce/common/expression.hpp"
+
+namespace YAML {
+class Node;
+}
+
+namespace bielle {
+
+/// A value in an input file that knows where it stands. Cheap to copy.
+///
+/// Every reader throws InputError `file:line: path.of.key: what was expected`. A map's unknown keys are refused by
+/// `check_keys`, which each reader of a map calls once: nothing in a file is silently ignored. Duplicate keys in a map
+/// are refused when the file is loaded.
+class YamlValue {
+ public:
+  /// Loads a file. @throws InputError when it is missing, unreadable or no valid YAML (with the line).
+  static YamlValue load(const std::string& path);
+  /// The same from text, `name` standing for the file in messages.
+  static YamlValue parse(const std::string& text, const std::string& name);
+
+  /// Parameters that numbers in this file may use (shared by all values of the file).
+  void set_parameters(Parameters parameters);
+  const Parameters& parameters() const;
+
+  bool is_map() const;
+  bool is_sequence() const;
+  bool is_scalar() const;
+  bool is_null() const;
+
+  // -- maps
+  bool has(const std::string& key) const;
+  YamlValue at(const std::string& key) const;                   ///< @throws when missing
+  std::optional<YamlValue> find(const std::string& key) const;  ///< empty when missing
+  /// Keys and values in the order of the file. @throws when this is no map; a null value is an empty map.
+  std::vector<std::pair<std::string, YamlValue>> entries() const;
+  /// @throws InputError at the first key not in `allowed`: `'dampng' is not a key of a hinge; did you mean 'damping'?`
+  /// @param of  the thing in words with its article: "a hinge", "the mesh"
+  void check_keys(const std::vector<std::string>& allowed, const std::string& of) const;
+
+  // -- sequences
+  std::size_t size() const;
+  YamlValue at(std::size_t index) const;
+  std::vector<YamlValue> items() const;  ///< @throws when this is no sequence
+
+  // -- scalars. Numbers may be expressions of the parameters; infinities and NaN are refused.
+  double number() const;
+  double positive_number() const;      ///< > 0
+  double non_negative_number() const;  ///< >= 0
+  int integer() const;
+  bool boolean() const;
+  std::string text() const;
+  /// One of the given words; the message offers the nearest.
+  std::string word(const std::vector<std::string>& allowed, const std::string& what) const;
+  Eigen::VectorXd vector() const;
+  Eigen::Vector3d vector3() const;
+  Eigen::Vector3d direction() const;  ///< vector3, normalised. @throws when zero
+  Eigen::MatrixXd matrix(Eigen::Index rows, Eigen::Index columns) const;
+  /// A formula of the given variables beside the parameters (e.g. {"t"}).
+  Expression expression(const std::vector<std::string>& variables) const;
+  /// Reads a file name: relative to the folder of this input file.
+  std::string file_path() const;
+
+  // -- place
+  const std::string& file() const;
+  int line() const;                 ///< 1-based
+  std::string path() const;         ///< "joints.main.axis"
+  std::string source_text() const;  ///< the whole text of the file, for the results' /input
+  /// `file:line: path: message`
+  [[noreturn]] void fail(const std::string& message) const;
+  std::string located(const std::string& message) const;  ///< the text that `fail` throws
+
+ private:
+  struct Document;
+  YamlValue(std::shared_ptr<Document> document, std::shared_ptr<YAML::Node> node, std::string path, int line);
+  std::shared_ptr<Document> document_;
+  std::shared_ptr<YAML::Node> node_;
+  std::string path_;
+  int line_ = 0;
+};
+
+}  // namespace bielle

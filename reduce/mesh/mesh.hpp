@@ -1,0 +1,48 @@
+// A solid mesh in metres: what gmsh, or a foreign file, became on import.
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace bielle::reduce {
+
+/// Cell types by gmsh's numbers; node order within a cell is gmsh's.
+enum class CellType : int { tri3 = 2, tet4 = 4, tri6 = 9, tet10 = 11 };
+
+int node_count(CellType type);   ///< 3, 4, 6, 10
+int dimension(CellType type);    ///< 2 or 3
+std::string cell_name(CellType type);
+
+/// All cells of one type: column e holds the node numbers (from 0) of cell e.
+struct CellBlock {
+  CellType type;
+  Eigen::MatrixXi nodes;  ///< node_count x cells
+};
+
+/// Cells of one block that belong to a group.
+struct GroupPart {
+  CellType type;
+  std::vector<int> cells;  ///< columns of the block of that type
+};
+
+/// A physical group: a named surface (dimension 2) or volume (dimension 3).
+struct Group {
+  int dimension = 0;
+  std::vector<GroupPart> parts;
+  std::vector<int> nodes;  ///< of all its cells, ascending, each once
+};
+
+/// Points and cells in SI. Each CellType occurs in at most one block.
+struct Mesh {
+  Eigen::Matrix3Xd points;  ///< [m]
+  std::vector<CellBlock> blocks;
+  std::map<std::string, Group> groups;
+
+  const CellBlock* block(CellType type) const;  ///< nullptr when there are none
+  Eigen::Index point_count() const { return points.cols(); }
+  Eigen::Index solid_count() const;  ///< number of solid cells
+};
+
+}  // namespace bielle::reduce

@@ -1,0 +1,59 @@
+// What the user asks of a reduction, free of any file format: body_file.cpp fills it, reduce_body() carries it out.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reduce/fe/material.hpp"
+
+namespace bielle::reduce {
+
+/// How the nodes of a surface follow their interface node.
+enum class Tie {
+  rigid,    ///< every node moves with the interface node as with a rigid body
+  average,  ///< the interface node moves as the area-weighted mean of the surface, which stays flexible
+  free      ///< each node of the group is an interface of its own with 3 translations
+};
+
+struct InterfaceRequest {
+  std::string name;
+  std::string group;  ///< surface group of the mesh
+  Tie tie = Tie::rigid;
+  std::optional<Eigen::Vector3d> position;  ///< [m]; default: centroid of the surface (area-weighted)
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  std::array<bool, 6> kept = {true, true, true, true, true, true};
+  std::string located;  ///< "rod.yaml:17: interfaces.big_end", put before messages about it
+};
+
+struct LoadRequest {
+  std::string name;
+  std::string group;                        ///< surface group
+  std::optional<double> pressure;           ///< [Pa], pushing against the surface; or
+  std::optional<Eigen::Vector3d> traction;  ///< [Pa], body axes; or
+  std::optional<Eigen::Vector3d> force;     ///< total [N], spread evenly over the area
+  std::string located;
+};
+
+enum class RecoveryExtent { none, surface, all };
+
+struct ReductionOptions {
+  std::string name;
+  std::string input_text;
+  std::map<std::string, Material> materials;
+  std::map<std::string, std::string> regions;  ///< volume group -> material name; key "all" for the whole body
+  std::vector<InterfaceRequest> interfaces;    ///< may be empty: a free body gets its modes about inertia relief ... or an error
+  std::optional<int> mode_count;
+  std::optional<double> modes_below;  ///< [Hz]
+  /// Damping of the eigenmodes of the reduced body: one ratio for all, or one per elastic mode; or Rayleigh.
+  std::vector<double> damping_ratios;
+  std::optional<std::array<double, 2>> rayleigh;  ///< alpha [1/s] on M~, beta [s] on K~
+  std::vector<LoadRequest> loads;
+  RecoveryExtent displacement_recovery = RecoveryExtent::all;
+  RecoveryExtent stress_recovery = RecoveryExtent::surface;
+};
+
+}  // namespace bielle::reduce
