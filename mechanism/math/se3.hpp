@@ -1,8 +1,10 @@
-// Rigid motions: frames, exponential, logarithm and tangent operators of SE(3). Six-vectors are [u; psi], translation first.
+// Rigid motions: frames, exponential, logarithm and tangent operators of SE(3). Six-vectors are [u; psi], translation
+// first.
 //
 //   exp6([u; psi]) = (T(psi)^T u, exp(psi)),   T6([u; psi]) = [[T, DT(psi)[u]], [0, T]],   Ad_H = [[R, x~ R], [0, R]]
 //
-// H = H_ref exp6(d) has the body velocity T6(d) ddot. Reference: V. Sonneville, A. Cardona, O. Bruls, CMAME 268 (2014) 451.
+// H = H_ref exp6(d) has the body velocity T6(d) ddot. Reference: V. Sonneville, A. Cardona, O. Bruls, CMAME 268 (2014)
+// 451.
 #pragma once
 
 #include "mechanism/math/so3.hpp"

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double series_limit = series_angle * series_angle;
 
-/// Terms of sum_k (-x)^k c_k, Horner from the last; the coefficients hold their signs.
+/// sum_k c_k x^k
 template <std::size_t N>
 double horner(const std::array<double, N>& c, double x) {
   double sum = c[N - 1];
@@ -45,39 +45,28 @@ constexpr auto c1_series = difference_series(1, 2), c2_series = difference_serie
 
 constexpr int inverse_terms = 21;
 
-/// beta_k = |B_{2k+2}| / (2k+2)! = 2 zeta(2k+2) / (2 pi)^(2k+2)
-std::array<double, inverse_terms> beta() {
-  std::array<double, inverse_terms> c{};
-  const double two_pi = 2 * M_PI;
-  for (int k = 0; k < inverse_terms; ++k) {
-    const int s = 2 * k + 2;
-    double zeta = 0;
-    if (k == 0) {
-      zeta = M_PI * M_PI / 6;
-    } else if (k == 1) {
-      zeta = std::pow(M_PI, 4) / 90;
-    } else {
-      // Tail by the Euler-Maclaurin formula behind 40 terms: error below 1e-17.
-      const int n = 40;
-      zeta = std::pow(n, 1.0 - s) / (s - 1) + 0.5 * std::pow(n, -s) + s / 12.0 * std::pow(n, -s - 1.0);
-      for (int j = n - 1; j >= 1; --j) zeta += std::pow(j, -s);
-    }
-    c[k] = 2 * zeta / std::pow(two_pi, s);
+/// beta_k = |B_{2k+2}| / (2k+2)! = 1/12, 1/720, 1/30240, ... by the recurrence (2k+3) beta_k = sum_{j<k} beta_j
+/// beta_{k-1-j}, which follows from cot' = -1 - cot^2 and has positive terms only.
+constexpr std::array<double, inverse_terms> beta_series() {
+  std::array<double, inverse_terms> beta{1.0 / 12};
+  for (int k = 1; k < inverse_terms; ++k) {
+    for (int j = 0; j < k; ++j) beta[k] += beta[j] * beta[k - 1 - j];
+    beta[k] /= 2 * k + 3;
   }
-  return c;
+  return beta;
 }
 
-struct InverseSeries {
-  std::array<double, inverse_terms> b{}, bp{}, bpp{};
-  InverseSeries() {
-    b = beta();
-    // b = sum beta_k phi^2k; each division of a derivative by phi lowers the power by two.
-    for (int k = 1; k < inverse_terms; ++k) bp[k - 1] = 2 * k * b[k];
-    for (int k = 2; k < inverse_terms; ++k) bpp[k - 2] = 4.0 * k * (k - 1) * b[k];
-  }
-};
+/// Coefficients of f'/phi from those of f, both in powers of phi^2.
+template <std::size_t N>
+constexpr std::array<double, N - 1> derivative_series(const std::array<double, N>& f) {
+  std::array<double, N - 1> d{};
+  for (std::size_t k = 1; k < N; ++k) d[k - 1] = 2.0 * k * f[k];
+  return d;
+}
 
-const InverseSeries inverse_series;
+constexpr auto b_series = beta_series();
+constexpr auto bp_series = derivative_series(b_series);
+constexpr auto bpp_series = derivative_series(bp_series);
 
 }  // namespace
 
@@ -101,9 +90,9 @@ ExpCoefficients::ExpCoefficients(double x) {
 
 InverseCoefficients::InverseCoefficients(double x) {
   if (x < series_limit) {
-    b = horner(inverse_series.b, x);
-    bp = horner(inverse_series.bp, x);
-    bpp = horner(inverse_series.bpp, x);
+    b = horner(b_series, x);
+    bp = horner(bp_series, x);
+    bpp = horner(bpp_series, x);
     return;
   }
   const double half = std::sqrt(x) / 2;

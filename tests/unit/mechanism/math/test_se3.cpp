@@ -1,0 +1,116 @@
+// One battery of identities for rigid motions; derivatives against finite differences; check numbers computed with
+// independent programs.
+#include <cmath>
+
+#include <Eigen/LU>
+#include <catch2/catch.hpp>
+#include <unsupported/Eigen/MatrixFunctions>
+
+#include "mechanism/math/se3.hpp"
+#include "tests/support/finite_difference.hpp"
+#include "tests/support/random.hpp"
+
+using namespace bielle::mechanism;
+using bielle::test::derivative;
+using bielle::test::Random;
+
+namespace {
+
+const double angles[] = {0, 1e-8, 1e-3, 0.3, 1, series_angle - 1e-9, series_angle, 2.5, M_PI - 1e-3};
+
+constexpr double rounding = 1e-14;    // products of 6x6 matrices with entries up to ~3
+constexpr double difference = 2e-11;  // see finite_difference.hpp
+
+double error(const MatrixX& A, const MatrixX& B) { return (A - B).cwiseAbs().maxCoeff(); }
+double error(const Frame& A, const Frame& B) { return std::max(error(A.x, B.x), error(A.R, B.R)); }
+
+Vector6 motion(Random& random, double angle) {
+  Vector6 d;
+  d << random.vector3(2), random.vector_of_length(angle);
+  return d;
+}
+
+/// ad_d with ad_d e = the Lie bracket of rigid-body velocities.
+Matrix6 little_adjoint(const Vector6& d) {
+  Matrix6 ad;
+  ad << skew(d.tail<3>()), skew(d.head<3>()), Matrix3::Zero(), skew(d.tail<3>());
+  return ad;
+}
+
+}  // namespace
+
+TEST_CASE("frames compose, invert, and transform velocities by the adjoint") {
+  Random random(1);
+  const Frame A = exp_se3(motion(random, 1.0)), B = exp_se3(motion(random, 2.0)), C = exp_se3(motion(random, 3.0));
+  CHECK(error((A * B) * C, A * (B * C)) < rounding);
+  CHECK(error(A * inverse(A), Frame{}) < rounding);
+  CHECK(error(adjoint(A * B), adjoint(A) * adjoint(B)) < rounding);
+  const Vector6 d = motion(random, 0.7);
+  const Vector6 Ad_d = adjoint(A) * d;
+  CHECK(error(A * exp_se3(d) * inverse(A), exp_se3(Ad_d)) < rounding);
+}
+
+TEST_CASE("the exponential of a rigid motion is undone by the logarithm") {
+  Random random(2);
+  for (double angle : angles) {
+    CAPTURE(angle);
+    const Vector6 d = motion(random, angle);
+    const Frame H = exp_se3(d);
+    CHECK(error(log_se3(H), d) < rounding);
+    CHECK(error(H * exp_se3(-d), Frame{}) < rounding);
+    CHECK(error(exp_se3(0.5 * d) * exp_se3(0.5 * d), H) < rounding);
+  }
+  Vector6 d;
+  d << 1.1, 0.1, -0.05, 0.2, -0.3, 0.4;
+  // From an independent program (10 digits).
+  CHECK(error(exp_se3(d).x, Vector3(1.0409831917, 0.3064734616, 0.1343635004)) < 1e-10);
+}
+
+TEST_CASE("Ad of the exponential is the matrix exponential of ad, and T6 its series") {
+  Random random(3);
+  for (double angle : angles) {
+    CAPTURE(angle);
+    const Vector6 d = motion(random, angle);
+    const Matrix6 ad = little_adjoint(d);
+    const Matrix6 expm = ad.exp();
+    CHECK(error(adjoint(exp_se3(d)), expm) < 1e-13);
+    Matrix6 T6 = Matrix6::Zero(), term = Matrix6::Identity();
+    for (int k = 0; k < 40; ++k) {
+      T6 += term;
+      term = -term * ad / (k + 2);
+    }
+    CHECK(error(tangent_se3(d), T6) < 1e-13);
+    CHECK(error(tangent_se3(-d), adjoint(exp_se3(d)) * tangent_se3(d)) < rounding);
+    CHECK(error(tangent_se3(d) * tangent_se3_inverse(d), Matrix6::Identity()) < rounding);
+    CHECK(error(tangent_se3_inverse(d) * d, d) < rounding);
+  }
+}
+
+TEST_CASE("T6 maps the rate of the coordinates to the body velocity") {
+  Random random(4);
+  for (double angle : angles) {
+    CAPTURE(angle);
+    const Vector6 d = motion(random, angle), rate = random.vector(6);
+    const Frame H = exp_se3(d);
+    const Vector3 v = H.R.transpose() * derivative([&](double s) -> Vector3 { return exp_se3(d + s * rate).x; });
+    const Matrix3 W = H.R.transpose() * derivative([&](double s) -> Matrix3 { return exp_se3(d + s * rate).R; });
+    Vector6 velocity;
+    velocity << v, skew_vector(W);
+    CHECK(error(velocity, tangent_se3(d) * rate) < difference);
+  }
+}
+
+TEST_CASE("gradients of the inverse tangent operator are those of finite differences") {
+  Random random(5);
+  for (double angle : angles) {
+    CAPTURE(angle);
+    const Vector6 d = motion(random, angle), f = random.vector(6);
+    const Matrix6 G = inverse_transpose_gradient_se3(d, f), D = tangent_se3_inverse_gradient(d, f);
+    const MatrixX G_difference = bielle::test::jacobian(
+        [&](const VectorX& s) -> VectorX { return tangent_se3_inverse(d + s).transpose() * f; }, 6);
+    const MatrixX D_difference =
+        bielle::test::jacobian([&](const VectorX& s) -> VectorX { return tangent_se3_inverse(d + s) * f; }, 6);
+    CHECK(error(G, G_difference) < difference);
+    CHECK(error(D, D_difference) < difference);
+  }
+}
