@@ -1,0 +1,262 @@
+"""Reads meshes of Abaqus and CalculiX input files (.inp).
+
+meshio reads .inp too, but drops *SURFACE, stops at the triangles CPS6 that gmsh writes, and assigns element sets to the
+wrong blocks when several *ELEMENT blocks have none or share one. This reader knows
+    *NODE, *ELEMENT, *NSET, *ELSET (GENERATE, sets of sets), *SURFACE (TYPE=ELEMENT, NODE), *INCLUDE, and one *PART
+and passes over every other keyword. Labels are compared without regard to case, as Abaqus does.
+Faces of tetrahedra: S1 = nodes 1 2 3, S2 = 1 4 2, S3 = 2 4 3, S4 = 3 4 1 (CalculiX manual, "Four-node tetrahedral").
+"""
+
+import os
+import re
+
+import numpy as np
+
+from .messages import InputError
+from .solid_mesh import RawMesh
+
+# Element families of the two programs: label pattern, meshio type (None: points, lines and couplings, left out), nodes.
+FAMILIES = [
+    (r"(C|DC|AC|F)3D4[A-Z]*", "tetra", 4),
+    (r"(C|DC|AC|F)3D10[A-Z]*", "tetra10", 10),
+    (r"(S|CPS|CPE|DS|DC2D|M3D|SFM3D|STRI|R3D)3[A-Z]*", "triangle", 3),
+    (r"(S|CPS|CPE|DS|DC2D|M3D|SFM3D)6[A-Z]*|STRI65", "triangle6", 6),
+    (r"(MASS|ROTARYI|SPRING[12A]|DASHPOT[12A]|DCOUP3D|CONN3D2|GAPUNI|B[23][123]|T[23]D[23]|FRAME3D)[A-Z]*", None, None),
+]
+FACES = {"S1": (0, 1, 2), "S2": (0, 3, 1), "S3": (1, 3, 2), "S4": (2, 3, 0)}
+CELL_SIDES = ("SPOS", "SNEG", "")  # both sides of a shell or membrane element
+
+
+def read_abaqus(path):
+    """@returns RawMesh. @raises InputError with file and line."""
+    reader = _Reader()
+    reader.read(path)
+    return reader.raw_mesh(path)
+
+
+class _Reader:
+    def __init__(self):
+        self.numbers = {}  # node label -> row of points
+        self.points = []
+        self.blocks = []   # (type, labels, connectivity)
+        self.sets = {"NSET": {}, "ELSET": {}}  # upper-case name -> (name, entries)
+        self.surfaces = {}  # upper-case name -> (name, kind, entries, where)
+        self.skipped = {}  # element type -> count
+        self.parts = 0
+        self.in_assembly = False
+        self.notes = []
+
+    # ---- reading ------------------------------------------------------------------------------------------------
+    def read(self, path):
+        try:
+            with open(path, encoding="utf-8", errors="replace") as file:
+                lines = file.read().splitlines()
+        except OSError as error:
+            raise InputError(f"cannot read '{path}': {error.strerror}") from None
+        index = 0
+        while index < len(lines):
+            line = lines[index].strip()
+            if not line.startswith("*") or line.startswith("**"):
+                index += 1
+                continue
+            first = index
+            while line.endswith(",") and index + 1 < len(lines):  # a keyword line may go on
+                index += 1
+                line += lines[index].strip()
+            index += 1
+            data = index
+            while index < len(lines) and (not lines[index].lstrip().startswith("*") or lines[index].lstrip().startswith("**")):
+                index += 1
+            rows = [text.strip() for text in lines[data:index] if text.strip() and not text.lstrip().startswith("**")]
+            self._keyword(path, f"{path}:{first + 1}", line, rows)
+
+    def _keyword(self, path, where, line, rows):
+        words = [word.strip() for word in line[1:].split(",")]
+        keyword = re.sub(r"\s+", " ", words[0]).upper()
+        options = {}
+        for word in words[1:]:
+            key, _, value = word.partition("=")
+            options[key.strip().upper()] = value.strip().strip('"')
+        try:
+            if keyword == "NODE":
+                self._nodes(where, options, rows)
+            elif keyword == "ELEMENT":
+                self._elements(where, options, rows)
+            elif keyword in ("NSET", "ELSET"):
+                self._set(where, keyword, options, rows)
+            elif keyword == "SURFACE":
+                self._surface(where, options, rows)
+            elif keyword == "INCLUDE":
+                self.read(os.path.join(os.path.dirname(path), options.get("INPUT", "")))
+            elif keyword in ("PART", "ASSEMBLY", "END ASSEMBLY", "INSTANCE"):
+                self._structure(where, keyword, rows)
+        except ValueError as error:
+            raise InputError(f"{where}: *{keyword}: {error}") from None
+
+    def _structure(self, where, keyword, rows):
+        self.in_assembly = keyword in ("ASSEMBLY", "INSTANCE")
+        if keyword == "PART":
+            self.parts += 1
+        if self.parts > 1 and keyword == "PART":
+            raise InputError(f"{where}: the file holds several parts; Bielle reduces one body at a time: export one part")
+        if keyword == "INSTANCE" and rows:
+            raise InputError(f"{where}: the instance is moved or turned; export the part where it was meshed")
+
+    def _nodes(self, where, options, rows):
+        if options.get("SYSTEM", "R").upper() != "R":
+            raise InputError(f"{where}: nodes in cylindrical or spherical coordinates; write them in Cartesian ones")
+        if self.in_assembly:
+            self.notes.append(f"{len(rows)} reference points of the assembly are left out")
+            return
+        labels = []
+        for row in rows:
+            values = [word for word in row.split(",")]
+            label = int(values[0])
+            xyz = [float(re.sub("[dD]", "e", word)) if word.strip() else 0.0 for word in values[1:4]]
+            self.numbers[label] = len(self.points)
+            self.points.append(xyz + [0.0] * (3 - len(xyz)))
+            labels.append(label)
+        if "NSET" in options:
+            self._extend("NSET", options["NSET"], labels)
+
+    def _elements(self, where, options, rows):
+        label = options.get("TYPE", "").upper()
+        for pattern, kind, count in FAMILIES:
+            if re.fullmatch(pattern, label):
+                break
+        else:
+            raise InputError(f"{where}: elements of type '{label}': Bielle reduces tetrahedra (C3D4, C3D10) "
+                             "and reads triangles (CPS3, CPS6, S3, ...) as surfaces; remesh the body with tetrahedra")
+        if kind is None:
+            self.skipped[label] = self.skipped.get(label, 0) + len(rows)
+            return
+        numbers = [int(word) for row in rows for word in row.split(",") if word.strip()]
+        if len(numbers) % (count + 1):
+            raise InputError(f"{where}: {label} needs {count} nodes per element, but {len(numbers)} numbers do not divide "
+                             f"into rows of {count + 1}")
+        table = np.array(numbers, dtype=np.int64).reshape(-1, count + 1)
+        self.blocks.append((kind, table[:, 0], table[:, 1:]))
+        if "ELSET" in options:
+            self._extend("ELSET", options["ELSET"], table[:, 0].tolist())
+
+    def _set(self, where, keyword, options, rows):
+        name = options.get(keyword)
+        if not name:
+            raise ValueError(f"no name ({keyword}=...)")
+        entries = []
+        for row in rows:
+            words = [word.strip() for word in row.split(",") if word.strip()]
+            if "GENERATE" in options:
+                first, last, step = (int(word) for word in (words + ["1"])[:3])
+                entries.extend(range(first, last + 1, step))
+            else:
+                entries.extend(self._label(word) for word in words)
+        if keyword == "NSET" and "ELSET" in options:
+            entries.append(("nodes of", options["ELSET"]))
+        self._extend(keyword, name, entries)
+
+    def _extend(self, keyword, name, entries):
+        self.sets[keyword].setdefault(name.upper(), (name, []))[1].extend(entries)
+
+    def _surface(self, where, options, rows):
+        name = options.get("NAME")
+        if not name:
+            raise ValueError("no name (NAME=...)")
+        kind = options.get("TYPE", "ELEMENT").upper()
+        if kind not in ("ELEMENT", "NODE"):
+            self.notes.append(f"surface '{name}' of type {kind} is left out")
+            return
+        entries = []
+        for row in rows:
+            words = [word.strip() for word in row.split(",")]
+            entries.append((self._label(words[0]) if words[0] else None, words[1].upper() if len(words) > 1 else ""))
+        self.surfaces[name.upper()] = (name, kind, entries, where)
+
+    @staticmethod
+    def _label(word):
+        """A number, or the name of a set; `Part-1-1.12` is number 12 of an instance."""
+        word = word.strip('"')
+        last = word.rpartition(".")[2]
+        return int(last) if last.lstrip("+-").isdigit() else last
+
+    # ---- result -------------------------------------------------------------------------------------------------
+    def raw_mesh(self, path):
+        if not self.points:
+            raise InputError(f"'{path}' holds no *NODE: it is no Abaqus or CalculiX mesh")
+        self.cells = [(kind, self._rows_of(labels, nodes)) for kind, labels, nodes in self.blocks]
+        self.cell_place = {}
+        for block, (_, labels, _) in enumerate(self.blocks):
+            for row, label in enumerate(labels.tolist()):
+                self.cell_place[label] = (block, row)
+        mesh = RawMesh(np.array(self.points), self.cells, notes=self.notes)
+        for count, kind in ((count, kind) for kind, count in self.skipped.items()):
+            mesh.notes.append(f"{count} elements of type {kind} are left out: they carry neither volume nor surface")
+        for key, (name, _) in self.sets["ELSET"].items():
+            if not name.startswith("_"):  # Abaqus' own helpers of surfaces
+                mesh.cell_sets[name] = self._cells_of(key)
+        for key, (name, _) in self.sets["NSET"].items():
+            if not name.startswith("_"):
+                nodes = self._nodes_of(key)
+                if len(nodes):
+                    mesh.point_sets[name] = nodes
+        for surface in self.surfaces.values():
+            self._resolve_surface(mesh, *surface)
+        return mesh
+
+    def _rows_of(self, labels, nodes):
+        try:
+            return np.array([[self.numbers[n] for n in row] for row in nodes.tolist()], dtype=np.int64)
+        except KeyError as error:
+            row = int(np.argmax((nodes == error.args[0]).any(axis=1)))
+            raise InputError(f"element {labels[row]} names node {error.args[0]}, which is not defined") from None
+
+    def _resolve(self, keyword, key, seen=()):
+        """Labels of a set, with the sets that it names."""
+        if key not in self.sets[keyword] or key in seen:
+            raise InputError(f"set '{key}' is named but not defined" if key not in seen else f"set '{key}' contains itself")
+        labels = []
+        for entry in self.sets[keyword][key][1]:
+            if isinstance(entry, int):
+                labels.append(entry)
+            elif isinstance(entry, tuple):
+                for block, rows in enumerate(self._cells_of(entry[1].upper())):
+                    labels.extend(np.unique(self.blocks[block][2][rows]).tolist())
+            else:
+                labels.extend(self._resolve(keyword, entry.upper(), seen + (key,)))
+        return labels
+
+    def _cells_of(self, key):
+        """Rows per block; elements that were left out are skipped."""
+        rows = [[] for _ in self.blocks]
+        for label in self._resolve("ELSET", key):
+            if label in self.cell_place:
+                block, row = self.cell_place[label]
+                rows[block].append(row)
+        return [np.array(r, dtype=np.int64) for r in rows]
+
+    def _nodes_of(self, key):
+        return np.unique([self.numbers[n] for n in self._resolve("NSET", key) if n in self.numbers]).astype(np.int64)
+
+    def _resolve_surface(self, mesh, name, kind, entries, where):
+        if kind == "NODE":
+            nodes = [[self.numbers[entry]] if isinstance(entry, int) else self._nodes_of(entry.upper()).tolist()
+                     for entry, _ in entries]
+            mesh.point_sets.setdefault(name, np.unique(np.concatenate([np.array(n, np.int64) for n in nodes])))
+            return
+        faces = []
+        for entry, side in entries:
+            if entry is None:
+                raise InputError(f"{where}: surface '{name}' without elements (all exterior faces); name its faces")
+            places = ([self.cell_place[entry]] if isinstance(entry, int) and entry in self.cell_place else
+                      [(block, row) for block, rows in enumerate(self._cells_of(str(entry).upper())) for row in rows])
+            for block, row in places:
+                kind_of_cell, cells = self.cells[block]
+                if kind_of_cell.startswith("tri") and side in CELL_SIDES:
+                    faces.append(cells[row, :3])
+                elif kind_of_cell.startswith("tet") and side in FACES:
+                    faces.append(cells[row, list(FACES[side])])
+                else:
+                    raise InputError(f"{where}: surface '{name}': side '{side}' of a {kind_of_cell}; "
+                                     "tetrahedra have sides S1 to S4")
+        if faces:
+            mesh.face_sets[name] = np.array(faces)

@@ -1,0 +1,112 @@
+"""Reads meshes of foreign formats: Abaqus and CalculiX by our own reader, everything else through meshio.
+
+Where a format has no named sets, its numbers become names: Nastran properties `property_3`, Medit references `ref_3`,
+integer arrays of VTK files `<array>_3`. MED families give the names of their groups.
+"""
+
+import contextlib
+import io
+import os
+import tempfile
+
+import numpy as np
+
+from .abaqus_file import read_abaqus
+from .messages import InputError
+from .solid_mesh import RawMesh
+
+READ_BY_GMSH = (".geo", ".step", ".stp", ".brep", ".iges", ".igs", ".msh", ".unv")
+NASTRAN = (".bdf", ".nas", ".fem")
+# Arrays whose integers are references to groups, and the name that goes before the number.
+REFERENCES = {"nastran:ref": "property", "medit:ref": "ref"}
+MOST_GROUPS = 200  # an integer array with more values numbers things and names no groups
+
+
+def read_foreign(path):
+    """@returns RawMesh. @raises InputError with one sentence."""
+    if not os.path.isfile(path):
+        raise InputError(f"'{path}' does not exist" if not os.path.exists(path) else f"'{path}' is not a file")
+    extension = os.path.splitext(path)[1].lower()
+    if extension in READ_BY_GMSH:
+        raise InputError(f"'{path}': {extension} needs no conversion, bielle-reduce reads it")
+    if extension == ".inp":
+        return read_abaqus(path)
+    mesh = _read_nastran(path) if extension in NASTRAN else _read(path)
+    if np.ndim(mesh.points) != 2 or not len(mesh.points):
+        raise InputError(f"'{path}' holds no points: it is no mesh of the format that '{extension}' stands for")
+    return _raw_mesh(mesh)
+
+
+def _read(path, shown=None, file_format=None):
+    """meshio's mesh; whatever it prints or throws, or that it ends the program, becomes one sentence."""
+    import meshio
+
+    said = io.StringIO()
+    try:
+        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
+            return meshio.read(path, file_format)
+    except (Exception, SystemExit) as error:
+        reason = str(error) if not isinstance(error, SystemExit) else ""
+        reason = " ".join((said.getvalue() + " " + reason).split()) or type(error).__name__
+        raise InputError(f"meshio cannot read '{shown or path}': {reason}") from None
+
+
+def _read_nastran(path):
+    """meshio wants the case control section's end, which many programs leave out of mesh files."""
+    with open(path, encoding="utf-8", errors="replace") as file:
+        text = file.read()
+    lines = text.upper().splitlines()
+    begin = "" if any(line.strip().startswith("BEGIN BULK") for line in lines) else "BEGIN BULK\n"
+    end = "" if any(line.startswith("ENDDATA") for line in lines) else "\nENDDATA\n"
+    with tempfile.TemporaryDirectory() as folder:
+        completed = os.path.join(folder, "mesh.bdf")
+        with open(completed, "w", encoding="utf-8") as file:
+            file.write(begin + text + end)
+        return _read(completed, shown=path, file_format="nastran")
+
+
+def _raw_mesh(mesh):
+    points = np.asarray(mesh.points, dtype=float)
+    if points.shape[1] == 2:
+        points = np.column_stack([points, np.zeros(len(points))])
+    raw = RawMesh(points, [(block.type, block.data) for block in mesh.cells])
+    for name, parts in mesh.cell_sets.items():
+        if not name.startswith("gmsh:"):
+            raw.cell_sets[name] = [np.asarray([] if p is None else p, np.int64) for p in parts]
+    for name, nodes in mesh.point_sets.items():
+        raw.point_sets[name] = np.asarray(nodes, np.int64)
+
+    families = {"cell_tags": getattr(mesh, "cell_tags", {}), "point_tags": getattr(mesh, "point_tags", {})}
+    for key, arrays in mesh.cell_data.items():
+        arrays = [np.asarray(a) for a in arrays]
+        for name, values in _names(key, np.unique(np.concatenate([a.ravel() for a in arrays])), arrays[0].dtype, families, raw):
+            raw.cell_sets[name] = [np.flatnonzero(np.isin(a, values)) for a in arrays]
+    for key, array in mesh.point_data.items():
+        array = np.asarray(array)
+        if array.ndim == 1:
+            for name, values in _names(key, np.unique(array), array.dtype, families, raw):
+                raw.point_sets[name] = np.flatnonzero(np.isin(array, values))
+    return raw
+
+
+def _names(key, values, dtype, families, raw):
+    """Groups that an array means: pairs of name and the values that belong to it."""
+    if not np.issubdtype(dtype, np.integer) or not len(values):
+        return []
+    if families.get(key):
+        groups = {}
+        for family, names in families[key].items():
+            for name in names:
+                groups.setdefault(name.strip("\x00 "), []).append(family)
+        return list(groups.items())
+    if key in ("cell_tags", "point_tags"):
+        return []
+    if len(values) > MOST_GROUPS:
+        raw.notes.append(f"the array '{key}' has {len(values)} different values: it is not read as groups")
+        return []
+    marked = values[values >= 0]
+    parts = key.split("-")  # meshio joins the names of the sets that it writes into an array
+    if len(parts) > 1 and np.array_equal(marked, np.arange(len(parts))):
+        return [(part, [value]) for part, value in zip(parts, marked)]
+    prefix = REFERENCES.get(key, key.replace(":", "_"))
+    return [(f"{prefix}_{value}", [value]) for value in marked if value or len(values) > 1]

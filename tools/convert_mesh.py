@@ -1,0 +1,34 @@
+#!/usr/bin/python3
+"""convert_mesh.py INPUT OUTPUT.msh: a tetrahedral mesh of another program becomes gmsh's MSH 4.1.
+
+Reads .inp (Abaqus, CalculiX), .bdf .nas (Nastran), .med (Salome), .vtu .vtk .mesh and what else meshio reads; keeps
+coordinates as they are, named sets as physical groups (node sets: the boundary faces whose nodes are all in the set).
+bielle-reduce calls it by itself for such files; call it to see what becomes of a file.
+"""
+
+from bielle_tools import foreign_mesh, messages, msh_file, solid_mesh
+
+
+def main(arguments):
+    if arguments in (["-h"], ["--help"]):
+        print(__doc__.strip())
+        return
+    if len(arguments) != 2 or not arguments[1].endswith(".msh"):
+        raise messages.InputError("two arguments are needed: INPUT OUTPUT.msh")
+    source, target = arguments
+    try:
+        mesh = solid_mesh.solid_mesh(foreign_mesh.read_foreign(source))
+    except messages.InputError as error:
+        text = str(error)
+        raise messages.InputError(text if source in text else f"'{source}' {text}") from None
+    msh_file.write_msh(mesh, target)
+    for text in mesh.notes:
+        messages.note(f"{source}: {text}")
+    counts = ", ".join(f"{len(cells)} {kind}" for kind, cells in mesh.cells.items())
+    print(f"{target}: {len(mesh.points)} points, {counts}")
+    for title, groups in (("surfaces", mesh.surfaces), ("volumes", mesh.volumes)):
+        print(f"  {title}: " + (", ".join(sorted(groups)) or "none named"))
+
+
+if __name__ == "__main__":
+    messages.run("convert_mesh.py", main)
