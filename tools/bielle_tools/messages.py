@@ -1,5 +1,6 @@
 """Errors that users see as one clear sentence, and how a command turns them into exit statuses."""
 
+import difflib
 import sys
 
 
@@ -24,3 +25,12 @@ def run(name, main):
 def note(text):
     """Says on standard error what a user should know though nothing is wrong."""
     print(f"note: {text}", file=sys.stderr)
+
+
+def check_names(what, wanted, known):
+    """@raises InputError with the nearest known name when a wanted one is missing."""
+    for name in wanted:
+        if name not in known:
+            near = difflib.get_close_matches(name, known, 1)
+            hint = f"; did you mean '{near[0]}'?" if near else f" (there are: {', '.join(known) or 'none'})"
+            raise InputError(f"there is no {what} '{name}' in the results{hint}")

@@ -91,6 +91,25 @@ def solid_mesh(raw):
     return SolidMesh(points, cells, surfaces, volumes, notes)
 
 
+def tetrahedron_faces(cells):
+    """Every face of every tetrahedron of cells {type: (n,k)} in VTK's order, outward: {triangle type: (4n, 3 or 6)}."""
+    faces = {}
+    if "tetra" in cells:
+        faces["triangle"] = cells["tetra"][:, FACES].reshape(-1, 3)
+    if "tetra10" in cells:
+        block = cells["tetra10"]
+        faces["triangle6"] = np.concatenate([block[:, FACES], block[:, FACE_MIDS]], axis=2).reshape(-1, 6)
+    return faces
+
+
+def boundary_faces(faces):
+    """Those of `tetrahedron_faces` that belong to one tetrahedron only."""
+    corners = np.concatenate([np.sort(block[:, :3], axis=1) for block in faces.values()])
+    _, inverse, count = np.unique(corners, axis=0, return_inverse=True, return_counts=True)
+    once = np.split(count[inverse.ravel()] == 1, np.cumsum([len(block) for block in faces.values()])[:-1])
+    return {kind: block[alone] for (kind, block), alone in zip(faces.items(), once)}
+
+
 def signed_volumes(points, tetrahedra):
     """Six times the volumes of the straight tetrahedra of the corners, positive when right-handed."""
     a, b, c, d = (points[tetrahedra[:, k]] for k in range(4))
@@ -222,22 +241,8 @@ class _FaceTable:
         for kind in TRIANGLES:
             for index, corners in enumerate(np.sort(cells[kind][:, :3], axis=1).tolist() if kind in cells else ()):
                 self.number.setdefault(tuple(corners), (kind, index))
-        # Every face of every tetrahedron, with its mid-side nodes; those that occur once are the boundary.
-        self.sides = {}
-        for solid, flat in (("tetra", "triangle"), ("tetra10", "triangle6")):
-            if solid in cells:
-                block = cells[solid]
-                faces = block[:, FACES]
-                if solid == "tetra10":
-                    faces = np.concatenate([faces, block[:, FACE_MIDS]], axis=2)
-                self.sides[flat] = faces.reshape(-1, TRIANGLES[flat])
-        corners = np.concatenate([np.sort(faces[:, :3], axis=1) for faces in self.sides.values()])
-        unique, inverse, count = np.unique(corners, axis=0, return_inverse=True, return_counts=True)
-        once = count[inverse.ravel()] == 1
-        self.boundary, start = {}, 0
-        for flat, faces in self.sides.items():
-            self.boundary[flat] = faces[once[start:start + len(faces)]]
-            start += len(faces)
+        self.sides = tetrahedron_faces(cells)
+        self.boundary = boundary_faces(self.sides)
         self.lookup = None
 
     def of_nodes(self, nodes):

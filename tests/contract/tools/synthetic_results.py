@@ -1,0 +1,83 @@
+"""A superelement and a results file with a motion known in closed form, written as the two programs write them.
+
+A box turns about z with OMEGA, its frame's origin moves along x with SPEED, and it is stretched along its own x axis by
+the strain STRAIN sin(2 pi t / DURATION); the von Mises stress of that is YOUNG |strain|. A beam stands still, a hinge turns.
+"""
+
+import h5py
+import numpy as np
+
+from box_mesh import box
+
+OMEGA, SPEED, STRAIN, YOUNG, DURATION = 30.0, 0.5, 1e-3, 210e9, 0.1
+VTK_TO_GMSH = [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]
+BEAM_NODES = 5
+
+
+def strain(time):
+    return STRAIN * np.sin(2 * np.pi * time / DURATION)
+
+
+def positions(points, time, scale=1.0):
+    """Where the points (p,3) of the box are at a time."""
+    c, s = np.cos(OMEGA * time), np.sin(OMEGA * time)
+    stretched = points * [1 + scale * strain(time), 1, 1]
+    return stretched @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]).T + [SPEED * time, 0, 0]
+
+
+def write_superelement(path):
+    points, cells = box((4, 2, 2), (0.3, 0.05, 0.05))
+    n = 2  # an idle coordinate, and the stretch
+    with h5py.File(path, "w") as file:
+        file.attrs.update({"format": "bielle superelement", "version": 1, "name": "box", "complete": True})
+        put(file, "mesh/points", points, "m")
+        put(file, "mesh/cells/11", cells[:, VTK_TO_GMSH], "")
+        u = np.zeros((len(points), 3, n))
+        u[:, 0, 1] = points[:, 0]
+        put(file, "recovery/displacement", u.reshape(-1, n), "m")
+        surface = np.flatnonzero((points[:, 2] == 0) | (points[:, 2] == 0.05))
+        sigma = np.zeros((len(surface), 6, n))
+        sigma[:, 0, 1] = YOUNG
+        put(file, "recovery/stress", sigma.reshape(-1, n), "Pa")
+        put(file, "recovery/stress_nodes", surface, "")
+    return points, cells
+
+
+def write_results(path, superelement, rows=41, complete=True, extra_rows=0):
+    time = np.linspace(0, DURATION, rows)
+    more = np.concatenate([time, np.zeros(extra_rows)])
+    half = 0.5 * OMEGA * more
+    zero = np.zeros_like(more)
+    turn = np.column_stack([np.cos(half), zero, zero, np.sin(half)])
+    origin = np.column_stack([SPEED * more, zero, zero])
+    with h5py.File(path, "w") as file:
+        file.attrs.update({"format": "bielle results", "version": 1, "complete": complete})
+        put(file, "time", time, "s")
+        put(file, "nodes/hub/position", origin, "m")
+        put(file, "nodes/hub/rotation", turn, "")
+        put(file, "nodes/hub/velocity", np.column_stack([zero + SPEED, zero, zero, zero, zero, zero + OMEGA]), "")
+        put(file, "joints/main/coordinate", (OMEGA * more)[:, None], "rad")
+        put(file, "joints/main/rate", (OMEGA + zero)[:, None], "rad/s")
+        put(file, "joints/main/reaction", np.column_stack([zero + 3, zero + 4, zero, zero, zero, np.sin(more)]), "N, N m")
+        put(file, "joints/main/reaction_inertial", np.column_stack([zero + 3, zero + 4, zero, zero, zero, zero]), "N, N m")
+        file["joints/main"].attrs["nodes"] = "ground,hub"
+        put(file, "elements/rod/frame", np.column_stack([origin, turn]), "m")
+        put(file, "elements/rod/coordinates", np.column_stack([zero, strain(more)]), "m")
+        file["elements/rod"].attrs["file"] = superelement
+        line = np.zeros((len(more), BEAM_NODES, 3))
+        line[:, :, 2] = np.linspace(0, 0.2, BEAM_NODES)
+        put(file, "elements/shaft/position", line, "m")
+        put(file, "elements/shaft/rotation", np.tile([1.0, 0, 0, 0], (len(more), BEAM_NODES, 1)), "")
+        resultants = np.zeros((len(more), BEAM_NODES - 1, 6))
+        resultants[:, :, 0] = 10 * np.arange(1, BEAM_NODES)
+        put(file, "elements/shaft/resultants", resultants, "N, N m")
+        put(file, "elements/ram/pressure", np.column_stack([1e5 + more, 2e5 - more]), "Pa")
+        for name, values in (("kinetic", 5 + more), ("elastic", more ** 2), ("input", more), ("balance", 1e-9 * more)):
+            put(file, f"energy/{name}", values, "J")
+        put(file, "solver/newton_iterations", zero + 3, "")
+    return time
+
+
+def put(file, place, values, units):
+    file[place] = values
+    file[place].attrs["units"] = units

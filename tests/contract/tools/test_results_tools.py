@@ -1,0 +1,196 @@
+"""bielle-paraview, bielle-plot, bielle-animate on results whose motion is known in closed form."""
+
+import os
+import subprocess
+import tempfile
+import unittest
+import xml.etree.ElementTree as ElementTree
+
+import h5py
+import matplotlib.image
+import meshio
+import numpy as np
+
+import synthetic_results as synthetic
+from box_mesh import REPOSITORY
+
+
+class ResultsTool(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        self.points, self.cells = synthetic.write_superelement(self.path("box.h5"))
+        self.time = synthetic.write_results(self.path("run.h5"), "box.h5")
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def run_tool(self, tool, *arguments):
+        command = ["/usr/bin/python3", "-B", os.path.join(REPOSITORY, "tools", tool), *arguments]
+        return subprocess.run(command, capture_output=True, text=True, timeout=240, env={**os.environ, "DISPLAY": ""})
+
+    def succeed(self, tool, *arguments):
+        done = self.run_tool(tool, *arguments)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done
+
+    def refuse(self, tool, arguments, *parts):
+        done = self.run_tool(tool, *arguments)
+        self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+        self.assertNotIn("Traceback", done.stderr)
+        for part in parts:
+            self.assertIn(part, done.stderr.splitlines()[-1])
+
+
+class ParaView(ResultsTool):
+    def parts(self, pvd):
+        """{part: [(time, mesh)]} of a .pvd file."""
+        parts = {}
+        for entry in ElementTree.parse(pvd).getroot().iter("DataSet"):
+            mesh = meshio.read(os.path.join(os.path.dirname(pvd), entry.get("file")))
+            parts.setdefault(entry.get("name"), []).append((float(entry.get("timestep")), mesh))
+        return parts
+
+    def test_bodies_move_and_deform_as_the_closed_form_says(self):
+        for scale, options in ((1.0, ["--volume"]), (50.0, ["--volume", "--scale", "50"]), (1.0, [])):
+            self.succeed("bielle-paraview", self.path("run.h5"), "--frames", "9", *options)
+            rod = self.parts(self.path("run.pvd"))["rod"]
+            self.assertEqual(len(rod), 9)
+            for time, mesh in rod:
+                everywhere = synthetic.positions(self.points, time, scale)
+                if options:
+                    np.testing.assert_allclose(mesh.points, everywhere, atol=1e-12)
+                else:
+                    gap = np.linalg.norm(mesh.points[:, None] - everywhere[None], axis=2).min(axis=1)
+                    self.assertLess(gap.max(), 1e-12)
+                    self.assertEqual({block.type for block in mesh.cells}, {"triangle6"})
+                elastic = np.linalg.norm(mesh.point_data["displacement"], axis=1)
+                self.assertAlmostEqual(elastic.max(), abs(synthetic.strain(time)) * 0.3, delta=1e-12)
+                stress = mesh.point_data["von_mises"]
+                known = stress[~np.isnan(stress)]
+                self.assertGreater(len(known), 0)
+                np.testing.assert_allclose(known, synthetic.YOUNG * abs(synthetic.strain(time)), rtol=1e-9, atol=1e-3)
+
+    def test_second_order_cells_keep_their_mid_side_nodes(self):
+        self.succeed("bielle-paraview", self.path("run.h5"), "--frames", "3", "--volume")
+        _, mesh = self.parts(self.path("run.pvd"))["rod"][0]
+        edges = [[0, 1], [1, 2], [0, 2], [0, 3], [1, 3], [2, 3]]  # VTK's quadratic tetrahedron
+        cells = mesh.cells_dict["tetra10"]
+        np.testing.assert_allclose(mesh.points[cells[:, 4:]], mesh.points[cells[:, edges]].mean(axis=2), atol=1e-12)
+
+    def test_vtk_itself_reads_the_files(self):
+        from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+
+        self.succeed("bielle-paraview", self.path("run.h5"), "--frames", "2")
+        for part, kind in (("rod", 22), ("beams", 3), ("nodes", 1), ("joints", 1)):  # quadratic triangle, line, vertex
+            reader = vtkXMLUnstructuredGridReader()
+            reader.SetFileName(self.path(f"run/{part}_0001.vtu"))
+            reader.Update()
+            grid = reader.GetOutput()
+            self.assertGreater(grid.GetNumberOfPoints(), 0)
+            self.assertEqual(grid.GetCellType(0), kind)
+
+    def test_beams_nodes_and_joints(self):
+        self.succeed("bielle-paraview", self.path("run.h5"), "--every", "20")
+        parts = self.parts(self.path("run.pvd"))
+        self.assertEqual(set(parts), {"rod", "beams", "nodes", "joints"})
+        np.testing.assert_allclose([time for time, _ in parts["nodes"]], self.time[::20], rtol=1e-8)
+        time, beams = parts["beams"][-1]
+        np.testing.assert_allclose(beams.points[:, 2], np.linspace(0, 0.2, synthetic.BEAM_NODES), atol=1e-15)
+        np.testing.assert_allclose(beams.cell_data["axial_force"][0], [10, 20, 30, 40])
+        time, nodes = parts["nodes"][1]
+        np.testing.assert_allclose(nodes.points, [[synthetic.SPEED * time, 0, 0]], atol=1e-15)
+        c, s = np.cos(synthetic.OMEGA * time), np.sin(synthetic.OMEGA * time)
+        np.testing.assert_allclose(nodes.point_data["axis_x"], [[c, s, 0]], atol=1e-12)
+        np.testing.assert_allclose(nodes.point_data["axis_y"], [[-s, c, 0]], atol=1e-12)
+        np.testing.assert_allclose(parts["joints"][0][1].point_data["reaction_force"], [[3, 4, 0]])
+
+    def test_an_earlier_export_leaves_no_frames_behind(self):
+        self.succeed("bielle-paraview", self.path("run.h5"), "--frames", "20")
+        self.succeed("bielle-paraview", self.path("run.h5"), "--frames", "2")
+        self.assertEqual(len([f for f in os.listdir(self.path("run")) if f.startswith("rod_")]), 2)
+
+    def test_interrupted_run_shows_the_rows_that_count(self):
+        synthetic.write_results(self.path("run.h5"), "box.h5", rows=5, complete=False, extra_rows=3)
+        done = self.succeed("bielle-paraview", self.path("run.h5"))
+        self.assertEqual(len(self.parts(self.path("run.pvd"))["nodes"]), 5)
+        self.assertIn("not completed", done.stderr)
+
+    def test_superelement_elsewhere(self):
+        os.makedirs(self.path("other"))
+        os.replace(self.path("box.h5"), self.path("other/box.h5"))
+        self.refuse("bielle-paraview", [self.path("run.h5")], "'rod'", "box.h5", "--superelement rod=PATH")
+        self.succeed("bielle-paraview", self.path("run.h5"), "--superelement", "rod=" + self.path("other/box.h5"))
+
+
+class Plots(ResultsTool):
+    def test_every_figure_is_there_and_not_blank(self):
+        done = self.succeed("bielle-plot", self.path("run.h5"), "-o", self.path("plots"))
+        written = done.stdout.split()
+        expected = {"energy", "joints", "reactions", "paths", "body_rod", "beam_shaft", "element_ram", "solver"}
+        self.assertEqual({os.path.splitext(os.path.basename(p))[0] for p in written}, expected)
+        for path in written:
+            picture = matplotlib.image.imread(path)[:, :, :3]
+            inked = (picture < 0.8).any(axis=2).mean()
+            self.assertGreater(inked, 0.005, path)
+            self.assertGreater(min(picture.shape[:2]), 300, path)
+
+    def test_eigenfrequencies_and_responses(self):
+        with h5py.File(self.path("run.h5"), "a") as file:
+            del file["time"]
+            synthetic.put(file, "eigen/frequency", np.array([10.0, 20.0, 35.5]), "Hz")
+            frequency = np.geomspace(1, 100, 50)
+            response = 1 / (1 - (frequency / 20) ** 2 + 0.02j * frequency / 20)
+            synthetic.put(file, "frequency_response/frequency", frequency, "Hz")
+            synthetic.put(file, "frequency_response/response", np.stack([response.real, response.imag], -1)[:, None, None], "")
+        done = self.succeed("bielle-plot", self.path("run.h5"), "-o", self.path("plots"))
+        self.assertEqual(sorted(map(os.path.basename, done.stdout.split())), ["eigenfrequencies.png", "frequency_response.png"])
+
+    def test_one_analysis_of_several(self):
+        with h5py.File(self.path("run.h5"), "a") as file:
+            for name in ("time", "nodes", "energy"):
+                file.copy(file[name], file.require_group("analysis_1"), name)
+        done = self.succeed("bielle-plot", self.path("run.h5"), "--analysis", "1", "-o", self.path("plots"))
+        self.assertEqual({os.path.basename(p) for p in done.stdout.split()}, {"energy.png", "paths.png"})
+        self.refuse("bielle-plot", [self.path("run.h5"), "--analysis", "7"], "no analysis 7", "it has 1")
+
+    def test_a_wrong_name_brings_the_nearest(self):
+        self.refuse("bielle-plot", [self.path("run.h5"), "--nodes", "hubb"], "no node 'hubb'", "did you mean 'hub'?")
+        self.refuse("bielle-plot", [self.path("run.h5"), "--joints", "zzz"], "no joint 'zzz'", "main")
+
+
+class Pictures(ResultsTool):
+    def test_sheet_and_movie(self):
+        self.succeed("bielle-animate", self.path("run.h5"), "-o", self.path("sheet.png"), "--frames", "4")
+        picture = matplotlib.image.imread(self.path("sheet.png"))[:, :, :3]
+        self.assertGreater((picture < 0.8).any(axis=2).mean(), 0.01)
+        from PIL import Image
+
+        self.succeed("bielle-animate", self.path("run.h5"), "-o", self.path("run.gif"), "--frames", "5", "--view=z")
+        with Image.open(self.path("run.gif")) as movie:
+            self.assertEqual(movie.n_frames, 5)
+
+    def test_unknown_output(self):
+        self.refuse("bielle-animate", [self.path("run.h5"), "-o", self.path("run.avi")], "run.avi", ".gif")
+
+
+class Refusals(ResultsTool):
+    def test_every_tool_says_what_is_wrong_with_its_file(self):
+        with open(self.path("text.h5"), "w", encoding="utf-8") as file:
+            file.write("no HDF5")
+        for tool in ("bielle-paraview", "bielle-plot", "bielle-animate"):
+            self.refuse(tool, [self.path("none.h5")], "none.h5", "does not exist")
+            self.refuse(tool, [self.path("text.h5")], "text.h5", "no HDF5 file")
+            self.refuse(tool, [self.path("box.h5")], "results of bielle-mechanism", "bielle superelement")
+            self.refuse(tool, [self.path("run.h5"), "--superelement", "rod"], "ELEMENT=FILE.h5")
+            self.refuse(tool, [self.path("run.h5"), "--colour", "red"], "--colour")
+
+    def test_superelement_without_recovery(self):
+        with h5py.File(self.path("box.h5"), "a") as file:
+            del file["recovery"]
+        self.refuse("bielle-paraview", [self.path("run.h5")], "recovery: {displacement: all}")
+
+
+if __name__ == "__main__":
+    unittest.main()

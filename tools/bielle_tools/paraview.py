@@ -1,0 +1,161 @@
+"""Writes results as a time series for ParaView: one .pvd to open, and per time one .vtu for each kind of thing.
+
+    <element>   a superelement: its surface (or whole mesh), with elastic displacement and von Mises stress
+    beams       lines through the beams' nodes, with section axes and resultants
+    nodes       points with axes and velocity, to be drawn as glyphs
+    joints      points with the reaction on the second node, to be drawn as arrows
+"""
+
+import contextlib
+import io
+import os
+import re
+import shutil
+
+import numpy as np
+
+from .messages import InputError, note
+from .results_file import rotation_matrices
+from .superelement_body import SuperelementBody, find_superelement
+
+RESULTANTS = ["axial_force", "shear_force_y", "shear_force_z", "torque", "bending_moment_y", "bending_moment_z"]
+
+
+def export(results, folder, name, *, every=None, count=100, scale=1.0, volume=False, superelements=None):
+    """Writes `folder/name.pvd` and `folder/name/*.vtu`.
+
+    every: every so many recorded times, or count: about so many; scale: magnifies elastic displacements of
+    superelements; volume: their tetrahedra, not only the surface; superelements: {element: path} to override.
+    @returns path of the .pvd
+    """
+    if not len(results.time):
+        raise InputError(f"'{results.path}' holds no motion to show")
+    rows = results.frames(every, count)
+    parts = [_superelement(results, element, superelements or {}, scale, volume)
+             for element in results.elements_with("frame")]
+    parts += [part for part in (_beams(results), _nodes(results), _joints(results)) if part]
+    if not parts:
+        raise InputError(f"'{results.path}' records no nodes, beams or superelements")
+
+    inside = os.path.join(folder, name)
+    if os.path.isdir(inside):
+        shutil.rmtree(inside)  # frames of an earlier export would mix with the new ones
+    os.makedirs(inside)
+    lines = []
+    for frame, row in enumerate(rows):
+        for index, (part, mesh_at) in enumerate(parts):
+            file = f"{_file_name(part)}_{frame:04d}.vtu"
+            _write(os.path.join(inside, file), mesh_at(row))
+            lines.append(f'    <DataSet timestep="{results.time[row]:.9g}" part="{index}" name="{part}" file="{name}/{file}"/>')
+    path = os.path.join(folder, f"{name}.pvd")
+    with open(path, "w", encoding="utf-8") as pvd:
+        pvd.write('<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1" byte_order="LittleEndian">\n  <Collection>\n')
+        pvd.write("\n".join(lines) + "\n  </Collection>\n</VTKFile>\n")
+    return path
+
+
+def _superelement(results, element, given, scale, volume):
+    body = SuperelementBody(find_superelement(results, element, given))
+    cells = {kind: c for kind, c in body.cells.items() if kind.startswith("tet")} if volume else body.surface()
+    used = np.unique(np.concatenate([c.ravel() for c in cells.values()]))
+    number = np.full(len(body.points), -1)
+    number[used] = np.arange(len(used))
+    cells = [(kind, number[c]) for kind, c in cells.items()]
+    place = f"elements/{element}"
+
+    def mesh_at(row):
+        q = results.rows(f"{place}/coordinates", row)
+        positions, displacement = body.at(results.rows(f"{place}/frame", row), q, scale)
+        data = {"displacement": displacement[used]}
+        stress = body.von_mises(q)
+        if stress is not None:
+            data["von_mises"] = stress[used]
+        return positions[used], cells, data, {}
+
+    return element, mesh_at
+
+
+def _beams(results):
+    names = results.elements_with("position", "rotation")
+    if not names:
+        return None
+    counts = [results.group(f"elements/{name}/position").shape[1] for name in names]
+    first = np.cumsum([0] + counts)
+    lines = np.concatenate([np.column_stack([np.arange(n - 1), np.arange(1, n)]) + start for n, start in zip(counts, first)])
+
+    def mesh_at(row):
+        points = np.concatenate([results.rows(f"elements/{name}/position", row) for name in names])
+        axes = rotation_matrices(np.concatenate([results.rows(f"elements/{name}/rotation", row) for name in names]))
+        data = {"section_y": axes[:, :, 1], "section_z": axes[:, :, 2]}
+        cell_data = {"beam": [np.repeat(np.arange(len(names)), np.array(counts) - 1)]}
+        if all(results.has(f"elements/{name}/resultants") for name in names):
+            table = np.concatenate([results.rows(f"elements/{name}/resultants", row) for name in names])
+            cell_data.update({title: [table[:, k]] for k, title in enumerate(RESULTANTS)})
+        return points, [("line", lines)], data, cell_data
+
+    return "beams", mesh_at
+
+
+def _nodes(results):
+    names = results.names("nodes")
+    if not names:
+        return None
+    vertices = np.arange(len(names))[:, None]
+
+    def mesh_at(row):
+        def of(quantity):
+            return np.array([results.rows(f"nodes/{name}/{quantity}", row) for name in names])
+
+        axes = rotation_matrices(of("rotation"))
+        data = {"axis_x": axes[:, :, 0], "axis_y": axes[:, :, 1], "axis_z": axes[:, :, 2],
+                "velocity": of("velocity")[:, :3], "node": np.arange(len(names))}
+        return of("position"), [("vertex", vertices)], data, {}
+
+    return "nodes", mesh_at
+
+
+def _joints(results):
+    """Joints stand at their second node; results name it in the attribute `nodes`."""
+    places = {}
+    for joint in results.names("joints"):
+        nodes = node_names(results.group(f"joints/{joint}"))
+        if len(nodes) == 2 and results.has(f"nodes/{nodes[1]}") and results.has(f"joints/{joint}/reaction_inertial"):
+            places[joint] = nodes[1]
+    if not places:
+        return None
+    vertices = np.arange(len(places))[:, None]
+
+    def mesh_at(row):
+        points = np.array([results.rows(f"nodes/{node}/position", row) for node in places.values()])
+        reaction = np.array([results.rows(f"joints/{joint}/reaction_inertial", row) for joint in places])
+        data = {"reaction_force": reaction[:, :3], "reaction_moment": reaction[:, 3:], "joint": np.arange(len(places))}
+        return points, [("vertex", vertices)], data, {}
+
+    return "joints", mesh_at
+
+
+def node_names(group):
+    """Names in the attribute `nodes` of a group: an array of strings, or one string with commas."""
+    names = group.attrs.get("nodes", "")
+    if isinstance(names, (str, bytes)):
+        names = (names.decode() if isinstance(names, bytes) else names).split(",")
+    return [(name.decode() if isinstance(name, bytes) else str(name)).strip() for name in names]
+
+
+def _write(path, mesh):
+    import meshio
+
+    points, cells, point_data, cell_data = mesh
+    with contextlib.redirect_stdout(io.StringIO()):
+        meshio.Mesh(points, cells, point_data=point_data, cell_data=cell_data).write(path, file_format="vtu", binary=True)
+
+
+def _file_name(part):
+    return re.sub(r"[^A-Za-z0-9_.-]", "_", part)
+
+
+def legend(results):
+    """Sentences that say which number in the files is which node, joint, beam."""
+    for title, names in (("node", results.names("nodes")), ("beam", results.elements_with("position", "rotation"))):
+        if names:
+            note(f"array '{title}': " + ", ".join(f"{k} {name}" for k, name in enumerate(names)))

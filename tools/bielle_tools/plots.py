@@ -1,0 +1,264 @@
+"""Figures of a results file: what there is of energies, joints, nodes, bodies, beams, eigenvalues and responses.
+
+Every function draws one subject and returns the paths it wrote: none where the results hold nothing of it.
+"""
+
+import os
+
+import numpy as np
+
+from . import plot_style as style
+from .results_file import Results
+from .superelement_body import SuperelementBody, find_superelement
+
+MOST_CURVES = 14  # per panel; more cannot be told apart
+
+
+def draw_all(results, folder, extension="png", nodes=None, joints=None, superelements=None):
+    """Draws every figure that the results allow. nodes, joints: names to show instead of all. @returns paths"""
+    os.makedirs(folder, exist_ok=True)
+
+    def at(name):
+        return os.path.join(folder, f"{name}.{extension}")
+
+    written = []
+    if len(results.time) > 1:
+        written += energy(results, at)
+        written += joint_motion(results, at, joints)
+        written += joint_reactions(results, at, joints)
+        written += node_paths(results, at, nodes)
+        written += bodies(results, at, superelements or {})
+        written += beams(results, at)
+        written += signals(results, at)
+        written += solver(results, at)
+    written += eigenvalues(results, at)
+    written += frequency_response(results, at)
+    return written
+
+
+def energy(results: Results, at):
+    if not results.has("energy"):
+        return []
+    fig, axes = style.figure(2, f"{results.title}: energy", gridspec_kw={"height_ratios": [2, 1]})
+    top, bottom = axes[:, 0]
+    for name in ("kinetic", "elastic", "gravity", "dissipated", "input"):
+        if results.has(f"energy/{name}"):
+            values = results.rows(f"energy/{name}")
+            if np.any(values != 0):
+                top.plot(results.time, values, label=name)
+    top.set_ylabel("energy [J]")
+    style.legend(top)
+    if results.has("energy/balance"):
+        bottom.plot(results.time, results.rows("energy/balance"), color="black")
+        bottom.set_ylabel("missing [J]")
+        bottom.set_title("balance: kinetic + elastic + gravity + dissipated - input - start")
+    bottom.set_xlabel("time [s]")
+    return [style.save(fig, at("energy"))]
+
+
+def joint_motion(results, at, joints=None):
+    names = [j for j in joints or results.names("joints") if _columns(results, f"joints/{j}/coordinate")]
+    if not names:
+        return []
+    fig, axes = style.figure(len(names), f"{results.title}: joint coordinates and rates", columns=2, width=11)
+    for name, (left, right) in zip(names, axes):
+        for panel, quantity in ((left, "coordinate"), (right, "rate")):
+            place = f"joints/{name}/{quantity}"
+            if not results.has(place):
+                continue
+            labels = column_names(results, f"joints/{name}", place)
+            for column, text in zip(_columns(results, place), labels):
+                panel.plot(results.time, column, label=text if len(labels) > 1 else None)
+            panel.set_ylabel(style.label(quantity, results.units(place)))
+            panel.set_title(name if quantity == "coordinate" else "")
+            style.legend(panel)
+    for panel in axes[-1]:
+        panel.set_xlabel("time [s]")
+    return [style.save(fig, at("joints"))]
+
+
+def joint_reactions(results, at, joints=None):
+    names = [j for j in joints or results.names("joints") if results.has(f"joints/{j}/reaction")]
+    if not names:
+        return []
+    fig, axes = style.figure(2, f"{results.title}: joint reactions")
+    for name in names[:MOST_CURVES]:
+        reaction = results.rows(f"joints/{name}/reaction")
+        axes[0, 0].plot(results.time, np.linalg.norm(reaction[:, :3], axis=1), label=name)
+        axes[1, 0].plot(results.time, np.linalg.norm(reaction[:, 3:], axis=1), label=name)
+    axes[0, 0].set_ylabel("|force| [N]")
+    axes[1, 0].set_ylabel("|moment| [N m]")
+    axes[1, 0].set_xlabel("time [s]")
+    style.legend(axes[0, 0])
+    return [style.save(fig, at("reactions"))]
+
+
+def node_paths(results, at, nodes=None):
+    """Paths in the inertial plane in which the nodes move most, and how far each goes over time."""
+    names = nodes or results.names("nodes")
+    paths = {name: results.rows(f"nodes/{name}/position") for name in names if results.has(f"nodes/{name}")}
+    reach = {name: np.ptp(path, axis=0) for name, path in paths.items()}
+    largest = max((r.max() for r in reach.values()), default=0)
+    if nodes is None:
+        paths = {name: path for name, path in paths.items() if reach[name].max() > 1e-6 * largest}
+    if not paths or largest == 0:
+        return []
+    total = np.max([reach[name] for name in paths], axis=0)
+    a, b = sorted(np.argsort(-total, kind="stable")[:2])
+    fig, axes = style.figure(1, f"{results.title}: node paths", height=5.0)
+    panel = axes[0, 0]
+    for name, path in list(paths.items())[:MOST_CURVES]:
+        line, = panel.plot(path[:, a], path[:, b], label=name)
+        panel.plot(*path[0, [a, b]], "o", color=line.get_color(), markersize=4)
+    panel.set_aspect("equal", adjustable="datalim")
+    panel.set_xlabel(f"{'xyz'[a]} [m]")
+    panel.set_ylabel(f"{'xyz'[b]} [m]")
+    panel.set_title("a dot marks the start")
+    style.legend(panel)
+    return [style.save(fig, at("paths"))]
+
+
+def bodies(results, at, superelements):
+    """Per superelement: elastic displacement of the node that moves most, and the highest stress of the body."""
+    written = []
+    for name in results.elements_with("frame", "coordinates"):
+        body = SuperelementBody(find_superelement(results, name, superelements))
+        q = results.rows(f"elements/{name}/coordinates")
+        largest, node = 0.0, 0
+        for row in results.frames(count=60):
+            u = np.linalg.norm(body.local_displacement(q[row]), axis=1)
+            if u.max() > largest:
+                largest, node = u.max(), int(u.argmax())
+        row = int(np.flatnonzero(body.displaced == node)[0])
+        u = q @ body.displacement[3 * row:3 * row + 3].T
+        has_stress = body.stress is not None and len(body.stress)
+        fig, axes = style.figure(2 if has_stress else 1, f"{results.title}: {name}")
+        place = ", ".join(f"{1e3 * x:.4g}" for x in body.points[node])
+        axes[0, 0].set_title(f"elastic displacement of the node that moves most, at ({place}) mm in the body")
+        for k in range(3):
+            axes[0, 0].plot(results.time, 1e3 * u[:, k], label="xyz"[k])
+        axes[0, 0].set_ylabel("displacement [mm]")
+        style.legend(axes[0, 0])
+        if has_stress:
+            rows = results.frames(count=400)
+            peak = [np.nanmax(body.von_mises(q[row])) for row in rows]
+            axes[1, 0].plot(results.time[rows], 1e-6 * np.array(peak))
+            axes[1, 0].set_ylabel("von Mises [MPa]")
+            axes[1, 0].set_title("highest von Mises stress of the body")
+        axes[-1, 0].set_xlabel("time [s]")
+        written.append(style.save(fig, at(f"body_{name}")))
+    return written
+
+
+def beams(results, at):
+    written = []
+    for name in results.elements_with("position", "rotation", "resultants"):
+        values = results.rows(f"elements/{name}/resultants")  # (nt,ne,6): N Qy Qz T My Mz
+        bending = np.linalg.norm(values[:, :, 4:], axis=2)
+        shear = np.linalg.norm(values[:, :, 1:3], axis=2)
+        fig, axes = style.figure(2, f"{results.title}: beam {name}")
+        for k, text in ((0, "first element"), (-1, "last element")):
+            axes[0, 0].plot(results.time, values[:, k, 0], label=f"axial force, {text}")
+            axes[0, 0].plot(results.time, shear[:, k], label=f"|shear force|, {text}")
+            axes[1, 0].plot(results.time, bending[:, k], label=f"|bending moment|, {text}")
+            axes[1, 0].plot(results.time, values[:, k, 3], label=f"torque, {text}")
+        axes[0, 0].set_ylabel("force [N]")
+        axes[1, 0].set_ylabel("moment [N m]")
+        axes[1, 0].set_xlabel("time [s]")
+        for panel in axes[:, 0]:
+            style.legend(panel)
+        written.append(style.save(fig, at(f"beam_{name}")))
+    return written
+
+
+def signals(results, at):
+    """What is left: actuators, springs, contacts, hydraulics, points; a panel per dataset of few columns over time."""
+    written = []
+    drawn = set(results.elements_with("frame")) | set(results.elements_with("rotation"))
+    for section in ("elements", "contacts", "hydraulics", "points"):
+        for name in results.names(section):
+            group = results.group(f"{section}/{name}")
+            if (section == "elements" and name in drawn) or not hasattr(group, "keys"):
+                continue
+            places = {q: f"{section}/{name}/{q}" for q in group
+                      if hasattr(group[q], "shape") and group[q].ndim in (1, 2) and len(group[q]) >= len(results.time)}
+            places = {q: place for q, place in places.items() if 0 < len(_columns(results, place)) <= 6}
+            if not places:
+                continue
+            fig, axes = style.figure(len(places), f"{results.title}: {name}")
+            for panel, (quantity, place) in zip(axes[:, 0], places.items()):
+                columns = _columns(results, place)
+                for k, column in enumerate(columns):
+                    panel.plot(results.time, column, label=column_names(results, place, place)[k] if len(columns) > 1 else None)
+                panel.set_ylabel(style.label(quantity, results.units(place)))
+                style.legend(panel)
+            axes[-1, 0].set_xlabel("time [s]")
+            written.append(style.save(fig, at(f"{section[:-1]}_{name}".replace("/", "_"))))
+    return written
+
+
+def solver(results, at):
+    names = [n for n in ("step", "newton_iterations", "error_estimate") if results.has(f"solver/{n}")]
+    if not names:
+        return []
+    fig, axes = style.figure(len(names), f"{results.title}: solver")
+    for panel, name in zip(axes[:, 0], names):
+        panel.plot(results.time, results.rows(f"solver/{name}"), drawstyle="steps-pre")
+        panel.set_ylabel(style.label(name.replace("_", "\n"), results.units(f"solver/{name}")))
+    axes[-1, 0].set_xlabel("time [s]")
+    return [style.save(fig, at("solver"))]
+
+
+def eigenvalues(results, at):
+    if not results.has("eigen/frequency"):
+        return []
+    frequency = np.asarray(results.group("eigen/frequency"))
+    fig, axes = style.figure(1, f"{results.title}: eigenfrequencies", height=3.2)
+    panel = axes[0, 0]
+    bars = panel.bar(np.arange(1, len(frequency) + 1), frequency, color=style.COLOURS[0])
+    panel.bar_label(bars, labels=[f"{f:.4g}" for f in frequency], fontsize=8)
+    panel.set_xlabel("mode")
+    panel.set_ylabel("frequency [Hz]")
+    panel.xaxis.get_major_locator().set_params(integer=True)
+    return [style.save(fig, at("eigenfrequencies"))]
+
+
+def frequency_response(results, at):
+    if not results.has("frequency_response/response"):
+        return []
+    group = results.group("frequency_response")
+    frequency = np.asarray(group["frequency"])
+    response = np.asarray(group["response"])
+    response = response[..., 0] + 1j * response[..., 1]  # (nf,outputs,inputs)
+    fig, axes = style.figure(2, f"{results.title}: frequency response")
+    for o in range(response.shape[1]):
+        for i in range(response.shape[2]):
+            text = f"output {o + 1} / input {i + 1}"
+            axes[0, 0].loglog(frequency, np.abs(response[:, o, i]), label=text)
+            axes[1, 0].semilogx(frequency, np.degrees(np.angle(response[:, o, i])), label=text)
+    axes[0, 0].set_ylabel("magnitude")
+    axes[1, 0].set_ylabel("phase [degrees]")
+    axes[1, 0].set_xlabel("frequency [Hz]")
+    style.legend(axes[0, 0])
+    return [style.save(fig, at("frequency_response"))]
+
+
+def column_names(results, group, place):
+    """Names of a dataset's columns: from the attribute `names` of the dataset or its group, or 1, 2, ..."""
+    count = len(_columns(results, place))
+    for holder in (results.root[place], results.root[group]):
+        names = holder.attrs.get("names", holder.attrs.get("coordinates", ""))
+        if isinstance(names, (str, bytes)):
+            names = (names.decode() if isinstance(names, bytes) else names).replace(",", " ").split()
+        names = [n.decode() if isinstance(n, bytes) else str(n) for n in names]
+        if len(names) == count:
+            return names
+    return [str(k + 1) for k in range(count)]
+
+
+def _columns(results, place):
+    """Columns of a dataset over time, as a list of vectors; empty where the dataset is missing or not over time."""
+    if not results.has(place):
+        return []
+    values = results.rows(place)
+    return [values] if values.ndim == 1 else list(values.T) if values.ndim == 2 else []

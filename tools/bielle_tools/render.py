@@ -1,0 +1,132 @@
+"""Draws the mechanism at one time with matplotlib: bodies coloured by stress, beams as lines, nodes as dots.
+
+An orthographic view, painted from back to front: no graphics card, no display, small files. For more there is ParaView.
+"""
+
+import numpy as np
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.colors import Normalize, to_rgb
+
+from .plot_style import COLOURS, plt
+from .superelement_body import SuperelementBody, find_superelement
+
+LIGHT = np.array([0.35, 0.5, 0.8])  # direction towards the light, in view axes (right, up, towards the viewer)
+VIEWS = {  # rows: right, up; the viewer looks from right x up
+    "x": ([0, 1, 0], [0, 0, 1]), "y": ([-1, 0, 0], [0, 0, 1]), "z": ([1, 0, 0], [0, 1, 0]),
+    "-x": ([0, -1, 0], [0, 0, 1]), "-y": ([1, 0, 0], [0, 0, 1]), "-z": ([-1, 0, 0], [0, 1, 0]),
+}
+
+
+class Scene:
+    """All that is drawn, prepared once; `draw` paints it for one row of the results."""
+
+    def __init__(self, results, view=None, scale=1.0, superelements=None):
+        self.results = results
+        self.scale = scale
+        self.axes = _view_axes(results, view)
+        self.bodies = []
+        for name in results.elements_with("frame", "coordinates"):
+            body = SuperelementBody(find_superelement(results, name, superelements or {}))
+            corners = np.concatenate([faces[:, :3] for faces in body.surface().values()])
+            self.bodies.append((name, body, corners))
+        self.beams = results.elements_with("position", "rotation")
+        self.nodes = results.names("nodes")
+        self.links = [_linked(results, name) for name in results.names("elements")]
+        self.links = [link for link in self.links if len(link) > 1]
+        self.limits = None
+        self.norm = None
+
+    def prepare(self, rows):
+        """Fixes the frame of the picture and the range of stresses over the given rows."""
+        low, high, stress = np.full(2, np.inf), np.full(2, -np.inf), 0.0
+        for row in rows:
+            points = [self._project(positions) for positions, _ in self._bodies_at(row)]
+            points += [self._project(self.results.rows(f"elements/{b}/position", row)) for b in self.beams]
+            points += [self._project(self.results.rows(f"nodes/{n}/position", row)[None]) for n in self.nodes]
+            for p in points:
+                low, high = np.minimum(low, p[:, :2].min(axis=0)), np.maximum(high, p[:, :2].max(axis=0))
+            for _, values in self._bodies_at(row):
+                if values is not None:
+                    stress = max(stress, float(np.nanmax(values)))
+        margin = 0.06 * max((high - low).max(), 1e-9)
+        self.limits = low - margin, high + margin
+        self.norm = Normalize(0, 1e-6 * stress if stress > 0 else 1)
+
+    def draw(self, panel, row):
+        """Paints the mechanism at a row of the results. @returns what a colour bar needs, or None without stresses"""
+        panel.set_aspect("equal")
+        panel.set_axis_off()
+        panel.set_xlim(self.limits[0][0], self.limits[1][0])
+        panel.set_ylim(self.limits[0][1], self.limits[1][1])
+        coloured = None
+        for (_, _, corners), (positions, stress) in zip(self.bodies, self._bodies_at(row)):
+            coloured = self._paint_body(panel, positions, stress, corners) or coloured
+        for link in self.links:
+            hub = self._node(link[0], row)
+            lines = [[hub[:2], self._node(other, row)[:2]] for other in link[1:]]
+            panel.add_collection(LineCollection(lines, colors="#8c8c8c", linewidths=5, capstyle="round", zorder=1))
+        for name in self.beams:
+            line = self._project(self.results.rows(f"elements/{name}/position", row))[:, :2]
+            panel.plot(line[:, 0], line[:, 1], color=COLOURS[1], linewidth=3, solid_capstyle="round", zorder=3)
+        dots = np.array([self._node(name, row)[:2] for name in self.nodes])
+        if len(dots):
+            panel.plot(dots[:, 0], dots[:, 1], "o", color="white", markeredgecolor="black", markersize=4, zorder=4)
+        return coloured
+
+    def _paint_body(self, panel, positions, stress, corners):
+        view = self._project(positions)
+        triangles = view[corners]  # (f,3,3)
+        normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+        length = np.linalg.norm(normals, axis=1)
+        facing = normals[:, 2] > 0
+        order = np.flatnonzero(facing)[np.argsort(triangles[facing][:, :, 2].mean(axis=1))]
+        shade = 0.65 + 0.35 * np.clip(normals[order] @ (LIGHT / np.linalg.norm(LIGHT)) / length[order], 0, 1)
+        values = None if stress is None else 1e-6 * stress[corners[order]].mean(axis=1)
+        base = np.array([to_rgb("#7f9db9")]) if values is None else plt.cm.viridis(self.norm(np.nan_to_num(values)))[:, :3]
+        panel.add_collection(PolyCollection(triangles[order][:, :, :2], facecolors=base * shade[:, None], edgecolors="face",
+                                            linewidths=0.2, zorder=2))
+        return None if values is None else plt.cm.ScalarMappable(self.norm, "viridis")
+
+    def _bodies_at(self, row):
+        for name, body, _ in self.bodies:
+            q = self.results.rows(f"elements/{name}/coordinates", row)
+            positions, _ = body.at(self.results.rows(f"elements/{name}/frame", row), q, self.scale)
+            yield positions, body.von_mises(q)
+
+    def _node(self, name, row):
+        return self._project(self.results.rows(f"nodes/{name}/position", row)[None])[0]
+
+    def _project(self, points):
+        return points @ self.axes.T
+
+
+def _linked(results, element):
+    """Nodes that one rigid body carries, its own first: drawn as bars. From the attribute `nodes` of the element."""
+    from .paraview import node_names
+
+    if element in results.elements_with("frame") or element in results.elements_with("rotation"):
+        return []
+    names = node_names(results.group(f"elements/{element}"))
+    return names if all(results.has(f"nodes/{name}") for name in names) else []
+
+
+def _view_axes(results, view):
+    """(3,3): right, up, towards the viewer. Without a wish: a little from above on the plane of the largest motion."""
+    if view in VIEWS:
+        right, up = (np.array(v, float) for v in VIEWS[view])
+        return np.array([right, up, np.cross(right, up)])
+    reach = np.zeros(3)
+    paths = [results.rows(f"nodes/{n}/position") for n in results.names("nodes")]
+    if paths:
+        reach = np.ptp(np.concatenate(paths), axis=0)
+    towards = np.zeros(3)
+    normal = int(np.argmin(reach))
+    towards[normal] = -1 if normal == 1 else 1
+    up = np.array([0, 0, 1.0]) if normal != 2 else np.array([0, 1.0, 0])
+    right = np.cross(up, towards)
+    if view is None:
+        towards = towards + 0.35 * right + 0.4 * up
+    towards /= np.linalg.norm(towards)
+    right = np.cross(up, towards)
+    right /= np.linalg.norm(right)
+    return np.array([right, np.cross(towards, right), towards])

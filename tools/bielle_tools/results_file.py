@@ -1,0 +1,99 @@
+"""Reads results of bielle-mechanism: times, nodes, joints, elements, energies, as numpy arrays with their units.
+
+Only the rows of `/time` count: after an interruption other datasets may be longer.
+"""
+
+import os
+
+import h5py
+import numpy as np
+
+from .messages import InputError, note
+
+
+class Results:
+    """An open results file, or one analysis of it. Use as a context manager."""
+
+    def __init__(self, path, analysis=None):
+        """analysis: number of one analysis (1, 2, ...); None: each group as the last analysis that has it left it."""
+        self.path = os.path.abspath(path)
+        self.file = open_hdf5(path, "bielle results", "results of bielle-mechanism")
+        self.root = self.file
+        if analysis is not None:
+            if f"analysis_{analysis}" not in self.file:
+                known = ", ".join(sorted(name[9:] for name in self.file if name.startswith("analysis_"))) or "none"
+                raise InputError(f"'{path}' holds no analysis {analysis} (it has {known})")
+            self.root = self.file[f"analysis_{analysis}"]
+        if "time" not in self.root and "eigen" not in self.root and "frequency_response" not in self.root:
+            raise InputError(f"'{path}' holds no results yet: the run ended before its first step was recorded")
+        self.time = np.asarray(self.root["time"]) if "time" in self.root else np.zeros(0)
+        if not self.file.attrs.get("complete", True):
+            note(f"{path}: the run was not completed; its {len(self.time)} recorded times are shown")
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.file.close()
+
+    @property
+    def title(self):
+        """Name of the mechanism, or of the file."""
+        title = self.file.attrs.get("title", self.file.attrs.get("name", ""))
+        return (title.decode() if isinstance(title, bytes) else str(title)) or os.path.splitext(os.path.basename(self.path))[0]
+
+    def names(self, section):
+        """Names under `nodes`, `joints`, `elements`, ...; empty when there are none."""
+        return list(self.root[section]) if section in self.root else []
+
+    def has(self, place):
+        return place in self.root
+
+    def group(self, place):
+        return self.root[place]
+
+    def rows(self, place, index=None):
+        """A dataset over time, clipped to the rows that count; `index` picks rows."""
+        data = self.root[place]
+        return np.asarray(data[:len(self.time)] if index is None else data[index])
+
+    def units(self, place):
+        units = self.root[place].attrs.get("units", "")
+        return units.decode() if isinstance(units, bytes) else str(units)
+
+    def elements_with(self, *datasets):
+        """Elements that record all of these: `frame` is a superelement, `rotation` a beam."""
+        return [name for name in self.names("elements") if all(d in self.root["elements"][name] for d in datasets)]
+
+    def frames(self, every=None, count=None):
+        """Row numbers of about `count` evenly spaced times, the last among them, or of every `every`-th."""
+        if every:
+            return np.arange(0, len(self.time), every)
+        if count is None or len(self.time) <= count:
+            return np.arange(len(self.time))
+        wanted = np.linspace(self.time[0], self.time[-1], count)
+        return np.unique(np.abs(self.time[:, None] - wanted[None, :]).argmin(axis=0))
+
+
+def open_hdf5(path, expected, meaning):
+    """Opens an HDF5 file whose attribute `format` must be `expected`. @raises InputError"""
+    if not os.path.isfile(path):
+        raise InputError(f"'{path}' does not exist")
+    try:
+        file = h5py.File(path, "r")
+    except OSError:
+        raise InputError(f"'{path}' is no HDF5 file, or it is damaged") from None
+    found = file.attrs.get("format", "")
+    found = found.decode() if isinstance(found, bytes) else str(found)
+    if found != expected:
+        file.close()
+        raise InputError(f"'{path}' does not hold {meaning}" + (f" but '{found}'" if found else ""))
+    return file
+
+
+def rotation_matrices(quaternions):
+    """(...,4) unit quaternions w x y z -> (...,3,3) matrices R: body -> inertial."""
+    w, x, y, z = np.moveaxis(np.asarray(quaternions, float), -1, 0)
+    return np.stack([1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y),
+                     2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x),
+                     2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)], axis=-1).reshape(*w.shape, 3, 3)

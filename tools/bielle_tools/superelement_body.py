@@ -1,0 +1,98 @@
+"""The mesh of a superelement and what its reduced coordinates say about every node: displacement and stress.
+
+points(row) = x_0 + R_0 (X + U q), with the body's frame (x_0, R_0) and its reduced coordinates q from the results, and
+the recovery matrix U from the superelement file. Stress is linear in q: S q, six components per node.
+"""
+
+import os
+
+import numpy as np
+
+from .messages import InputError
+from .results_file import open_hdf5, rotation_matrices
+from .solid_mesh import boundary_faces, tetrahedron_faces
+
+GMSH_TYPES = {2: "triangle", 4: "tetra", 9: "triangle6", 11: "tetra10"}
+GMSH_TO_VTK = {"tetra10": [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]}
+
+
+class SuperelementBody:
+    """points (p,3) as meshed; cells {meshio type: (n,k)} in VTK's order; results at times through `at`."""
+
+    def __init__(self, path):
+        self.path = path
+        with open_hdf5(path, "bielle superelement", "a superelement of bielle-reduce") as file:
+            if "mesh" not in file or "recovery/displacement" not in file:
+                raise InputError(f"'{path}' keeps no mesh or no displacements: set 'recovery: {{displacement: all}}' in its "
+                                 "body file and reduce it again to see it move")
+            self.points = np.asarray(file["mesh/points"])
+            self.cells = {}
+            for name, cells in file["mesh/cells"].items():
+                kind = GMSH_TYPES[int(name)]
+                cells = np.asarray(cells, np.int64)
+                self.cells[kind] = cells[:, GMSH_TO_VTK[kind]] if kind in GMSH_TO_VTK else cells
+            recovery = file["recovery"]
+            self.displacement = np.asarray(recovery["displacement"])
+            self.displaced = _node_numbers(recovery, "displacement_nodes", len(self.displacement) // 3, len(self.points))
+            self.stress, self.stressed = None, np.zeros(0, np.int64)
+            if "stress" in recovery:
+                self.stress = np.asarray(recovery["stress"])
+                self.stressed = _node_numbers(recovery, "stress_nodes", len(self.stress) // 6, len(self.points))
+
+    def surface(self):
+        """Boundary triangles {type: (n,3 or 6)}, outward."""
+        return boundary_faces(tetrahedron_faces(self.cells))
+
+    def local_displacement(self, q):
+        """(p,3) displacement of every node in the body's frame [m]; nodes without recovery stay at rest."""
+        u = np.zeros_like(self.points)
+        u[self.displaced] = (self.displacement @ q).reshape(-1, 3)
+        return u
+
+    def von_mises(self, q):
+        """(p) [Pa], not a number where no stress was kept; None without stress recovery."""
+        if self.stress is None:
+            return None
+        xx, yy, zz, yz, xz, xy = (self.stress @ q).reshape(-1, 6).T
+        value = np.full(len(self.points), np.nan)
+        value[self.stressed] = np.sqrt(0.5 * ((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2)
+                                       + 3 * (yz ** 2 + xz ** 2 + xy ** 2))
+        return value
+
+    def at(self, frame, q, scale=1.0):
+        """Positions (p,3) and elastic displacements (p,3), inertial, with the latter magnified by `scale` in the positions.
+
+        frame: (7) x y z and quaternion w x y z of the body's frame; q: reduced coordinates (n).
+        """
+        R = rotation_matrices(frame[3:])
+        u = self.local_displacement(q)
+        return frame[:3] + (self.points + scale * u) @ R.T, u @ R.T
+
+
+def _node_numbers(recovery, name, count, points):
+    if name in recovery:
+        return np.asarray(recovery[name], np.int64)
+    if count != points:
+        raise InputError(f"the recovery has {count} nodes, the mesh {points}, and '{name}' is missing")
+    return np.arange(points)
+
+
+def find_superelement(results, element, given):
+    """Path of the superelement file of an element of the results.
+
+    given: {element: path} from the command line. Otherwise the attribute `file` of the element, looked for beside the
+    model, beside the results and in the current folder.
+    """
+    if element in given:
+        return given[element]
+    name = results.group(f"elements/{element}").attrs.get("file", "")
+    name = name.decode() if isinstance(name, bytes) else str(name)
+    model = results.file.attrs.get("model", "")
+    model = model.decode() if isinstance(model, bytes) else str(model)
+    folders = [os.path.dirname(model) or ".", os.path.dirname(results.path), "."]
+    for folder in folders:
+        path = os.path.join(folder, name)
+        if name and os.path.isfile(path):
+            return path
+    raise InputError(f"the superelement file of '{element}' ({name or 'not named in the results'}) was not found; "
+                     f"say where it is: --superelement {element}=PATH")
