@@ -1,4 +1,5 @@
-// Formulas that users write: `2*pi*10`, `speed*t`, `step(t, 0, 0.1)`. Evaluated by muParser.
+// Formulas that users write: `2*pi*10`, `speed*t`, `step(t, 0, 0.1)`. Parsed by muParser; value and exact derivatives
+// come from the tree that it builds.
 #pragma once
 
 #include <map>
@@ -12,12 +13,13 @@ namespace bielle {
 /// Named constants that formulas may use, in SI.
 using Parameters = std::map<std::string, double>;
 
-/// A function of named variables.
+/// A function of named variables. README.md lists the language: operators, functions, `pi`.
 ///
-/// Beside muParser's own operators and functions: `pi`, `if(c, a, b)`, `pow`, `mod`, `step(t, t0, t1)` (smooth from 0 to
-/// 1, twice continuously differentiable), `ramp(t, t0, t1)`, `pulse(t, t0, t1)`, `table('file.csv', t)`. Anything that
-/// muParser would accept silently and wrongly (`1,2`, a division by zero, an unknown name) throws InputError.
-/// Copies are cheap to make and independent, so that each thread may evaluate its own.
+/// Transitions: `step(t, t0, t1)` rises from 0 to 1 as 10 s^3 - 15 s^4 + 6 s^5, twice continuously differentiable;
+/// `ramp(t, t0, t1)` along a straight line; `pulse(t, t0, t1)` is 1 for t0 <= t < t1 and 0 elsewhere.
+/// `table('file.csv', t)` joins the points of a two-column file by straight lines, `spline('file.csv', t)` by a cubic
+/// spline; outside the file's range they throw. Anything that muParser would accept silently and wrongly (`1,2`, `1/0`)
+/// throws InputError. An expression is immutable: copies share it, and any number of threads may evaluate it.
 class Expression {
  public:
   Expression();  ///< the constant 0
@@ -29,18 +31,15 @@ class Expression {
   /// @throws InputError without file or line (the caller knows them): what is wrong, at which character
   Expression(const std::string& text, const std::vector<std::string>& variables, const Parameters& constants = {},
              const std::string& folder = ".");
-  Expression(const Expression&);
-  Expression(Expression&&) noexcept;
-  Expression& operator=(const Expression&);
-  Expression& operator=(Expression&&) noexcept;
-  ~Expression();
 
-  /// @throws ComputationError when the value is not finite, naming the formula and the arguments
+  /// @param values  one for each variable. No memory is allocated.
+  /// @throws ComputationError when the value, or any part of the formula that is needed for it, is not finite, naming
+  ///         the formula and the arguments
   double operator()(std::span<const double> values) const;
   double operator()(double value) const { return (*this)(std::span<const double>(&value, 1)); }
 
-  /// Partial derivative of the given order (1 or 2) with respect to one argument, good to 1e-8 of the function's own
-  /// scale of variation; one-sided at a break point, from the right.
+  /// Partial derivative of order 1 or 2 with respect to one argument, as accurate as the value; at a kink or jump the
+  /// one on the right. @throws ComputationError where there is none (`sqrt(t)` at 0)
   double derivative(std::span<const double> values, std::size_t argument, int order = 1) const;
   double derivative(double value, int order = 1) const {
     return derivative(std::span<const double>(&value, 1), 0, order);
@@ -48,12 +47,14 @@ class Expression {
 
   bool is_constant() const;  ///< uses none of its variables
   const std::string& text() const;
-  /// Arguments [in the first variable] at which the function or one of its first two derivatives may jump, ascending.
-  std::vector<double> break_points() const;
+  /// Values of one argument at which the function or one of its first three derivatives may jump, ascending. Found
+  /// where what is compared depends on this argument alone and linearly (`2*t > 1`, `step(t, 0, 0.1)`, the points of a
+  /// table), not in `sin(t) > 0`, `mod(t, 1)` or `floor(t)`, which break infinitely often.
+  std::vector<double> break_points(std::size_t argument = 0) const;
 
  private:
   struct Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  std::shared_ptr<const Implementation> implementation_;
 };
 
 }  // namespace bielle

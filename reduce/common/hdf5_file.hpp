@@ -1,12 +1,13 @@
 // HDF5 files that hold real matrices, names and text: no dataset without units.
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "reduce/common/error.hpp"
 
@@ -22,8 +23,8 @@ using Shape = std::vector<std::size_t>;
 /// it was flushed. Every failure is an InputError (reading) or ComputationError (writing) that names file and dataset.
 class Hdf5File {
  public:
-  static Hdf5File create(const std::string& path);          ///< replaces an existing file
-  static Hdf5File open(const std::string& path);            ///< to read. @throws InputError: missing, truncated, no HDF5
+  static Hdf5File create(const std::string& path);  ///< replaces an existing file
+  static Hdf5File open(const std::string& path);    ///< to read. @throws InputError: missing, truncated, no HDF5
   static Hdf5File open_to_extend(const std::string& path);  ///< to read and write
   Hdf5File(Hdf5File&&) noexcept;
   Hdf5File& operator=(Hdf5File&&) noexcept;
@@ -67,11 +68,12 @@ class Hdf5File {
 
   // -- datasets that grow row by row (results)
   /// A dataset of shape (0, row_shape...) to be extended along its first index.
+  /// @param rows_per_chunk  rows that are stored together: the file grows by so many
   void create_rows(const std::string& dataset, const Shape& row_shape, const std::string& units,
-                   const std::string& description = "");
+                   const std::string& description = "", std::size_t rows_per_chunk = 256);
   /// Appends `rows` rows; `values` holds them one after the other.
   void append_rows(const std::string& dataset, std::span<const double> values, std::size_t rows = 1);
-  /// `name` becomes another name of `target` within this file (a soft link).
+  /// `name` becomes another name of `target` within this file (a soft link), whatever it was a link to before.
   void link(const std::string& target, const std::string& name);
 
  private:

@@ -2,12 +2,13 @@
 // expressions of the file's parameters.
 #pragma once
 
-#include <Eigen/Core>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "reduce/common/error.hpp"
 #include "reduce/common/expression.hpp"
@@ -21,8 +22,9 @@ namespace bielle {
 /// A value in an input file that knows where it stands. Cheap to copy.
 ///
 /// Every reader throws InputError `file:line: path.of.key: what was expected`. A map's unknown keys are refused by
-/// `check_keys`, which each reader of a map calls once: nothing in a file is silently ignored. Duplicate keys in a map
-/// are refused when the file is loaded.
+/// `check_keys`, which each reader of a map calls once: nothing in a file is silently ignored. Duplicate keys, merge
+/// keys
+/// (`<<`) and second documents are refused when the file is loaded.
 class YamlValue {
  public:
   /// Loads a file. @throws InputError when it is missing, unreadable or no valid YAML (with the line).
@@ -61,7 +63,7 @@ class YamlValue {
   int integer() const;
   bool boolean() const;
   std::string text() const;
-  /// One of the given words; the message offers the nearest.
+  /// One of the given words; the message offers the nearest. @param what  in words with its article: "a joint type"
   std::string word(const std::vector<std::string>& allowed, const std::string& what) const;
   Eigen::VectorXd vector() const;
   Eigen::Vector3d vector3() const;
@@ -75,7 +77,7 @@ class YamlValue {
   // -- place
   const std::string& file() const;
   int line() const;                 ///< 1-based
-  std::string path() const;         ///< "joints.main.axis"
+  std::string path() const;         ///< "joints.main.axis[1]"; items of lists are counted from 1
   std::string source_text() const;  ///< the whole text of the file, for the results' /input
   /// `file:line: path: message`
   [[noreturn]] void fail(const std::string& message) const;
@@ -84,6 +86,8 @@ class YamlValue {
  private:
   struct Document;
   YamlValue(std::shared_ptr<Document> document, std::shared_ptr<YAML::Node> node, std::string path, int line);
+  YamlValue child(const YAML::Node& key, const YAML::Node& value) const;
+  void check_map(const std::string& expected) const;
   std::shared_ptr<Document> document_;
   std::shared_ptr<YAML::Node> node_;
   std::string path_;

@@ -1,0 +1,29 @@
+// What the command lines of both programs have in common.
+#pragma once
+
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace bielle {
+
+struct CommonOptions {
+  int threads = 1;
+  bool quiet = false;
+};
+
+/// Adds `--version`, `--threads N` (1 or more; default: the processors that this process may use) and `--quiet`;
+/// `--help` is CLI11's own.
+void add_common_options(CLI::App& app, CommonOptions& options);
+
+/// Parses the command line.
+/// @returns false when `--help` or `--version` was asked for and has been printed: the program is done, with status 0
+/// @throws InputError in one line, naming the nearest option where one is unknown
+bool parse_command_line(CLI::App& app, int argc, const char* const* argv);
+
+/// Processors that this process may run on, at least 1.
+int available_processors();
+
+}  // namespace bielle

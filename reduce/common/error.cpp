@@ -1,0 +1,86 @@
+#include "reduce/common/error.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include <fmt/format.h>
+
+namespace bielle {
+
+namespace {
+
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+/// Optimal string alignment (restricted Damerau-Levenshtein) distance.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> before_last, last(b.size() + 1), current(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    current[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      current[j] = std::min({last[j] + 1, current[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        current[j] = std::min(current[j], before_last[j - 2] + 1);
+    }
+    before_last = last;
+    last = current;
+  }
+  return last[b.size()];
+}
+
+}  // namespace
+
+std::string nearest_name(const std::string& name, std::span<const std::string> candidates) {
+  const std::string wanted = lower_case(name);
+  std::string nearest;
+  std::size_t least = 0;
+  for (const std::string& candidate : candidates) {
+    const std::size_t distance = edit_distance(wanted, lower_case(candidate));
+    if (3 * distance > std::max(name.size(), candidate.size())) continue;
+    if (nearest.empty() || distance < least) {
+      nearest = candidate;
+      least = distance;
+    }
+  }
+  return nearest;
+}
+
+std::string did_you_mean(const std::string& name, std::span<const std::string> candidates) {
+  constexpr std::size_t most_shown = 12;
+  const std::string nearest = nearest_name(name, candidates);
+  if (!nearest.empty()) return fmt::format("; did you mean '{}'?", nearest);
+  if (candidates.empty()) return "";
+  std::string list;
+  for (std::size_t i = 0; i < std::min(candidates.size(), most_shown); ++i)
+    list += fmt::format("{}'{}'", i == 0 ? "" : ", ", candidates[i]);
+  if (candidates.size() > most_shown) list += fmt::format(" and {} more", candidates.size() - most_shown);
+  return (candidates.size() == 1 ? "; expected " : "; expected one of ") + list;
+}
+
+int run_program(const std::string& program, int (*body)(int argc, char** argv), int argc, char** argv) {
+  const auto report = [&](const std::string& message, int status) {
+    fmt::print(stderr, "{}: error: {}\n", program, message);
+    return status;
+  };
+  try {
+    return body(argc, argv);
+  } catch (const InputError& error) {
+    return report(error.what(), 1);
+  } catch (const ComputationError& error) {
+    return report(error.what(), 2);
+  } catch (const std::bad_alloc&) {
+    return report("out of memory", 2);
+  } catch (const std::exception& error) {
+    return report(std::string("unforeseen failure: ") + error.what(), 2);
+  } catch (...) {
+    return report("unforeseen failure of unknown kind", 2);
+  }
+}
+
+}  // namespace bielle

@@ -1,0 +1,43 @@
+// A function given by points: straight lines or a cubic spline between them.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace bielle {
+
+/// y(x) through points with ascending x; defined between the first and the last point only.
+///
+/// `linear` has kinks at the points. `cubic` is the spline with continuous second derivative and the not-a-knot
+/// condition at both ends (a cubic is reproduced exactly; three points give a parabola, two a straight line).
+/// Reference: C. de Boor, A Practical Guide to Splines, chapter IV.
+class Interpolation {
+ public:
+  enum class Kind { linear, cubic };
+  struct Values {
+    double value, slope, curvature;
+  };
+
+  /// @param name  stands for the table in messages
+  /// @throws InputError when there are fewer than two points or x does not ascend strictly
+  Interpolation(Eigen::VectorXd x, Eigen::VectorXd y, Kind kind, std::string name);
+  /// The two columns of a text file (see read_table).
+  static Interpolation from_file(const std::string& path, Kind kind);
+
+  /// @param from_right  at a point, the derivatives on its right (or else left)
+  /// @throws ComputationError outside the range of the points (rounding of 1e-9 of the range is forgiven)
+  Values operator()(double x, bool from_right = true) const;
+  std::span<const double> points() const { return {x_.data(), static_cast<std::size_t>(x_.size())}; }
+  Kind kind() const { return kind_; }
+
+ private:
+  Eigen::VectorXd x_, y_;
+  Eigen::VectorXd curvature_;  ///< y'' at the points; zero when linear
+  Kind kind_;
+  std::string name_;
+};
+
+}  // namespace bielle

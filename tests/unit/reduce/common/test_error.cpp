@@ -1,0 +1,58 @@
+#include <new>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "reduce/common/error.hpp"
+
+using bielle::did_you_mean;
+using bielle::nearest_name;
+
+TEST_CASE("The nearest name is found through every kind of slip") {
+  const std::vector<std::string> keys = {"damping", "density", "poisson", "rho", "young"};
+  CHECK(nearest_name("dampng", keys) == "damping");    // left out
+  CHECK(nearest_name("dampingg", keys) == "damping");  // one too many
+  CHECK(nearest_name("dawping", keys) == "damping");   // exchanged
+  CHECK(nearest_name("dampign", keys) == "damping");   // swapped: one slip, not two
+  CHECK(nearest_name("DAMPING", keys) == "damping");   // case
+  CHECK(nearest_name("rh", keys) == "rho");            // one letter of three
+  CHECK(nearest_name("oyung", keys) == "young");
+}
+
+TEST_CASE("No name is offered when more than a third of the letters differ") {
+  const std::vector<std::string> keys = {"damping", "ab"};
+  CHECK(nearest_name("stiffness", keys).empty());
+  CHECK(nearest_name("ac", keys).empty());
+  CHECK(nearest_name("", keys).empty());
+  CHECK(nearest_name("x", {}).empty());
+}
+
+TEST_CASE("Of several near names the nearest is offered, the first among equals") {
+  CHECK(nearest_name("ratio", std::vector<std::string>{"rations", "ratios"}) == "ratios");
+  CHECK(nearest_name("node_c", std::vector<std::string>{"node_a", "node_b"}) == "node_a");
+}
+
+TEST_CASE("A message offers the nearest name, or the names that exist") {
+  const std::vector<std::string> two = {"mass", "inertia"};
+  CHECK(did_you_mean("mas", two) == "; did you mean 'mass'?");
+  CHECK(did_you_mean("stiffness", two) == "; expected one of 'mass', 'inertia'");
+  CHECK(did_you_mean("stiffness", std::vector<std::string>{"mass"}) == "; expected 'mass'");
+  CHECK(did_you_mean("stiffness", {}).empty());
+  std::vector<std::string> many;
+  for (int i = 0; i < 15; ++i) many.push_back("node" + std::to_string(i));
+  const std::string message = did_you_mean("stiffness", many);
+  CHECK(message.find("'node11'") != std::string::npos);
+  CHECK(message.find("'node12'") == std::string::npos);
+  CHECK(message.find("and 3 more") != std::string::npos);
+}
+
+TEST_CASE("A program's exit status tells a wrong input from a failed computation") {
+  const auto status = [](int (*body)(int, char**)) { return bielle::run_program("bielle-test", body, 0, nullptr); };
+  CHECK(status([](int, char**) { return 0; }) == 0);
+  CHECK(status([](int, char**) -> int { throw bielle::InputError("wrong input"); }) == 1);
+  CHECK(status([](int, char**) -> int { throw bielle::ComputationError("failed"); }) == 2);
+  CHECK(status([](int, char**) -> int { throw std::bad_alloc(); }) == 2);
+  CHECK(status([](int, char**) -> int { throw std::logic_error("never"); }) == 2);
+  CHECK(status([](int, char**) -> int { throw 7; }) == 2);
+}
