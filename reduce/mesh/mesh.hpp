@@ -1,18 +1,19 @@
 // A solid mesh in metres: what gmsh, or a foreign file, became on import.
 #pragma once
 
-#include <Eigen/Core>
 #include <map>
 #include <string>
 #include <vector>
+
+#include <Eigen/Core>
 
 namespace bielle::reduce {
 
 /// Cell types by gmsh's numbers; node order within a cell is gmsh's.
 enum class CellType : int { tri3 = 2, tet4 = 4, tri6 = 9, tet10 = 11 };
 
-int node_count(CellType type);   ///< 3, 4, 6, 10
-int dimension(CellType type);    ///< 2 or 3
+int node_count(CellType type);  ///< 3, 4, 6, 10
+int dimension(CellType type);   ///< 2 or 3
 std::string cell_name(CellType type);
 
 /// All cells of one type: column e holds the node numbers (from 0) of cell e.
@@ -34,7 +35,10 @@ struct Group {
   std::vector<int> nodes;  ///< of all its cells, ascending, each once
 };
 
-/// Points and cells in SI. Each CellType occurs in at most one block.
+/// Points and cells in SI. Each CellType occurs in at most one block, and an imported mesh has one type of solid cells.
+///
+/// Surface cells are the faces of solid cells that belong to a group, each once, with the face's outward orientation
+/// (on a face between two solids: out of the one with the lower number).
 struct Mesh {
   Eigen::Matrix3Xd points;  ///< [m]
   std::vector<CellBlock> blocks;
@@ -43,6 +47,7 @@ struct Mesh {
   const CellBlock* block(CellType type) const;  ///< nullptr when there are none
   Eigen::Index point_count() const { return points.cols(); }
   Eigen::Index solid_count() const;  ///< number of solid cells
+  const CellBlock& solids() const;   ///< the block of solid cells. @throws std::logic_error when there is none
 };
 
 }  // namespace bielle::reduce

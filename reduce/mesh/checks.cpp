@@ -1,0 +1,189 @@
+#include "reduce/mesh/checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "reduce/common/error.hpp"
+#include "reduce/mesh/jacobian.hpp"
+#include "reduce/mesh/place.hpp"
+
+namespace bielle::reduce {
+
+namespace {
+
+Eigen::Matrix<double, 3, 4> corners_of(const Mesh& mesh, const CellBlock& block, Eigen::Index cell) {
+  Eigen::Matrix<double, 3, 4> corners;
+  for (int k = 0; k < 4; ++k) corners.col(k) = mesh.points.col(block.nodes(k, cell));
+  return corners;
+}
+
+double longest_edge(const Eigen::Matrix<double, 3, 4>& x) {
+  double longest = 0;
+  for (const auto& edge : tet_edges) longest = std::max(longest, (x.col(edge[0]) - x.col(edge[1])).norm());
+  return longest;
+}
+
+// Union-find over nodes.
+class Pieces {
+ public:
+  explicit Pieces(int count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
+  int of(int i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(int i, int j) { parent_[of(i)] = of(j); }
+
+ private:
+  std::vector<int> parent_;
+};
+
+struct Piece {
+  int cells = 0;
+  double volume = 0;
+  Eigen::AlignedBox3d box;
+};
+
+// Pairs of points nearer to each other than `distance`, of those listed; a point is the first of one pair at most.
+std::vector<std::pair<int, int>> near_pairs(const Eigen::Matrix3Xd& points, const std::vector<int>& listed,
+                                            double distance) {
+  // Sorted along an oblique direction, along which the nodes of no face of a machine part coincide.
+  const Eigen::RowVector3d direction(0.6154, 0.3581, 0.7022);
+  std::vector<std::pair<double, int>> sorted;
+  for (int node : listed) sorted.emplace_back(direction * points.col(node), node);
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<std::pair<int, int>> pairs;
+  for (std::size_t i = 0; i < sorted.size(); ++i)
+    for (std::size_t j = i + 1; j < sorted.size() && sorted[j].first - sorted[i].first <= distance; ++j)
+      if ((points.col(sorted[j].second) - points.col(sorted[i].second)).norm() <= distance) {
+        pairs.emplace_back(sorted[i].second, sorted[j].second);
+        break;
+      }
+  return pairs;
+}
+
+double shortest_edge(const Mesh& mesh) { return mesh_quality(mesh).shortest_edge; }
+
+}  // namespace
+
+void check_elements(const Mesh& mesh, const std::vector<std::size_t>& cell_tags) {
+  const CellBlock& block = mesh.solids();
+  int inverted = 0, flat = 0;
+  Eigen::Index first_inverted = 0, first_flat = 0;
+  for (Eigen::Index e = block.nodes.cols() - 1; e >= 0; --e) {
+    const auto x = corners_of(mesh, block, e);
+    const double determinant = straight_determinant(x);
+    if (std::abs(determinant) <= 1e-12 * std::pow(longest_edge(x), 3)) {
+      ++flat;
+      first_flat = e;
+    } else if (determinant < 0) {
+      ++inverted;
+      first_inverted = e;
+    }
+  }
+  const auto named = [&](Eigen::Index e) {
+    const std::size_t number = cell_tags.empty() ? static_cast<std::size_t>(e) + 1 : cell_tags[e];
+    return fmt::format("element {} at {}", number, place_name(corners_of(mesh, block, e).rowwise().mean()));
+  };
+  if (inverted == block.nodes.cols())
+    throw InputError(
+        fmt::format("all {} elements are inverted (negative volume): the mesh is mirrored, or its nodes are "
+                    "ordered otherwise; the first is {}",
+                    inverted, named(first_inverted)));
+  if (inverted > 0)
+    throw InputError(fmt::format("{} of {} elements are inverted (negative volume); the first is {}", inverted,
+                                 block.nodes.cols(), named(first_inverted)));
+  if (flat > 0)
+    throw InputError(fmt::format("{} of {} elements are degenerate (no volume); the first is {}", flat,
+                                 block.nodes.cols(), named(first_flat)));
+}
+
+void check_connected(const Mesh& mesh) {
+  const CellBlock& block = mesh.solids();
+  Pieces pieces(static_cast<int>(mesh.point_count()));
+  for (Eigen::Index e = 0; e < block.nodes.cols(); ++e)
+    for (Eigen::Index k = 1; k < block.nodes.rows(); ++k) pieces.join(block.nodes(0, e), block.nodes(k, e));
+  std::map<int, Piece> found;
+  for (Eigen::Index e = 0; e < block.nodes.cols(); ++e) {
+    Piece& piece = found[pieces.of(block.nodes(0, e))];
+    const auto x = corners_of(mesh, block, e);
+    ++piece.cells;
+    piece.volume += straight_determinant(x) / 6;
+    for (int k = 0; k < 4; ++k) piece.box.extend(Eigen::Vector3d(x.col(k)));
+  }
+  if (found.size() == 1) return;
+
+  std::vector<Piece> sorted;
+  for (const auto& [root, piece] : found) sorted.push_back(piece);
+  std::sort(sorted.begin(), sorted.end(), [](const Piece& a, const Piece& b) { return a.volume > b.volume; });
+  std::string names;
+  const std::size_t shown = std::min<std::size_t>(sorted.size(), 5);
+  for (std::size_t i = 0; i < shown; ++i)
+    names += fmt::format("{}{} elements with {:.3g} m^3 from {} to {}", i == 0 ? "" : "; ", sorted[i].cells,
+                         sorted[i].volume, place_name(sorted[i].box.min()), place_name(sorted[i].box.max()));
+  if (shown < sorted.size()) names += fmt::format("; and {} more", sorted.size() - shown);
+
+  std::vector<int> all(mesh.point_count());
+  std::iota(all.begin(), all.end(), 0);
+  int touching = 0;
+  for (const auto& [a, b] : near_pairs(mesh.points, all, 1e-6 * shortest_edge(mesh)))
+    touching += pieces.of(a) != pieces.of(b);
+  throw InputError(fmt::format("the body is in {} pieces that share no nodes: {}{}", sorted.size(), names,
+                               touching > 0
+                                   ? fmt::format("; {} pairs of nodes lie at the same place: merge them", touching)
+                                   : "; join them in the geometry (a fragment or union), or reduce each by itself"));
+}
+
+CoincidentNodes coincident_nodes(const Mesh& mesh, const FaceTable& faces) {
+  std::vector<char> on_boundary(mesh.point_count(), 0);
+  for (int face : faces.boundary())
+    for (int node : faces.nodes(face)) on_boundary[node] = 1;
+  std::vector<int> listed;
+  for (int node = 0; node < mesh.point_count(); ++node)
+    if (on_boundary[node]) listed.push_back(node);
+  const auto pairs = near_pairs(mesh.points, listed, 1e-6 * shortest_edge(mesh));
+  CoincidentNodes result;
+  result.pairs = static_cast<int>(pairs.size());
+  if (!pairs.empty()) result.place = mesh.points.col(pairs.front().first);
+  return result;
+}
+
+std::string doubtful_size(const Mesh& mesh) {
+  const double extent = (mesh.points.rowwise().maxCoeff() - mesh.points.rowwise().minCoeff()).maxCoeff();
+  if (extent <= 1e3 && extent >= 1e-3) return "";
+  return fmt::format("the body is {:.3g} m long: is length_unit right?", extent);
+}
+
+MeshQuality mesh_quality(const Mesh& mesh) {
+  const CellBlock& block = mesh.solids();
+  MeshQuality quality;
+  quality.shortest_edge = quality.least_scaled_jacobian = std::numeric_limits<double>::infinity();
+  for (Eigen::Index e = 0; e < block.nodes.cols(); ++e) {
+    const auto x = corners_of(mesh, block, e);
+    for (const auto& edge : tet_edges) {
+      const double length = (x.col(edge[0]) - x.col(edge[1])).norm();
+      quality.shortest_edge = std::min(quality.shortest_edge, length);
+      quality.longest_edge = std::max(quality.longest_edge, length);
+    }
+    const double scaled = scaled_jacobian(x);
+    if (scaled < quality.least_scaled_jacobian) {
+      quality.least_scaled_jacobian = scaled;
+      quality.worst_place = x.rowwise().mean();
+    }
+  }
+  return quality;
+}
+
+std::string summary(const Mesh& mesh) {
+  const MeshQuality quality = mesh_quality(mesh);
+  return fmt::format("{} nodes, {} {}, edges {:.3g} to {:.3g} mm, least scaled Jacobian {:.2g} at {}",
+                     mesh.point_count(), mesh.solid_count(), cell_name(mesh.solids().type), 1e3 * quality.shortest_edge,
+                     1e3 * quality.longest_edge, quality.least_scaled_jacobian, place_name(quality.worst_place));
+}
+
+}  // namespace bielle::reduce

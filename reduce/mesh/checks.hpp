@@ -1,0 +1,43 @@
+// Is a mesh one that can be reduced? What is wrong is said with element and place.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reduce/mesh/faces.hpp"
+#include "reduce/mesh/mesh.hpp"
+
+namespace bielle::reduce {
+
+/// Every straight tetrahedron of the corners must have positive volume, and more than 1e-12 of its longest edge cubed.
+/// @param cell_tags  numbers of the cells in the user's file; may be empty (then from 1)
+/// @throws InputError: inverted or flat elements, the first by number and place
+void check_elements(const Mesh& mesh, const std::vector<std::size_t>& cell_tags);
+
+/// The solid must be one piece: its cells connected by common nodes.
+/// @throws InputError: how many pieces, how large and where; whether they touch without sharing nodes
+void check_connected(const Mesh& mesh);
+
+/// Pairs of boundary nodes that lie at one place, nearer than 1e-6 of the shortest edge: a crack, or an unmerged mesh.
+struct CoincidentNodes {
+  int pairs = 0;
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< of the first [m]
+};
+CoincidentNodes coincident_nodes(const Mesh& mesh, const FaceTable& faces);
+
+/// A sentence when the body is larger than 1 km or smaller than 1 mm, which a wrong unit of length explains; else
+/// empty.
+std::string doubtful_size(const Mesh& mesh);
+
+/// Quality of the solid cells.
+struct MeshQuality {
+  double shortest_edge = 0, longest_edge = 0;             ///< [m], straight
+  double least_scaled_jacobian = 0;                       ///< of the straight cells: 1 regular, 0 flat
+  Eigen::Vector3d worst_place = Eigen::Vector3d::Zero();  ///< [m]
+};
+MeshQuality mesh_quality(const Mesh& mesh);
+
+/// "4321 nodes, 2345 tet10, edges 0.9 to 3.2 mm, least scaled Jacobian 0.12 at (..) m"
+std::string summary(const Mesh& mesh);
+
+}  // namespace bielle::reduce

@@ -1,0 +1,43 @@
+// Faces of solid cells: which lie on the surface of the body, and which face a triangle of a file is.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "reduce/mesh/mesh.hpp"
+
+namespace bielle::reduce {
+
+/// The faces of the solid cells of a mesh, each once, numbered from 0 in ascending order of their corner nodes.
+///
+/// A face is oriented outward of its solid cell; one between two cells, outward of the one with the lower number.
+class FaceTable {
+ public:
+  /// Of the solid cells of a mesh. @throws InputError when three or more cells share a face
+  explicit FaceTable(const Mesh& mesh);
+
+  int size() const { return static_cast<int>(faces_.size()); }
+  CellType type() const;  ///< of its faces: tri3 or tri6
+  bool on_boundary(int face) const { return faces_[face].cells == 1; }
+  int cell(int face) const { return faces_[face].cell; }  ///< its (first) solid cell
+  Eigen::VectorXi nodes(int face) const;                  ///< corners and mid-side nodes in gmsh's order, (3) or (6)
+  std::array<int, 3> corners(int face) const;             ///< outward
+  /// The face with these corners in any order.
+  std::optional<int> find(std::array<int, 3> corners) const;
+  std::vector<int> boundary() const;  ///< faces of one cell only, ascending
+
+ private:
+  struct Face {
+    std::array<int, 3> key;  // corner nodes, ascending
+    int cell;
+    short side;   // of the cell, 0..3
+    short cells;  // 1 or 2
+  };
+  CellBlock solids_;
+  std::vector<Face> faces_;
+};
+
+}  // namespace bielle::reduce

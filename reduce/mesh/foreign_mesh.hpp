@@ -1,0 +1,34 @@
+// Meshes that gmsh cannot read, or of which it loses the groups: tools/convert_mesh.py turns them into MSH files.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace bielle {
+class Progress;
+}
+
+namespace bielle::reduce {
+
+/// A folder for temporary files that disappears with the object.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();  ///< @throws ComputationError when none can be made
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Whether gmsh reads this kind of file without loss, by the ending of its name.
+bool gmsh_reads(const std::string& path);
+
+/// Converts a foreign mesh to `target`. The converter is looked for in the folder that the environment variable
+/// BIELLE_TOOLS names, then where Bielle is installed, then in its sources. Its notes are passed on.
+/// @throws InputError with the converter's own sentence; ComputationError when there is no converter
+void convert_mesh(const std::string& source, const std::string& target, Progress& progress);
+
+}  // namespace bielle::reduce

@@ -1,0 +1,236 @@
+#include "reduce/mesh/gmsh_model.hpp"
+
+#include <algorithm>
+#include <set>
+#include <unordered_map>
+
+#include <fmt/format.h>
+#include <gmsh.h>
+
+#include "reduce/common/error.hpp"
+
+namespace bielle::reduce {
+
+namespace {
+
+using Tags = std::vector<std::size_t>;
+
+// gmsh's node tags, which may be sparse, and their coordinates.
+struct Nodes {
+  std::unordered_map<std::size_t, int> number;
+  Eigen::Matrix3Xd points;
+};
+
+Nodes read_nodes(double metres) {
+  Tags tags;
+  std::vector<double> coordinates, parametric;
+  gmsh::model::mesh::getNodes(tags, coordinates, parametric);
+  Nodes nodes;
+  nodes.number.reserve(tags.size());
+  nodes.points = metres * Eigen::Map<Eigen::Matrix3Xd>(coordinates.data(), 3, coordinates.size() / 3);
+  for (std::size_t i = 0; i < tags.size(); ++i) nodes.number.emplace(tags[i], static_cast<int>(i));
+  return nodes;
+}
+
+std::string gmsh_cell_name(int type) {
+  std::string name;
+  int dim, order, nodes, primary;
+  std::vector<double> local;
+  gmsh::model::mesh::getElementProperties(type, name, dim, order, nodes, local, primary);
+  return name;
+}
+
+std::vector<int> entities(int dim) {
+  gmsh::vectorpair pairs;
+  gmsh::model::getEntities(pairs, dim);
+  std::vector<int> tags;
+  for (const auto& [d, tag] : pairs) tags.push_back(tag);
+  return tags;
+}
+
+// Calls visit(entity, type, element tags, node tags) for every block of elements of one dimension.
+template <class Visit>
+void visit_elements(int dim, const Visit& visit) {
+  for (int entity : entities(dim)) {
+    std::vector<int> types;
+    std::vector<Tags> elements, nodes;
+    gmsh::model::mesh::getElements(types, elements, nodes, dim, entity);
+    for (std::size_t i = 0; i < types.size(); ++i) visit(entity, types[i], elements[i], nodes[i]);
+  }
+}
+
+std::map<int, std::vector<Triangle>> read_triangles(const Nodes& nodes) {
+  std::map<int, std::vector<Triangle>> surfaces;
+  visit_elements(2, [&](int entity, int type, const Tags& elements, const Tags& tags) {
+    if (type != static_cast<int>(CellType::tri3) && type != static_cast<int>(CellType::tri6)) return;
+    const std::size_t width = tags.size() / elements.size();
+    for (std::size_t e = 0; e < elements.size(); ++e) {
+      Triangle triangle;
+      for (int k = 0; k < 3; ++k) triangle[k] = nodes.number.at(tags[e * width + k]);
+      surfaces[entity].push_back(triangle);
+    }
+  });
+  return surfaces;
+}
+
+// Reads the solid cells with the nodes' first numbers. @throws InputError
+void read_solids(const Nodes& nodes, const std::string& name, ExtractedModel& model) {
+  std::map<int, std::size_t> counts;
+  visit_elements(3, [&](int, int type, const Tags& elements, const Tags&) { counts[type] += elements.size(); });
+  for (const auto& [type, count] : counts)
+    if (type != static_cast<int>(CellType::tet4) && type != static_cast<int>(CellType::tet10))
+      throw InputError(
+          fmt::format("'{}' holds {} cells of type '{}'; supported are tetrahedra with 4 or 10 nodes: remesh "
+                      "the body with tetrahedra",
+                      name, count, gmsh_cell_name(type)));
+  if (counts.size() > 1)
+    throw InputError(
+        fmt::format("'{}' mixes {} tetrahedra with 4 nodes and {} with 10: their common faces do not fit "
+                    "together; use one kind",
+                    name, counts[static_cast<int>(CellType::tet4)], counts[static_cast<int>(CellType::tet10)]));
+  if (counts.empty()) {
+    std::size_t flat = 0;
+    visit_elements(2, [&](int, int, const Tags& elements, const Tags&) { flat += elements.size(); });
+    throw InputError(flat > 0
+                         ? fmt::format("'{}' holds a surface mesh only ({} cells); a body needs tetrahedra: mesh its "
+                                       "volume",
+                                       name, flat)
+                         : fmt::format("'{}' holds no cells", name));
+  }
+  const CellType type = static_cast<CellType>(counts.begin()->first);
+  const int width = node_count(type);
+  model.solids = {type, Eigen::MatrixXi(width, counts.begin()->second)};
+  int cell = 0;
+  visit_elements(3, [&](int entity, int, const Tags& elements, const Tags& tags) {
+    for (std::size_t e = 0; e < elements.size(); ++e, ++cell) {
+      for (int k = 0; k < width; ++k) model.solids.nodes(k, cell) = nodes.number.at(tags[e * width + k]);
+      model.cell_tags.push_back(elements[e]);
+      model.volumes[entity].push_back(cell);
+    }
+  });
+}
+
+// Renumbers so that exactly the nodes of solid cells remain, in their order.
+void drop_unused_nodes(const Eigen::Matrix3Xd& points, ExtractedModel& model) {
+  std::vector<int> number(points.cols(), -1);
+  for (Eigen::Index i = 0; i < model.solids.nodes.size(); ++i) number[model.solids.nodes.data()[i]] = 0;
+  int used = 0;
+  for (int& n : number)
+    if (n == 0) n = used++;
+  model.dropped_nodes = number.size() - used;
+  model.points.resize(3, used);
+  for (std::size_t i = 0; i < number.size(); ++i)
+    if (number[i] >= 0) model.points.col(number[i]) = points.col(i);
+  for (Eigen::Index i = 0; i < model.solids.nodes.size(); ++i)
+    model.solids.nodes.data()[i] = number[model.solids.nodes.data()[i]];
+  for (auto& [entity, triangles] : model.surfaces)
+    for (Triangle& triangle : triangles)
+      for (int& node : triangle) node = number[node];
+}
+
+}  // namespace
+
+void open_model(GmshSession& session, const std::string& path, const std::string& name) {
+  session.run(fmt::format("'{}' cannot be read", name), [&] {
+    gmsh::option::setString("Geometry.OCCTargetUnit", "M");
+    gmsh::open(path);
+  });
+  if (entities(0).empty() && entities(2).empty() && entities(3).empty())
+    throw InputError(fmt::format("'{}' cannot be read: gmsh finds nothing in it", name));
+}
+
+bool model_has_solid_cells() {
+  bool found = false;
+  visit_elements(3, [&](int, int, const Tags& elements, const Tags&) { found |= !elements.empty(); });
+  return found;
+}
+
+bool model_has_volumes() { return !entities(3).empty(); }
+
+std::vector<PhysicalGroup> physical_groups() {
+  std::vector<PhysicalGroup> groups;
+  std::set<std::string> names;
+  for (int dim : {3, 2}) {
+    gmsh::vectorpair pairs;
+    gmsh::model::getPhysicalGroups(pairs, dim);
+    for (const auto& [d, tag] : pairs) {
+      PhysicalGroup group;
+      group.dimension = dim;
+      gmsh::model::getPhysicalName(dim, tag, group.name);
+      if (group.name.empty()) group.name = fmt::format("{}_{}", dim == 3 ? "volume" : "surface", tag);
+      if (names.contains(group.name)) group.name += dim == 2 ? "_surface" : fmt::format("_{}", tag);
+      names.insert(group.name);
+      gmsh::model::getEntitiesForPhysicalGroup(dim, tag, group.entities);
+      for (int& entity : group.entities) entity = std::abs(entity);
+      groups.push_back(group);
+    }
+  }
+  return groups;
+}
+
+void mesh_model(GmshSession& session, const std::string& name, int dimension, std::optional<double> size,
+                const std::vector<EntitySize>& sizes) {
+  // Size on an entity of any dimension: that of the group to whose closure it belongs.
+  std::map<std::pair<int, int>, double> size_of;
+  for (const EntitySize& wish : sizes) {
+    gmsh::vectorpair closure, boundary;
+    for (int entity : wish.entities) closure.emplace_back(wish.dimension, entity);
+    for (int dim = wish.dimension; dim >= 0; --dim) {
+      for (const auto& [d, tag] : closure) {
+        const auto [place, is_new] = size_of.emplace(std::pair(d, std::abs(tag)), wish.size);
+        if (!is_new) place->second = std::min(place->second, wish.size);
+      }
+      if (dim == 0) break;
+      gmsh::model::getBoundary(closure, boundary, false, false, false);
+      closure = boundary;
+    }
+  }
+  session.run(fmt::format("'{}' cannot be meshed", name), [&] {
+    gmsh::model::mesh::clear();
+    if (size) gmsh::option::setNumber("Mesh.MeshSizeMax", *size);
+    if (!size_of.empty())
+      gmsh::model::mesh::setSizeCallback([size_of, size](int dim, int tag, double, double, double) {
+        const auto found = size_of.find({dim, tag});
+        return found != size_of.end() ? found->second : size.value_or(1e22);
+      });
+    // The geometry may ask for order 2 itself: it is raised later, when the straight cells are known to be sound.
+    gmsh::option::setNumber("Mesh.ElementOrder", 1);
+    gmsh::option::setNumber("Mesh.RecombineAll", 0);
+    gmsh::model::mesh::generate(dimension);
+  });
+}
+
+void make_second_order(GmshSession& session, const std::string& name) {
+  session.run(fmt::format("'{}' cannot be meshed with second-order elements", name), [&] {
+    // gmsh's own repair of curved elements throws on real parts (4.8): ours follows in straighten.cpp.
+    gmsh::option::setNumber("Mesh.HighOrderOptimize", 0);
+    gmsh::option::setNumber("Mesh.SecondOrderLinear", 0);
+    gmsh::option::setNumber("Mesh.SecondOrderIncomplete", 0);
+    gmsh::model::mesh::setOrder(2);
+  });
+}
+
+ExtractedModel extract_model(GmshSession& session, const std::string& name, double metres) {
+  ExtractedModel model;
+  session.run(fmt::format("'{}' cannot be read", name), [&] {
+    const Nodes nodes = read_nodes(metres);
+    read_solids(nodes, name, model);
+    model.surfaces = read_triangles(nodes);
+    model.groups = physical_groups();
+    drop_unused_nodes(nodes.points, model);
+  });
+  return model;
+}
+
+std::map<int, std::vector<Triangle>> extract_surfaces(GmshSession& session, const std::string& name, double metres,
+                                                      Eigen::Matrix3Xd& points) {
+  std::map<int, std::vector<Triangle>> surfaces;
+  session.run(fmt::format("'{}' cannot be read", name), [&] {
+    const Nodes nodes = read_nodes(metres);
+    points = nodes.points;
+    surfaces = read_triangles(nodes);
+  });
+  return surfaces;
+}
+
+}  // namespace bielle::reduce

@@ -1,0 +1,73 @@
+// What gmsh holds after it has read a file or meshed a geometry, as plain numbers in metres.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "reduce/mesh/gmsh_session.hpp"
+#include "reduce/mesh/mesh.hpp"
+
+namespace bielle::reduce {
+
+/// A physical group as gmsh has it.
+struct PhysicalGroup {
+  std::string name;           ///< "surface_7", "volume_7" where the file gives a number only
+  int dimension = 0;          ///< 2 or 3
+  std::vector<int> entities;  ///< surfaces or volumes
+};
+
+using Triangle = std::array<int, 3>;  ///< corner nodes
+
+/// A meshed model. Nodes are numbered from 0 without gaps; those that no solid cell uses are left out.
+struct ExtractedModel {
+  Eigen::Matrix3Xd points;  ///< [m]
+  CellBlock solids{CellType::tet4, {}};
+  std::vector<std::size_t> cell_tags;             ///< gmsh's (the file's) numbers of the solid cells
+  std::map<int, std::vector<int>> volumes;        ///< entity -> its cells
+  std::map<int, std::vector<Triangle>> surfaces;  ///< entity -> its triangles; nodes of none of the solids: -1
+  std::vector<PhysicalGroup> groups;
+  std::size_t dropped_nodes = 0;
+};
+
+/// Edge length on some entities.
+struct EntitySize {
+  int dimension;  ///< 2 or 3
+  std::vector<int> entities;
+  double size;  ///< in the geometry's own unit
+};
+
+/// Opens a geometry or mesh that gmsh reads.
+/// @param name  of the file in messages, here and below. STEP and IGES come in metres, whatever their unit.
+/// @throws InputError "<path>: ..." when gmsh cannot read it, or nothing is in it
+void open_model(GmshSession& session, const std::string& path, const std::string& name);
+
+bool model_has_solid_cells();
+bool model_has_volumes();
+
+/// Physical groups of surfaces and volumes. A surface group with the name of a volume group gets `_surface` behind it.
+std::vector<PhysicalGroup> physical_groups();
+
+/// Meshes the geometry with straight cells, in surfaces (dimension 2) or also in volumes (3), instead of an earlier
+/// mesh.
+/// @param size   largest edge in the geometry's own unit; absent: as the geometry says
+/// @param sizes  on some entities; fades into `size` away from them
+void mesh_model(GmshSession& session, const std::string& name, int dimension, std::optional<double> size,
+                const std::vector<EntitySize>& sizes);
+
+/// Puts mid-side nodes on the edges of a meshed geometry, on its curves and surfaces.
+void make_second_order(GmshSession& session, const std::string& name);
+
+/// @param metres  per unit of the model
+/// @throws InputError for cells that are no tetrahedra, for none at all, for linear and quadratic ones side by side
+ExtractedModel extract_model(GmshSession& session, const std::string& name, double metres);
+
+/// Triangles of the surfaces of a model meshed in dimension 2, and all their nodes.
+std::map<int, std::vector<Triangle>> extract_surfaces(GmshSession& session, const std::string& name, double metres,
+                                                      Eigen::Matrix3Xd& points);
+
+}  // namespace bielle::reduce

@@ -1,0 +1,99 @@
+#include "reduce/mesh/gmsh_session.hpp"
+
+#include <cstdio>
+#include <iostream>
+#include <mutex>
+#include <vector>
+
+#include <fcntl.h>
+#include <gmsh.h>
+#include <unistd.h>
+
+#include "reduce/common/error.hpp"
+
+namespace bielle::reduce {
+
+namespace {
+
+std::mutex& gmsh_mutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+// Sends the file descriptor of standard output to nowhere: OpenCASCADE writes to std::cout and to stdout alike.
+class SilentStandardOutput {
+ public:
+  SilentStandardOutput() {
+    flush();
+    saved_ = dup(STDOUT_FILENO);
+    const int nowhere = open("/dev/null", O_WRONLY);
+    if (nowhere < 0) return;
+    dup2(nowhere, STDOUT_FILENO);
+    close(nowhere);
+  }
+  ~SilentStandardOutput() {
+    flush();
+    if (saved_ < 0) return;
+    dup2(saved_, STDOUT_FILENO);
+    close(saved_);
+  }
+  SilentStandardOutput(const SilentStandardOutput&) = delete;
+  SilentStandardOutput& operator=(const SilentStandardOutput&) = delete;
+
+ private:
+  static void flush() {
+    std::cout.flush();
+    std::fflush(stdout);
+  }
+  int saved_ = -1;
+};
+
+// The errors that gmsh logged since the log was started, without their label.
+std::string logged_errors() {
+  std::vector<std::string> log;
+  gmsh::logger::get(log);
+  std::string errors;
+  const std::string label = "Error: ";
+  for (const std::string& line : log)
+    if (line.compare(0, label.size(), label) == 0) errors += (errors.empty() ? "" : "; ") + line.substr(label.size());
+  return errors;
+}
+
+}  // namespace
+
+struct GmshSession::State {
+  std::unique_lock<std::mutex> lock{gmsh_mutex()};
+  SilentStandardOutput silence;
+};
+
+GmshSession::GmshSession(int threads) : state_(std::make_unique<State>()) {
+  gmsh::initialize(0, nullptr, false);
+  gmsh::option::setNumber("General.Terminal", 0);
+  gmsh::option::setNumber("General.NumThreads", threads);
+  gmsh::logger::start();
+}
+
+GmshSession::~GmshSession() {
+  try {
+    gmsh::logger::stop();
+    gmsh::finalize();
+  } catch (...) {  // nothing can be done about it, and a destructor must not throw
+  }
+}
+
+void GmshSession::run(const std::string& what, const std::function<void()>& work) {
+  const auto fail = [&](std::string reason) {
+    const std::string errors = logged_errors();
+    if (!errors.empty()) reason = errors;
+    throw InputError(what + (reason.empty() ? "" : ": " + reason));
+  };
+  try {
+    work();
+  } catch (const std::string& reason) {
+    fail(reason);
+  } catch (int) {
+    fail("");
+  }
+}
+
+}  // namespace bielle::reduce

@@ -1,0 +1,33 @@
+// gmsh's library, tamed: one session at a time, silent, and with errors that are exceptions of ours.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace bielle::reduce {
+
+/// gmsh initialised for as long as the object lives.
+///
+/// gmsh is one global object: a second session waits until the first has ended. It throws std::string, and after a
+/// throw every later `open` silently does nothing until it is finalised: `run` translates and the session is then to be
+/// left. OpenCASCADE prints on standard output whatever one asks of it: standard output is closed to it meanwhile. No
+/// configuration file of the user is read.
+class GmshSession {
+ public:
+  explicit GmshSession(int threads = 1);
+  ~GmshSession();
+  GmshSession(const GmshSession&) = delete;
+  GmshSession& operator=(const GmshSession&) = delete;
+
+  /// Calls `work`, which may call gmsh.
+  /// @param what  what was being done, as the beginning of a message: "rod.geo cannot be read"
+  /// @throws InputError "<what>: <gmsh's reason>"
+  void run(const std::string& what, const std::function<void()>& work);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace bielle::reduce

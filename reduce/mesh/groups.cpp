@@ -1,0 +1,174 @@
+#include "reduce/mesh/groups.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "reduce/common/error.hpp"
+#include "reduce/mesh/selectors.hpp"
+
+namespace bielle::reduce {
+
+std::vector<std::string> group_names(const std::vector<PhysicalGroup>& groups, int dimension) {
+  std::vector<std::string> names;
+  for (const PhysicalGroup& group : groups)
+    if (group.dimension == dimension) names.push_back(group.name);
+  return names;
+}
+
+const PhysicalGroup* find_group(const std::vector<PhysicalGroup>& groups, const std::string& name) {
+  for (const PhysicalGroup& group : groups)
+    if (group.name == name) return &group;
+  return nullptr;
+}
+
+namespace {
+
+// "'bore' is no physical surface of rod.geo; did you mean 'bore_big'?"
+[[noreturn]] void fail_unknown_group(const std::string& located, const std::string& name, int dimension,
+                                     const std::vector<PhysicalGroup>& groups) {
+  const std::string kind = dimension == 2 ? "surface" : "volume";
+  const PhysicalGroup* other = find_group(groups, name);
+  const std::vector<std::string> names = group_names(groups, dimension);
+  std::string advice = names.empty() ? fmt::format("; it has no physical {}s", kind) : did_you_mean(name, names);
+  if (other != nullptr)
+    throw InputError(at_place(located, fmt::format("'{}' is a physical {} of the geometry, but a {} is needed{}", name,
+                                                   other->dimension == 2 ? "surface" : "volume", kind, advice)));
+  if (dimension == 2 && names.empty())
+    advice += "; select by shape: {cylinder: {point, axis, radius}}, {plane: {point, normal}} or {box: [[..], [..]]}";
+  throw InputError(at_place(located, fmt::format("'{}' is not a physical {} of the geometry{}", name, kind, advice)));
+}
+
+// The faces of solid cells on which the triangles of an entity lie.
+std::vector<int> faces_of(const std::vector<Triangle>& triangles, const FaceTable& faces, const std::string& group) {
+  std::vector<int> found;
+  for (const Triangle& triangle : triangles) {
+    const std::optional<int> face =
+        triangle[0] < 0 || triangle[1] < 0 || triangle[2] < 0 ? std::nullopt : faces.find(triangle);
+    if (!face)
+      throw InputError(
+          fmt::format("surface group '{}' holds a triangle that is no face of a solid cell: shells and loose "
+                      "surfaces are not reduced",
+                      group));
+    found.push_back(*face);
+  }
+  return found;
+}
+
+Group volume_group(const Mesh& mesh, std::vector<int> cells) {
+  const CellBlock& block = mesh.solids();
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  std::set<int> nodes;
+  for (int cell : cells) nodes.insert(block.nodes.col(cell).begin(), block.nodes.col(cell).end());
+  return {3, {{block.type, std::move(cells)}}, {nodes.begin(), nodes.end()}};
+}
+
+// Faces of every surface group that the mesh shall have, by name.
+std::map<std::string, std::vector<int>> surface_groups(const MeshRequest& request, const ExtractedModel& model,
+                                                       const Mesh& mesh, const FaceTable& faces, bool geometry) {
+  std::map<std::string, std::vector<int>> result;
+  for (const PhysicalGroup& group : model.groups) {
+    if (group.dimension != 2) continue;
+    std::vector<int>& of_group = result[group.name];
+    for (int entity : group.entities)
+      if (const auto found = model.surfaces.find(entity); found != model.surfaces.end())
+        for (int face : faces_of(found->second, faces, group.name)) of_group.push_back(face);
+  }
+
+  // What shapes select from: the surface of the body, with the surfaces of the geometry where there is one.
+  BodySurface surface;
+  std::vector<int> face_of;
+  for (int face : faces.boundary()) {
+    surface.triangles.push_back(faces.corners(face));
+    face_of.push_back(face);
+  }
+  if (geometry) {
+    surface.entities.assign(face_of.size(), 0);
+    std::map<int, int> position;
+    for (std::size_t i = 0; i < face_of.size(); ++i) position[face_of[i]] = static_cast<int>(i);
+    for (const auto& [entity, triangles] : model.surfaces)
+      for (const Triangle& triangle : triangles)
+        if (const std::optional<int> face = faces.find(triangle); face && position.contains(*face))
+          surface.entities[position[*face]] = entity;
+  }
+  for (const SurfaceSelection& selection : request.surfaces) {
+    std::vector<int> selected;
+    for (const SurfaceSelector& selector : selection.selectors) {
+      if (const auto* name = std::get_if<std::string>(&selector)) {
+        const std::vector<int>& of_group = result.at(*name);
+        if (of_group.empty())
+          throw InputError(at_place(selection.located, fmt::format("the physical surface '{}' is empty", *name)));
+        selected.insert(selected.end(), of_group.begin(), of_group.end());
+        continue;
+      }
+      try {
+        for (int triangle : select_triangles(selector, mesh.points, surface)) selected.push_back(face_of[triangle]);
+      } catch (const InputError& error) {
+        throw InputError(at_place(selection.located, error.what()));
+      }
+    }
+    result[selection.group] = selected;
+  }
+  return result;
+}
+
+}  // namespace
+
+void check_groups(const MeshRequest& request, const std::vector<PhysicalGroup>& groups) {
+  const auto is = [&](const std::string& name, int dimension) {
+    const PhysicalGroup* group = find_group(groups, name);
+    return group != nullptr && group->dimension == dimension;
+  };
+  for (const SurfaceSelection& selection : request.surfaces)
+    for (const SurfaceSelector& selector : selection.selectors)
+      if (const auto* name = std::get_if<std::string>(&selector); name != nullptr && !is(*name, 2))
+        fail_unknown_group(selection.located, *name, 2, groups);
+  for (const VolumeSelection& volume : request.volumes)
+    if (volume.group != "all" && !is(volume.group, 3)) fail_unknown_group(volume.located, volume.group, 3, groups);
+}
+
+void add_volume_groups(const ExtractedModel& model, Mesh& mesh) {
+  for (const PhysicalGroup& group : model.groups) {
+    if (group.dimension != 3) continue;
+    std::vector<int> cells;
+    for (int entity : group.entities)
+      if (const auto found = model.volumes.find(entity); found != model.volumes.end())
+        cells.insert(cells.end(), found->second.begin(), found->second.end());
+    if (!cells.empty()) mesh.groups[group.name] = volume_group(mesh, cells);
+  }
+  if (!group_names(model.groups, 3).empty()) return;
+  std::vector<int> all(mesh.solid_count());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
+  mesh.groups["all"] = volume_group(mesh, all);
+}
+
+void add_surface_groups(const MeshRequest& request, const ExtractedModel& model, bool geometry, const FaceTable& faces,
+                        Mesh& mesh) {
+  const auto groups = surface_groups(request, model, mesh, faces, geometry);
+  std::map<int, int> cell_of;  // face -> surface cell
+  for (const auto& [name, members] : groups)
+    for (int face : members) cell_of.emplace(face, 0);
+  CellBlock block{faces.type(), Eigen::MatrixXi(node_count(faces.type()), cell_of.size())};
+  int next = 0;
+  for (auto& [face, cell] : cell_of) {
+    cell = next++;
+    block.nodes.col(cell) = faces.nodes(face);
+  }
+  for (const auto& [name, members] : groups) {
+    if (members.empty()) continue;
+    std::set<int> cells, nodes;
+    for (int face : members) {
+      const int cell = cell_of.at(face);
+      cells.insert(cell);
+      nodes.insert(block.nodes.col(cell).begin(), block.nodes.col(cell).end());
+    }
+    mesh.groups[name] = {2, {{block.type, {cells.begin(), cells.end()}}}, {nodes.begin(), nodes.end()}};
+  }
+  if (block.nodes.cols() > 0) mesh.blocks.push_back(std::move(block));
+}
+
+}  // namespace bielle::reduce

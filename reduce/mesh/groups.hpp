@@ -1,0 +1,33 @@
+// Named groups of a mesh: physical groups of the file, and surfaces that the user selects by shape.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reduce/mesh/faces.hpp"
+#include "reduce/mesh/gmsh_model.hpp"
+#include "reduce/mesh/mesh.hpp"
+#include "reduce/mesh/mesh_request.hpp"
+
+namespace bielle::reduce {
+
+/// Names of the physical groups of one dimension.
+std::vector<std::string> group_names(const std::vector<PhysicalGroup>& groups, int dimension);
+
+/// nullptr when there is none of that name.
+const PhysicalGroup* find_group(const std::vector<PhysicalGroup>& groups, const std::string& name);
+
+/// Every physical group that the user names must be there, with the right dimension.
+/// @throws InputError with the place in the input file and the nearest name
+void check_groups(const MeshRequest& request, const std::vector<PhysicalGroup>& groups);
+
+/// Volume groups of the model; `all` when it has none.
+void add_volume_groups(const ExtractedModel& model, Mesh& mesh);
+
+/// Surface groups of the model and those that the user selects, and the surface cells that they consist of.
+/// @param geometry  whether the model's surfaces are those of a geometry, which shapes then select as wholes
+/// @throws InputError when a group is empty, holds loose triangles, or no surface lies on a shape
+void add_surface_groups(const MeshRequest& request, const ExtractedModel& model, bool geometry, const FaceTable& faces,
+                        Mesh& mesh);
+
+}  // namespace bielle::reduce

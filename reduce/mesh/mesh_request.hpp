@@ -1,0 +1,73 @@
+// What the user asks of the mesh of a body: which geometry, how fine, and which surfaces by what name.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace bielle::reduce {
+
+/// A circular cylinder, endless along its axis.
+struct CylinderSelector {
+  Eigen::Vector3d point;  ///< on the axis [m]
+  Eigen::Vector3d axis;   ///< any length but zero
+  double radius = 0;      ///< [m]
+};
+
+struct PlaneSelector {
+  Eigen::Vector3d point;   ///< in the plane [m]
+  Eigen::Vector3d normal;  ///< any length but zero, either sense
+};
+
+/// An axis-parallel box, its faces included.
+struct BoxSelector {
+  Eigen::Vector3d low, high;  ///< opposite corners [m]
+};
+
+/// A physical group of the geometry, or a shape on which the surface lies.
+using SurfaceSelector = std::variant<std::string, CylinderSelector, PlaneSelector, BoxSelector>;
+
+/// One or more selectors whose surfaces together become a surface group.
+struct SurfaceSelection {
+  std::string group;                       ///< name of the group in the mesh: the physical group's own, or a new one
+  std::vector<SurfaceSelector> selectors;  ///< their union
+  std::string located;                     ///< "rod.yaml:17: interfaces.big_end.surface", put before messages
+};
+
+/// A volume group that must exist.
+struct VolumeSelection {
+  std::string group;    ///< physical volume, or "all"
+  std::string located;  ///< "rod.yaml:14: regions.rod"
+};
+
+/// Edge length on one group of a geometry, finer or coarser than elsewhere.
+struct GroupSize {
+  double size = 0;      ///< [m]
+  std::string located;  ///< "rod.yaml:9: mesh.sizes.bore_big"
+};
+
+/// Everything that import_mesh needs. Lengths in SI but for the geometry's own numbers.
+struct MeshRequest {
+  std::string path;                        ///< geometry or mesh
+  std::string located;                     ///< "rod.yaml:2: geometry", put before messages about the file
+  std::optional<std::string> length_unit;  ///< of a file that carries none; absent: m
+  std::string length_unit_located;
+  std::optional<double> size;              ///< largest edge of the elements [m]; absent: the geometry's own
+  std::optional<int> order;                ///< 1 or 2; absent: 2 for a geometry, as it is for a mesh
+  std::map<std::string, GroupSize> sizes;  ///< by physical group or by the `group` of a selection
+  std::string mesh_located;                ///< "rod.yaml:8: mesh"
+  std::vector<SurfaceSelection> surfaces;
+  std::vector<VolumeSelection> volumes;
+  int threads = 1;  ///< for gmsh's meshers; the mesh does not depend on it
+};
+
+/// `located: message`, or the message alone when there is no place to name.
+inline std::string at_place(const std::string& located, const std::string& message) {
+  return located.empty() ? message : located + ": " + message;
+}
+
+}  // namespace bielle::reduce

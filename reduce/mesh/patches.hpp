@@ -1,0 +1,33 @@
+// The surface of a body as faces that a user would name: surfaces of the geometry, or what sharp edges divide a mesh
+// into.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "reduce/mesh/selectors.hpp"
+#include "reduce/mesh/shapes.hpp"
+
+namespace bielle::reduce {
+
+/// A connected part of the surface, bounded by sharp edges or by those of the geometry's surface.
+struct Patch {
+  std::vector<int> triangles;
+  int entity = 0;          ///< surface of the geometry; 0 on a mesh without geometry
+  double area = 0;         ///< of its plane triangles [m^2]
+  Eigen::Vector3d centre;  ///< of area [m]
+  Eigen::AlignedBox3d box;
+  Shape shape;
+  bool hollow = false;  ///< a cylinder whose inside is empty: a bore
+};
+
+/// Divides the surface, by geometry's surface where known, otherwise at edges where the normal turns by more than 40
+/// degrees. Largest first.
+std::vector<Patch> find_patches(const Eigen::Matrix3Xd& points, const BodySurface& surface);
+
+/// For a selector that found nothing: "; the cylinders of the body are: ..." with those that come nearest.
+std::string near_candidates(const SurfaceSelector& shape, const Eigen::Matrix3Xd& points, const BodySurface& surface);
+
+}  // namespace bielle::reduce

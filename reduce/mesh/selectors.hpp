@@ -1,0 +1,38 @@
+// Surfaces by shape: which triangles lie on a cylinder, on a plane or in a box.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "reduce/mesh/gmsh_model.hpp"
+#include "reduce/mesh/mesh_request.hpp"
+
+namespace bielle::reduce {
+
+/// How far a node may lie from the shape that selects it: 1e-4 of the diagonal of the body's box [m]. Wide enough for
+/// coordinates with six digits, narrow enough to tell neighbouring surfaces apart.
+double selection_tolerance(const Eigen::Matrix3Xd& points);
+
+/// Whether a triangle lies on the shape: its three corners do (mid-side nodes may be straight) and, on a cylinder or a
+/// plane, its normal is within 60 degrees of the shape's. The normal keeps a coarse disc, all of whose nodes lie on its
+/// rim, off the cylinder.
+bool lies_on(const SurfaceSelector& shape, const Eigen::Matrix3Xd& points, const Triangle& triangle, double tolerance);
+
+/// "the cylinder with radius 0.011 m about (..) along (..)", "the plane ...", "the box ..."
+std::string selector_name(const SurfaceSelector& shape);
+
+/// Triangles of the surface of a body, and to which surface of the geometry they belong.
+struct BodySurface {
+  std::vector<Triangle> triangles;
+  std::vector<int> entities;  ///< of each triangle; empty for a mesh without geometry
+};
+
+/// Numbers of the triangles that a shape selects, ascending. On a geometry a shape takes whole surfaces: those all of
+/// whose triangles lie on it. On a mesh it takes triangles.
+/// @throws InputError when there are none: which cylinders, planes or surfaces come nearest
+std::vector<int> select_triangles(const SurfaceSelector& shape, const Eigen::Matrix3Xd& points,
+                                  const BodySurface& surface);
+
+}  // namespace bielle::reduce
