@@ -54,6 +54,7 @@ class LocalState {
   using Segment = Eigen::Map<const VectorX>;
   LocalState(const State& state, const Slots& slots, const Environment& environment)
       : state_(state), slots_(slots), environment_(environment) {}
+  const State& global() const { return state_; }
   double time() const { return state_.time; }
   const Environment& environment() const { return environment_; }
   const Slots& slots() const { return slots_; }

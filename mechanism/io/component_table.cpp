@@ -1,0 +1,56 @@
+#include "mechanism/io/component_table.hpp"
+
+#include <fmt/format.h>
+
+#include "mechanism/elements/beam.hpp"
+#include "mechanism/elements/load.hpp"
+#include "mechanism/elements/point_mass.hpp"
+#include "mechanism/elements/rigid_body.hpp"
+#include "mechanism/elements/spring_damper.hpp"
+#include "mechanism/elements/superelement_body.hpp"
+#include "mechanism/joints/drive.hpp"
+#include "mechanism/joints/lower_pairs.hpp"
+
+namespace bielle::mechanism {
+
+const std::vector<ComponentType>& component_table() {
+  static const std::vector<ComponentType> table = {
+      {Section::elements, "rigid_body", read_rigid_body},
+      {Section::elements, "point_mass", read_point_mass},
+      {Section::elements, "beam", read_beam},
+      {Section::elements, "superelement", read_superelement_body},
+      {Section::elements, "spring_damper", read_spring_damper},
+      {Section::joints, "rigid", read_rigid},
+      {Section::joints, "hinge", read_hinge},
+      {Section::joints, "prismatic", read_prismatic},
+      {Section::joints, "cylindrical", read_cylindrical},
+      {Section::joints, "spherical", read_spherical},
+      {Section::joints, "planar", read_planar},
+      {Section::drives, "drive", read_drive},
+      {Section::loads, "load", read_load},
+  };
+  return table;
+}
+
+const char* section_name(Section section) {
+  switch (section) {
+    case Section::elements: return "elements";
+    case Section::joints: return "joints";
+    case Section::drives: return "drives";
+    case Section::loads: break;
+  }
+  return "loads";
+}
+
+void read_component(Section section, const std::string& name, const YamlValue& entry, Model& model) {
+  std::vector<std::string> names;
+  for (const ComponentType& type : component_table())
+    if (type.section == section) names.push_back(type.name);
+  const bool has_types = section == Section::elements || section == Section::joints;
+  const std::string wanted = has_types ? entry.at("type").text() : names.front();
+  for (const ComponentType& type : component_table())
+    if (type.section == section && wanted == type.name) return type.read(name, entry, model);
+  entry.at("type").fail(fmt::format("'{}' is not a type of the {}{}", wanted, section_name(section), did_you_mean(wanted, names)));
+}
+
+}  // namespace bielle::mechanism

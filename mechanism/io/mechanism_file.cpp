@@ -1,0 +1,173 @@
+#include "mechanism/io/mechanism_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "mechanism/io/component_table.hpp"
+#include "mechanism/system/read_frame.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+constexpr const char* direction_names[] = {"x", "y", "z", "rx", "ry", "rz"};
+const std::vector<std::string> directions(std::begin(direction_names), std::end(direction_names));
+
+std::size_t direction_index(const std::string& name) {
+  return static_cast<std::size_t>(std::find(directions.begin(), directions.end(), name) - directions.begin());
+}
+
+/// Evaluates the parameters; each may use those written before it.
+Parameters read_parameters(YamlValue& root, const std::map<std::string, std::string>& overrides) {
+  Parameters parameters;
+  std::vector<std::string> names;
+  if (const auto section = root.find("parameters"))
+    for (const auto& [name, value] : section->entries()) {
+      const auto given = overrides.find(name);
+      try {
+        parameters[name] = given == overrides.end() ? value.number() : Expression(given->second, {}, parameters)({});
+      } catch (const std::runtime_error& error) {
+        if (given == overrides.end()) throw;
+        throw InputError(fmt::format("--set {}={}: {}", name, given->second, error.what()));
+      }
+      names.push_back(name);
+      root.set_parameters(parameters);
+    }
+  for (const auto& [name, expression] : overrides)
+    if (!parameters.count(name))
+      throw InputError(fmt::format("--set {}={}: {} has no parameter '{}'{}", name, expression, root.file(), name,
+                                   did_you_mean(name, names)));
+  return parameters;
+}
+
+void read_holds(const YamlValue& entry, Node& node) {
+  if (const auto fixed = entry.find("fixed")) {
+    if (fixed->is_sequence()) {
+      for (const YamlValue& item : fixed->items())
+        node.freedom[direction_index(item.word(directions, "direction"))] = Freedom::fixed;
+    } else if (fixed->boolean()) {
+      node.freedom.fill(Freedom::fixed);
+    }
+  }
+  if (const auto motion = entry.find("motion")) {
+    motion->check_keys(directions, "`motion`");
+    for (const auto& [name, value] : motion->entries()) {
+      const std::size_t k = direction_index(name);
+      if (node.freedom[k] == Freedom::fixed && entry.at("fixed").is_sequence())
+        value.fail("this direction is fixed as well");
+      node.freedom[k] = Freedom::prescribed;
+      node.motion[k] = value.expression({"t"});
+    }
+    // Rotations are prescribed together: those that are fixed stay zero.
+    const auto rotations = node.freedom.begin() + 3;
+    const auto prescribed = std::count(rotations, node.freedom.end(), Freedom::prescribed);
+    if (prescribed > 0) {
+      if (std::count(rotations, node.freedom.end(), Freedom::free) > 0)
+        motion->fail("prescribed rotations come all three together: give rx, ry and rz, or fix the others");
+      std::fill(rotations, node.freedom.end(), Freedom::prescribed);
+    }
+  }
+}
+
+void read_node(const std::string& name, const YamlValue& entry, Model& model) {
+  std::vector<std::string> keys = {"position", "velocity", "angular_velocity", "fixed", "motion"};
+  keys.insert(keys.end(), orientation_keys().begin(), orientation_keys().end());
+  entry.check_keys(keys, "a node");
+  if (name == "ground") entry.fail("'ground' is the built-in fixed node at the origin; choose another name");
+  Node node;
+  node.name = name;
+  node.frame = read_frame(entry);
+  if (entry.has("velocity")) node.velocity = entry.at("velocity").vector3();
+  if (entry.has("angular_velocity")) node.angular_velocity = entry.at("angular_velocity").vector3();
+  read_holds(entry, node);
+  model.add_node(std::move(node));
+}
+
+Scheme read_scheme(const YamlValue& entry, std::string& description) {
+  const std::string name = entry.has("scheme")
+                               ? entry.at("scheme").word({"generalized_alpha", "hht", "newmark"}, "scheme")
+                               : std::string("generalized_alpha");
+  const auto refuse = [&](const char* key) {
+    if (entry.has(key)) entry.at(key).fail(fmt::format("is no parameter of the scheme '{}'", name));
+  };
+  const auto in_range = [&](const char* key, double fallback, double least, double most) {
+    if (!entry.has(key)) return fallback;
+    const double value = entry.at(key).number();
+    if (value < least || value > most) entry.at(key).fail(fmt::format("expected a number from {} to {:.4g}, found {}", least, most, value));
+    return value;
+  };
+  if (name == "generalized_alpha") {
+    refuse("alpha");
+    const double rho = in_range("rho", 0.8, 0, 1);
+    description = fmt::format("generalised-alpha, rho = {}", rho);
+    return Scheme::generalized_alpha(rho);
+  }
+  refuse("rho");
+  if (name == "hht") {
+    const double alpha = in_range("alpha", 0.1, 0, 1.0 / 3);
+    description = fmt::format("HHT, alpha = {}", alpha);
+    return Scheme::hht(alpha);
+  }
+  refuse("alpha");
+  description = "Newmark (trapezoidal rule)";
+  return Scheme::newmark();
+}
+
+Analysis read_analysis(const YamlValue& entry) {
+  const std::vector<std::string> planned = {"kinematic", "eigen", "inverse_dynamics", "frequency_response", "state_space"};
+  const std::string type = entry.at("type").text();
+  if (std::find(planned.begin(), planned.end(), type) != planned.end())
+    entry.at("type").fail(fmt::format("the analysis '{}' is not in this version; there are assembly, static and dynamic", type));
+  Analysis analysis;
+  analysis.name = entry.at("type").word({"assembly", "static", "dynamic"}, "analysis");
+  if (analysis.name == "assembly") {
+    entry.check_keys({"type"}, "the analysis 'assembly'");
+    analysis.type = Analysis::Type::assembly;
+  } else if (analysis.name == "static") {
+    entry.check_keys({"type", "steps"}, "the analysis 'static'");
+    analysis.type = Analysis::Type::statics;
+    if (entry.has("steps")) analysis.steps = entry.at("steps").integer();
+    if (analysis.steps < 1) entry.at("steps").fail("expected at least one load step");
+  } else {
+    entry.check_keys({"type", "duration", "step", "scheme", "rho", "alpha"}, "the analysis 'dynamic'");
+    analysis.type = Analysis::Type::dynamics;
+    analysis.duration = entry.at("duration").positive_number();
+    analysis.step = entry.at("step").positive_number();
+    if (analysis.step > analysis.duration) entry.at("step").fail("is longer than the duration");
+    analysis.scheme = read_scheme(entry, analysis.scheme_name);
+  }
+  return analysis;
+}
+
+}  // namespace
+
+MechanismFile read_mechanism_file(const std::string& path, const std::map<std::string, std::string>& overrides) {
+  YamlValue root = YamlValue::load(path);
+  root.check_keys({"mechanism", "gravity", "parameters", "nodes", "elements", "joints", "drives", "loads", "analysis", "output"},
+                  "a mechanism file");
+  MechanismFile file;
+  file.text = root.source_text();
+  root.set_parameters(read_parameters(root, overrides));
+  if (root.has("mechanism")) file.model.title = root.at("mechanism").text();
+  if (root.has("gravity")) file.model.environment.gravity = root.at("gravity").vector3();
+
+  if (root.has("nodes"))
+    for (const auto& [name, entry] : root.at("nodes").entries()) read_node(name, entry, file.model);
+  for (const Section section : {Section::elements, Section::joints, Section::drives, Section::loads}) {
+    const auto entries = root.find(section_name(section));
+    if (!entries) continue;
+    for (const auto& [name, entry] : entries->entries()) read_component(section, name, entry, file.model);
+  }
+  if (file.model.members().empty()) root.fail("the mechanism has no elements, joints or loads");
+
+  if (const auto analyses = root.find("analysis"))
+    for (const YamlValue& entry : analyses->items()) file.analyses.push_back(read_analysis(entry));
+  if (const auto output = root.find("output")) {
+    output->check_keys({"every"}, "`output`");
+    if (output->has("every")) file.output.every = output->at("every").integer();
+    if (file.output.every < 1) output->at("every").fail("expected at least 1");
+  }
+  return file;
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,40 @@
+// The mechanism file: a model, the analyses to run on it, and what to record.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "mechanism/solvers/time_integration.hpp"
+#include "mechanism/system/model.hpp"
+
+namespace bielle::mechanism {
+
+/// One entry of `analysis`.
+struct Analysis {
+  enum class Type { assembly, statics, dynamics } type;
+  std::string name;         ///< as in the file: "dynamic"
+  int steps = 1;            ///< statics
+  double duration = 0;      ///< [s] dynamics
+  double step = 0;          ///< [s]
+  Scheme scheme{};          ///< dynamics
+  std::string scheme_name;  ///< for the summary
+};
+
+struct OutputOptions {
+  int every = 1;  ///< steps between records; the first and the last are always recorded
+};
+
+struct MechanismFile {
+  Model model;
+  std::vector<Analysis> analyses;
+  OutputOptions output;
+  std::string text;  ///< of the file
+};
+
+/// Reads a mechanism file.
+/// @param overrides  parameters given on the command line, `NAME` -> `EXPRESSION`
+/// @throws InputError
+MechanismFile read_mechanism_file(const std::string& path, const std::map<std::string, std::string>& overrides = {});
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,31 @@
+// Runs the analyses of a mechanism file one after the other and records them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mechanism/io/mechanism_file.hpp"
+#include "reduce/common/progress.hpp"
+
+namespace bielle::mechanism {
+
+/// What the summary says of one analysis.
+struct AnalysisSummary {
+  std::string name;       ///< "dynamic", with the scheme
+  double end_time = 0;    ///< [s]
+  long steps = 0;
+  long iterations = 0;    ///< linear solves
+  long records = 0;       ///< rows written
+  StartReport start;      ///< dynamics: what the consistent start had to change
+  Energy energy;          ///< at the end [J]; dissipation and input are integrals over the analysis
+  double energy_start = 0;    ///< kinetic + elastic + gravity at the start [J]
+  double balance = 0;         ///< at the end: what is missing [J]
+  double largest_energy = 0;  ///< largest of kinetic, elastic and change of gravity: to judge the balance by
+};
+
+/// Runs all analyses and writes the results file.
+/// @throws InputError, ComputationError; the results file then holds every row recorded so far, `complete = false`
+std::vector<AnalysisSummary> run_analyses(const MechanismFile& file, const std::string& results_path,
+                                          Progress& progress);
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,207 @@
+#include "mechanism/joints/drive.hpp"
+
+#include <fmt/format.h>
+
+namespace bielle::mechanism {
+namespace {
+
+void declare_on_joint(const Joint& joint, Declaration& declaration) {
+  declaration.nodes = {joint.frames().first, joint.frames().second};
+}
+
+std::string force_units(const JointCoordinate& coordinate) {
+  return coordinate.kind == JointCoordinate::Kind::displacement ? "N" : "N m";
+}
+
+OutputField force_field(const Joint& joint, std::size_t coordinate) {
+  return {"drive_force", {}, force_units(joint.coordinates()[coordinate]),
+          "force or torque of the drive along the joint's coordinate"};
+}
+
+void append_break_points(const Expression& f, std::vector<double>& times) {
+  const std::vector<double> points = f.break_points();
+  times.insert(times.end(), points.begin(), points.end());
+}
+
+}  // namespace
+
+// -- position
+
+PositionDrive::PositionDrive(std::string name, const Joint& joint, std::size_t coordinate, Expression f)
+    : Component("drive", std::move(name)), joint_(joint), coordinate_(coordinate), f_(std::move(f)) {}
+
+Measure PositionDrive::measure(const LocalState& state) const {
+  Measure m = joint_.calc_coordinate(coordinate_, state.node(0), state.node(1));
+  const double target = f_(state.time());
+  // An angle is wanted in the turn of its target: the drive counts turns by time, not by memory, so that steps of any
+  // size and restarts find the same.
+  if (joint_.coordinates()[coordinate_].kind == JointCoordinate::Kind::angle) m.value = unwrap_angle(m.value, target);
+  m.value -= target;
+  return m;
+}
+
+void PositionDrive::declare(Declaration& declaration) const {
+  declare_on_joint(joint_, declaration);
+  declaration.stiffness = true;
+  const JointCoordinate& coordinate = joint_.coordinates()[coordinate_];
+  declaration.multipliers.push_back({coordinate.name, force_units(coordinate)});
+}
+
+void PositionDrive::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
+  const Measure m = measure(state);
+  r.head<12>() += state.multiplier()[0] * m.gradient;
+  r[12] += m.value;
+}
+
+void PositionDrive::add_tangent(const LocalState& state, LocalTangent& tangent) const {
+  if (!tangent.wants_K) return;
+  const Measure m = measure(state);
+  tangent.K.topLeftCorner<12, 12>() += state.multiplier()[0] * m.second;
+  tangent.K.block<12, 1>(0, 12) += m.gradient;
+  tangent.K.block<1, 12>(12, 0) += m.gradient.transpose();
+}
+
+void PositionDrive::add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
+                                         Eigen::Ref<VectorX> acceleration) const {
+  const Measure m = measure(state);
+  const Vector12 v = pair_rate(state.node(0), state.node(1)), a = pair_acceleration(state.node(0), state.node(1));
+  velocity[0] += m.rate(v) - f_.derivative(state.time(), 1);
+  acceleration[0] += m.acceleration(v, a) - f_.derivative(state.time(), 2);
+}
+
+void PositionDrive::add_energy(const LocalState& state, Energy& energy) const {
+  energy.input -= state.multiplier()[0] * f_.derivative(state.time(), 1);
+}
+
+std::vector<OutputField> PositionDrive::output_fields() const { return {force_field(joint_, coordinate_)}; }
+void PositionDrive::write_output(const LocalState& state, double* values) const { *values = -state.multiplier()[0]; }
+void PositionDrive::add_break_points(std::vector<double>& times) const { append_break_points(f_, times); }
+
+// -- rate
+
+RateDrive::RateDrive(std::string name, const Joint& joint, std::size_t coordinate, Expression f)
+    : Component("drive", std::move(name)), joint_(joint), coordinate_(coordinate), f_(std::move(f)) {}
+
+Measure RateDrive::measure(const LocalState& state) const {
+  return joint_.calc_coordinate(coordinate_, state.node(0), state.node(1));
+}
+
+void RateDrive::declare(Declaration& declaration) const {
+  declare_on_joint(joint_, declaration);
+  declaration.stiffness = declaration.damping = true;
+  const JointCoordinate& coordinate = joint_.coordinates()[coordinate_];
+  declaration.multipliers.push_back(
+      {coordinate.name + " rate", force_units(coordinate), 0, ConstraintKind::nonholonomic});
+}
+
+void RateDrive::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
+  const Measure m = measure(state);
+  r.head<12>() += state.multiplier()[0] * m.gradient;
+  r[12] += m.rate(pair_rate(state.node(0), state.node(1))) - f_(state.time());
+}
+
+void RateDrive::add_tangent(const LocalState& state, LocalTangent& tangent) const {
+  const Measure m = measure(state);
+  if (tangent.wants_K) {
+    tangent.K.topLeftCorner<12, 12>() += state.multiplier()[0] * m.second;
+    tangent.K.block<12, 1>(0, 12) += m.gradient;
+    // d(g . v) = v . S dz at fixed v
+    tangent.K.block<1, 12>(12, 0) += pair_rate(state.node(0), state.node(1)).transpose() * m.second;
+  }
+  if (tangent.wants_C) tangent.C.block<1, 12>(12, 0) += m.gradient.transpose();
+}
+
+void RateDrive::add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
+                                     Eigen::Ref<VectorX> acceleration) const {
+  const Measure m = measure(state);
+  const Vector12 v = pair_rate(state.node(0), state.node(1)), a = pair_acceleration(state.node(0), state.node(1));
+  velocity[0] += m.rate(v) - f_(state.time());
+  acceleration[0] += m.acceleration(v, a) - f_.derivative(state.time(), 1);
+}
+
+void RateDrive::add_energy(const LocalState& state, Energy& energy) const {
+  energy.input -= state.multiplier()[0] * f_(state.time());
+}
+
+std::vector<OutputField> RateDrive::output_fields() const { return {force_field(joint_, coordinate_)}; }
+void RateDrive::write_output(const LocalState& state, double* values) const { *values = -state.multiplier()[0]; }
+void RateDrive::add_break_points(std::vector<double>& times) const { append_break_points(f_, times); }
+
+// -- force
+
+ForceDrive::ForceDrive(std::string name, const Joint& joint, std::size_t coordinate, Expression f)
+    : Component("drive", std::move(name)), joint_(joint), coordinate_(coordinate), f_(std::move(f)) {}
+
+Measure ForceDrive::measure(const LocalState& state) const {
+  return joint_.calc_coordinate(coordinate_, state.node(0), state.node(1));
+}
+
+double ForceDrive::force(const LocalState& state) const { return state.environment().load_factor * f_(state.time()); }
+
+void ForceDrive::declare(Declaration& declaration) const {
+  declare_on_joint(joint_, declaration);
+  declaration.stiffness = true;
+}
+
+void ForceDrive::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
+  r.head<12>() -= force(state) * measure(state).gradient;
+}
+
+void ForceDrive::add_tangent(const LocalState& state, LocalTangent& tangent) const {
+  if (tangent.wants_K) tangent.K.topLeftCorner<12, 12>() -= force(state) * measure(state).second;
+}
+
+void ForceDrive::add_energy(const LocalState& state, Energy& energy) const {
+  energy.input += force(state) * measure(state).rate(pair_rate(state.node(0), state.node(1)));
+}
+
+std::vector<OutputField> ForceDrive::output_fields() const { return {force_field(joint_, coordinate_)}; }
+void ForceDrive::write_output(const LocalState& state, double* values) const { *values = force(state); }
+void ForceDrive::add_break_points(std::vector<double>& times) const { append_break_points(f_, times); }
+
+// -- reader
+
+void read_drive(const std::string& name, const YamlValue& entry, Model& model) {
+  const std::vector<std::string> laws = {"angle", "rate", "torque", "displacement", "speed", "force"};
+  std::vector<std::string> keys = {"joint", "coordinate"};
+  keys.insert(keys.end(), laws.begin(), laws.end());
+  entry.check_keys(keys, "a drive");
+  const auto* joint = dynamic_cast<const Joint*>(&model.component_named_by(entry.at("joint"), "joints"));
+  if (!joint) entry.at("joint").fail("is no joint with coordinates that can be driven");
+
+  std::string law;
+  for (const std::string& key : laws) {
+    if (!entry.has(key)) continue;
+    if (!law.empty()) entry.fail(fmt::format("a drive has one law, this one has both '{}' and '{}'", law, key));
+    law = key;
+  }
+  if (law.empty())
+    entry.fail("a drive needs one of angle, rate, torque (turning joints) or displacement, speed, force (sliding joints)");
+
+  const bool turning = law == "angle" || law == "rate" || law == "torque";
+  const auto wanted = turning ? JointCoordinate::Kind::angle : JointCoordinate::Kind::displacement;
+  std::vector<std::string> names;
+  for (const JointCoordinate& coordinate : joint->coordinates())
+    if (coordinate.kind == wanted) names.push_back(coordinate.name);
+  if (names.empty())
+    entry.at(law).fail(fmt::format("a {} joint has no {} to drive", joint->type(), turning ? "angle" : "displacement"));
+  if (names.size() > 1 && !entry.has("coordinate"))
+    entry.fail(fmt::format("joint '{}' has several coordinates: give `coordinate`{}", joint->name(), did_you_mean("", names)));
+  const std::string chosen = entry.has("coordinate")
+                                 ? entry.at("coordinate").word(names, fmt::format("coordinate for '{}'", law))
+                                 : names.front();
+  std::size_t index = 0;
+  while (joint->coordinates()[index].name != chosen) ++index;
+
+  Expression f = entry.at(law).expression({"t"});
+  std::unique_ptr<Component> drive;
+  if (law == "angle" || law == "displacement")
+    drive = std::make_unique<PositionDrive>(name, *joint, index, std::move(f));
+  else if (law == "rate" || law == "speed")
+    drive = std::make_unique<RateDrive>(name, *joint, index, std::move(f));
+  else
+    drive = std::make_unique<ForceDrive>(name, *joint, index, std::move(f));
+  model.add(std::move(drive), "drives/" + name);
+}
+
+}  // namespace bielle::mechanism

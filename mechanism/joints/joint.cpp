@@ -1,0 +1,126 @@
+#include "mechanism/joints/joint.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace bielle::mechanism {
+
+Joint::Joint(std::string type, std::string name, JointFrames frames, std::vector<JointCoordinate> coordinates,
+             const Model& model)
+    : Component(std::move(type), std::move(name)),
+      frames_(std::move(frames)),
+      coordinates_(std::move(coordinates)),
+      first_name_(model.node(frames_.first).name),
+      second_name_(model.node(frames_.second).name) {}
+
+Measure Joint::calc_coordinate(std::size_t index, const NodeState& first, const NodeState& second) const {
+  const JointCoordinate& coordinate = coordinates_[index];
+  if (coordinate.kind == JointCoordinate::Kind::rotation)
+    throw std::logic_error("a rotation vector's component is no measure");
+  return coordinate.kind == JointCoordinate::Kind::angle ? measure_angle(first, second, frames_.on_first.R, frames_.on_second.R)
+                             : measure_position(first, second, frames_.on_first.R.col(coordinate.axis),
+                                                frames_.on_first.x, frames_.on_second.x);
+}
+
+Joint::ValueAndRate Joint::value_and_rate(std::size_t index, const LocalState& state) const {
+  const JointCoordinate& coordinate = coordinates_[index];
+  const NodeState &first = state.node(0), &second = state.node(1);
+  if (coordinate.kind == JointCoordinate::Kind::rotation) {
+    const Matrix3 A = first.R * frames_.on_first.R, B = second.R * frames_.on_second.R;
+    const Vector3 rate = A.transpose() * (second.R * second.Omega - first.R * first.Omega);
+    return {log_so3(Matrix3(A.transpose() * B))[coordinate.axis], rate[coordinate.axis]};
+  }
+  const Measure m = calc_coordinate(index, first, second);
+  const double value = coordinate.kind == JointCoordinate::Kind::angle
+                           ? unwrap_angle(m.value, state.memory()[static_cast<Eigen::Index>(index)])
+                           : m.value;
+  return {value, m.rate(pair_rate(first, second))};
+}
+
+void Joint::declare(Declaration& declaration) const {
+  declaration.nodes = {frames_.first, frames_.second};
+  declaration.memory.assign(coordinates_.size(), 0.0);
+}
+
+void Joint::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {
+  for (std::size_t k = 0; k < coordinates_.size(); ++k) 
+    memory[static_cast<Eigen::Index>(k)] = value_and_rate(k, state).value;
+}
+
+std::vector<OutputField> Joint::output_fields() const {
+  std::vector<OutputField> fields;
+  if (!coordinates_.empty()) {
+    std::string names, units, rate_units;
+    for (const JointCoordinate& coordinate : coordinates_) {
+      const std::string separator = names.empty() ? "" : ", ";
+      names += separator + coordinate.name;
+      units += separator + coordinate.units();
+      rate_units += separator + coordinate.units() + "/s";
+    }
+    fields.push_back({"coordinate", {coordinates_.size()}, units, names});
+    fields.push_back({"rate", {coordinates_.size()}, rate_units, names});
+  }
+  fields.push_back({"reaction", {6}, "N, N m",
+                    "force and moment that the joint exerts on its second node, about the attachment point there, in the "
+                    "joint's frame (which rides on the first node)"});
+  fields.push_back({"reaction_inertial", {6}, "N, N m", "the same in inertial components"});
+  return fields;
+}
+
+void Joint::write_output(const LocalState& state, double* values) const {
+  const NodeState &first = state.node(0), &second = state.node(1);
+  const std::size_t count = coordinates_.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto [value, rate] = value_and_rate(k, state);
+    values[k] = value;
+    values[count + k] = rate;
+  }
+  // What the joint adds to the second node's equations is what it takes from it.
+  thread_local VectorX r;
+  r.setZero(state.slots().size());
+  add_residual(state, r);
+  const Vector3 force = -r.segment<3>(6);
+  const Vector3 arm = second.R * frames_.on_second.x;
+  const Vector3 moment = -(second.R * r.segment<3>(9)) - arm.cross(force);
+  const Matrix3 axes = first.R * frames_.on_first.R;
+  Eigen::Map<Eigen::Matrix<double, 12, 1>> reaction(values + 2 * count);
+  reaction << axes.transpose() * force, axes.transpose() * moment, force, moment;
+}
+
+std::vector<std::pair<std::string, std::string>> Joint::attributes() const {
+  return {{"first_node", first_name_}, {"second_node", second_name_}};
+}
+
+std::vector<std::string> joint_frame_keys() { return {"type", "nodes", "position", "axis", "second_axis"}; }
+
+JointFrames read_joint_frames(const YamlValue& entry, const Model& model, AxisNeed need) {
+  JointFrames frames;
+  const std::vector<int> nodes = model.nodes_named_by(entry.at("nodes"), 2);
+  frames.first = nodes[0];
+  frames.second = nodes[1];
+  if (frames.first == frames.second) entry.at("nodes").fail("a joint needs two different nodes");
+  const Frame &first = model.node(nodes[0]).frame, &second = model.node(nodes[1]).frame;
+  Frame joint;
+  joint.x = entry.has("position") ? entry.at("position").vector3() : second.x;
+  if (need == AxisNeed::required || entry.has("axis") || entry.has("second_axis")) {
+    const Vector3 z = need == AxisNeed::required || entry.has("axis") ? Vector3(entry.at("axis").direction()) : Vector3::UnitZ();
+    Vector3 x;
+    if (entry.has("second_axis")) {
+      x = entry.at("second_axis").direction();
+      x -= z * z.dot(x);
+      if (x.norm() < 1e-6) entry.at("second_axis").fail("is parallel to the joint's axis");
+    } else {
+      // The inertial axis that is most normal to z.
+      Eigen::Index least = 0;
+      z.cwiseAbs().minCoeff(&least);
+      x = Vector3::Unit(least) - z * z[least];
+    }
+    x.normalize();
+    joint.R << x, z.cross(x), z;
+  }
+  frames.on_first = inverse(first) * joint;
+  frames.on_second = inverse(second) * joint;
+  return frames;
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,112 @@
+#include "mechanism/joints/lower_pairs.hpp"
+
+namespace bielle::mechanism {
+
+LowerPair::LowerPair(std::string type, std::string name, JointFrames frames, std::vector<JointCoordinate> coordinates,
+                     const LockedMotions& locked, const Model& model)
+    : Joint(std::move(type), std::move(name), std::move(frames), std::move(coordinates), model) {
+  constexpr const char* force_names[] = {"x", "y", "z"};
+  for (int k = 0; k < 3; ++k)
+    if (locked.translation[static_cast<std::size_t>(k)]) rows_.push_back({true, k, 0, force_names[k]});
+  if (locked.rotation != LockedMotions::Rotation::none) {
+    // y_A . z_B is a turn about x, x_A . z_B one about y, x_A . y_B one about z.
+    rows_.push_back({false, 1, 2, "rx"});
+    rows_.push_back({false, 0, 2, "ry"});
+  }
+  if (locked.rotation == LockedMotions::Rotation::all) rows_.push_back({false, 0, 1, "rz"});
+}
+
+Measure LowerPair::calc_row(const Row& row, const NodeState& first, const NodeState& second) const {
+  const Frame &A = frames().on_first, &B = frames().on_second;
+  return row.is_translation ? measure_position(first, second, A.R.col(row.first_axis), A.x, B.x)
+                            : measure_alignment(first, second, A.R.col(row.first_axis), B.R.col(row.second_axis));
+}
+
+void LowerPair::declare(Declaration& declaration) const {
+  Joint::declare(declaration);
+  declaration.stiffness = true;
+  for (const Row& row : rows_) declaration.multipliers.push_back({row.name, row.is_translation ? "N" : "N m"});
+}
+
+void LowerPair::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
+  const auto lambda = state.multiplier();
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    const Measure m = calc_row(rows_[k], state.node(0), state.node(1));
+    r.head<12>() += lambda[static_cast<Eigen::Index>(k)] * m.gradient;
+    r[12 + static_cast<Eigen::Index>(k)] += m.value;
+  }
+}
+
+void LowerPair::add_tangent(const LocalState& state, LocalTangent& tangent) const {
+  if (!tangent.wants_K) return;
+  const auto lambda = state.multiplier();
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    const Measure m = calc_row(rows_[k], state.node(0), state.node(1));
+    const Eigen::Index row = 12 + static_cast<Eigen::Index>(k);
+    tangent.K.topLeftCorner<12, 12>() += lambda[static_cast<Eigen::Index>(k)] * m.second;
+    tangent.K.block<12, 1>(0, row) += m.gradient;
+    tangent.K.block<1, 12>(row, 0) += m.gradient.transpose();
+  }
+}
+
+void LowerPair::add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
+                                     Eigen::Ref<VectorX> acceleration) const {
+  const Vector12 v = pair_rate(state.node(0), state.node(1)), a = pair_acceleration(state.node(0), state.node(1));
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    const Measure m = calc_row(rows_[k], state.node(0), state.node(1));
+    velocity[static_cast<Eigen::Index>(k)] += m.rate(v);
+    acceleration[static_cast<Eigen::Index>(k)] += m.acceleration(v, a);
+  }
+}
+
+namespace {
+
+void read_lower_pair(const std::string& type, const std::string& words, const std::string& name, const YamlValue& entry,
+                     Model& model, AxisNeed need, std::vector<JointCoordinate> coordinates,
+                     const LockedMotions& locked) {
+  entry.check_keys(joint_frame_keys(), words);
+  model.add(std::make_unique<LowerPair>(type, name, read_joint_frames(entry, model, need), std::move(coordinates),
+                                        locked, model),
+            "joints/" + name);
+}
+
+using Rotation = LockedMotions::Rotation;
+using CoordinateKind = JointCoordinate::Kind;
+const JointCoordinate angle{"angle", CoordinateKind::angle, 2}, displacement{"displacement", CoordinateKind::displacement, 2};
+
+}  // namespace
+
+void read_rigid(const std::string& name, const YamlValue& entry, Model& model) {
+  read_lower_pair("rigid", "a rigid joint", name, entry, model, AxisNeed::optional, {},
+                  {{true, true, true}, Rotation::all});
+}
+
+void read_hinge(const std::string& name, const YamlValue& entry, Model& model) {
+  read_lower_pair("hinge", "a hinge", name, entry, model, AxisNeed::required, {angle},
+                  {{true, true, true}, Rotation::tilt});
+}
+
+void read_prismatic(const std::string& name, const YamlValue& entry, Model& model) {
+  read_lower_pair("prismatic", "a prismatic joint", name, entry, model, AxisNeed::required, {displacement},
+                  {{true, true, false}, Rotation::all});
+}
+
+void read_cylindrical(const std::string& name, const YamlValue& entry, Model& model) {
+  read_lower_pair("cylindrical", "a cylindrical joint", name, entry, model, AxisNeed::required, {displacement, angle},
+                  {{true, true, false}, Rotation::tilt});
+}
+
+void read_spherical(const std::string& name, const YamlValue& entry, Model& model) {
+  read_lower_pair("spherical", "a spherical joint", name, entry, model, AxisNeed::optional,
+                  {{"rx", CoordinateKind::rotation, 0},
+                   {"ry", CoordinateKind::rotation, 1},
+                   {"rz", CoordinateKind::rotation, 2}},
+                  {{true, true, true}, Rotation::none});
+}
+
+void read_planar(const std::string& name, const YamlValue& entry, Model& model) {
+  read_lower_pair("planar", "a planar joint", name, entry, model, AxisNeed::required,
+                  {{"x", CoordinateKind::displacement, 0}, {"y", CoordinateKind::displacement, 1}, angle}, {{false, false, true}, Rotation::tilt});
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,56 @@
+// Lower pairs: two bodies in surface contact. Each is a choice of relative translations and rotations that are locked.
+//
+//   type         locked translations   locked rotations   coordinates
+//   rigid        x y z                 all                -
+//   hinge        x y z                 about x and y      angle
+//   prismatic    x y                   all                displacement (along z)
+//   cylindrical  x y                   about x and y      displacement, angle
+//   spherical    x y z                 none               rx, ry, rz
+//   planar       z                     about x and y      x, y, angle
+//
+// Constraint rows, with the joint's axes x_A y_A z_A on the first node and x_B y_B z_B on the second, p_A and p_B the
+// attachment points:  x_A . (p_B - p_A) = 0 and likewise y, z;  about x and y: x_A . z_B = 0, y_A . z_B = 0;
+// all: also x_A . y_B = 0. Multipliers are the forces along the joint's axes [N] and moments [N m] that hold the rows.
+// Reference: A. Cardona, M. Geradin, D. B. Doan, CMAME 89 (1991) 395; Geradin and Cardona (2001) ch. 7.
+#pragma once
+
+#include "mechanism/joints/joint.hpp"
+
+namespace bielle::mechanism {
+
+/// Which relative motions a lower pair locks.
+struct LockedMotions {
+  std::array<bool, 3> translation{};  ///< along x, y, z of the joint's frame
+  enum class Rotation { none, tilt, all } rotation = Rotation::none;  ///< tilt: about x and y
+};
+
+class LowerPair final : public Joint {
+ public:
+  LowerPair(std::string type, std::string name, JointFrames frames, std::vector<JointCoordinate> coordinates,
+            const LockedMotions& locked, const Model& model);
+
+  void declare(Declaration& declaration) const override;
+  void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
+  void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
+  void add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
+                            Eigen::Ref<VectorX> acceleration) const override;
+
+ private:
+  struct Row {
+    bool is_translation;
+    int first_axis;   ///< of the joint's frame on the first node
+    int second_axis;  ///< on the second node (rotations)
+    const char* name;
+  };
+  Measure calc_row(const Row& row, const NodeState& first, const NodeState& second) const;
+  std::vector<Row> rows_;
+};
+
+void read_rigid(const std::string& name, const YamlValue& entry, Model& model);
+void read_hinge(const std::string& name, const YamlValue& entry, Model& model);
+void read_prismatic(const std::string& name, const YamlValue& entry, Model& model);
+void read_cylindrical(const std::string& name, const YamlValue& entry, Model& model);
+void read_spherical(const std::string& name, const YamlValue& entry, Model& model);
+void read_planar(const std::string& name, const YamlValue& entry, Model& model);
+
+}  // namespace bielle::mechanism

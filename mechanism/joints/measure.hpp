@@ -1,0 +1,51 @@
+// Scalar measures of the relative motion of two nodes: what joints constrain, drive and report.
+//
+// A measure m(q) of nodes 1 and 2 has, along the increments dz = [dx_1; dTheta_1; dx_2; dTheta_2],
+//     dm = g . dz,   dg = S dz,   hence   mdot = g . v,   mddot = g . a + v . S v
+// with v = [xdot_1; Omega_1; xdot_2; Omega_2]. S is not symmetric: rotational increments do not commute.
+#pragma once
+
+#include "mechanism/math/se3.hpp"
+#include "mechanism/system/state.hpp"
+
+namespace bielle::mechanism {
+
+using Vector12 = Eigen::Matrix<double, 12, 1>;
+using Matrix12 = Eigen::Matrix<double, 12, 12>;
+
+/// Velocities or accelerations of the two nodes in the order of the increments.
+inline Vector12 pair_rate(const NodeState& first, const NodeState& second) {
+  Vector12 v;
+  v << first.v, first.Omega, second.v, second.Omega;
+  return v;
+}
+inline Vector12 pair_acceleration(const NodeState& first, const NodeState& second) {
+  Vector12 a;
+  a << first.a, first.Omegadot, second.a, second.Omegadot;
+  return a;
+}
+
+struct Measure {
+  double value = 0;
+  Vector12 gradient = Vector12::Zero();
+  Matrix12 second = Matrix12::Zero();
+  double rate(const Vector12& v) const { return gradient.dot(v); }
+  double acceleration(const Vector12& v, const Vector12& a) const { return gradient.dot(a) + v.dot(second * v); }
+};
+
+/// e . (p_2 - p_1): position of a point p_2 = x_2 + R_2 c_2 of node 2 beside p_1 = x_1 + R_1 c_1 along an axis e = R_1 e^
+/// carried by node 1.
+Measure measure_position(const NodeState& first, const NodeState& second, const Vector3& e_hat, const Vector3& c_1,
+                         const Vector3& c_2);
+
+/// a . b of a = R_1 a^ carried by node 1 and b = R_2 b^ carried by node 2.
+Measure measure_alignment(const NodeState& first, const NodeState& second, const Vector3& a_hat, const Vector3& b_hat);
+
+/// Angle atan2(y_A . x_B, x_A . x_B) in (-pi, pi] by which frame B of node 2 has turned beside frame A of node 1 about
+/// their common z axis. @param A,B  axes in the components of their nodes
+Measure measure_angle(const NodeState& first, const NodeState& second, const Matrix3& A, const Matrix3& B);
+
+/// `angle` plus the whole turns that bring it nearest to `previous`.
+double unwrap_angle(double angle, double previous);
+
+}  // namespace bielle::mechanism

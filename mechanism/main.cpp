@@ -1,0 +1,1 @@
+// bielle-mechanism: a model file in, motion out.

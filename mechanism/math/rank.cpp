@@ -1,0 +1,46 @@
+#include "mechanism/math/rank.hpp"
+
+#include <SuiteSparseQR.hpp>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace bielle::mechanism {
+
+std::vector<int> dependent_columns(const Eigen::SparseMatrix<double>& A, double tolerance) {
+  if (A.cols() == 0) return {};
+  cholmod_common common;
+  cholmod_l_start(&common);
+  cholmod_sparse* matrix = cholmod_l_allocate_sparse(static_cast<std::size_t>(A.rows()), static_cast<std::size_t>(A.cols()),
+                                                     static_cast<std::size_t>(A.nonZeros()), 1, 1, 0, CHOLMOD_REAL, &common);
+  if (!matrix) throw std::bad_alloc();
+  auto* starts = static_cast<SuiteSparse_long*>(matrix->p);
+  auto* rows = static_cast<SuiteSparse_long*>(matrix->i);
+  auto* values = static_cast<double*>(matrix->x);
+  SuiteSparse_long count = 0;
+  for (Eigen::Index column = 0; column < A.cols(); ++column) {
+    starts[column] = count;
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(A, column); entry; ++entry, ++count) {
+      rows[count] = entry.row();
+      values[count] = entry.value();
+    }
+  }
+  starts[A.cols()] = count;
+  // The given order keeps what comes first. Dead columns end up behind the first `rank` ones of the permutation.
+  cholmod_sparse* R = nullptr;
+  SuiteSparse_long* order = nullptr;
+  const SuiteSparse_long rank =
+      SuiteSparseQR<double>(SPQR_ORDERING_FIXED, tolerance, A.cols(), matrix, &R, &order, &common);
+  std::vector<int> dependent;
+  if (rank >= 0)
+    for (SuiteSparse_long k = rank; k < A.cols(); ++k) dependent.push_back(static_cast<int>(order ? order[k] : k));
+  std::sort(dependent.begin(), dependent.end());
+  cholmod_l_free_sparse(&R, &common);
+  if (order) cholmod_l_free(static_cast<std::size_t>(A.cols()), sizeof(SuiteSparse_long), order, &common);
+  cholmod_l_free_sparse(&matrix, &common);
+  cholmod_l_finish(&common);
+  if (rank < 0) throw std::runtime_error("SPQR could not factorise the constraint matrix");
+  return dependent;
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,40 @@
+// A start from which a motion can begin: positions that satisfy the constraints, velocities and accelerations that keep
+// them satisfied, and the multipliers that go with the accelerations.
+//
+//   positions:      least motion with K dq + B^T mu = 0, B dq = -Phi (repeated: Newton), K the elastic stiffness and a
+//                   little mass or unity beside it, so that bodies move rigidly rather than bend
+//   velocities:     [M B^T; B 0][dv; mu] = [0; -dPhi/dt]          the least change in the kinetic energy's norm
+//   accelerations:  [M B^T; B 0][a; lambda] = [-g; -d2Phi/dt2 at a = 0],  first-order rates from their own equations
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "mechanism/solvers/convergence.hpp"
+
+namespace bielle::mechanism {
+
+/// What the start had to change.
+struct StartReport {
+  double largest_displacement = 0;  ///< of a node by the assembly of positions [m]
+  std::string displaced_node;       ///< that node's name
+  double largest_rotation = 0;      ///< [rad]
+  double velocity_change = 0;       ///< largest change of a nodal velocity [m/s]
+};
+
+/// Moves the state's positions until all holonomic constraints hold.
+/// @throws ComputationError naming the constraint that cannot be satisfied
+void assemble_positions(const System& system, const Environment& environment, State& state, StartReport& report);
+
+/// Projects the state's velocities on the constraints.
+void make_velocities_consistent(const System& system, const Environment& environment, State& state,
+                                StartReport& report);
+
+/// Accelerations, multipliers and first-order rates in equilibrium with the state's positions and velocities.
+/// @throws ComputationError naming an unknown without mass
+void make_accelerations_consistent(const System& system, const Environment& environment, State& state);
+
+/// All three, in that order.
+StartReport make_consistent(const System& system, const Environment& environment, State& state);
+
+}  // namespace bielle::mechanism

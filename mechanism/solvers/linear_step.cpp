@@ -1,0 +1,80 @@
+#include "mechanism/solvers/linear_step.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace bielle::mechanism {
+
+LinearStep::LinearStep(const System& system) : system_(system), factors_(system.pattern()) {
+  const SparsePattern& pattern = system.pattern();
+  const int first_multiplier = system.size() - system.multipliers();
+  scale_power_.reserve(static_cast<std::size_t>(pattern.entry_count()));
+  for (int column = 0; column < pattern.size(); ++column) {
+    diagonal_.push_back(pattern.find(column, column));
+    for (int k = pattern.column_start()[static_cast<std::size_t>(column)];
+         k < pattern.column_start()[static_cast<std::size_t>(column) + 1]; ++k)
+      scale_power_.push_back(static_cast<std::uint8_t>((column >= first_multiplier) +
+                                                       (pattern.row()[static_cast<std::size_t>(k)] >= first_multiplier)));
+  }
+}
+
+bool LinearStep::try_factor(const State& state, const Environment& environment, const TangentWeights& weights,
+                            const VectorX* dq, const VectorX* extra) {
+  system_.tangent(state, environment, weights, dq, values_);
+  double sum = 0;
+  int count = 0;
+  for (int i = 0; i < system_.dofs(); ++i) {
+    const int place = diagonal_[static_cast<std::size_t>(i)];
+    if (place < 0) continue;
+    if (extra) values_[static_cast<std::size_t>(place)] += (*extra)[i];
+    if (system_.kind(i) != Kind::translation) continue;
+    sum += std::abs(values_[static_cast<std::size_t>(place)]);
+    ++count;
+  }
+  scale_ = count > 0 && sum > 0 ? sum / count : 1;
+  scaled_ = values_;
+  for (std::size_t k = 0; k < scaled_.size(); ++k)
+    if (scale_power_[k] == 1) scaled_[k] *= scale_;
+  return factors_.factor(scaled_) == FactorStatus::good;
+}
+
+void LinearStep::factor(const State& state, const Environment& environment, const TangentWeights& weights,
+                        const VectorX* dq) {
+  if (!try_factor(state, environment, weights, dq)) throw_singular(state.time);
+}
+
+void LinearStep::throw_singular(double time) const {
+  const int column = factors_.singular_column();
+  const std::string what = column >= 0 ? system_.unknown_name(column) : "an unknown";
+  const bool multiplier = column >= system_.size() - system_.multipliers();
+  throw ComputationError(fmt::format(
+      "t = {:.6g} s: the equations are singular at {}: {}", time, what,
+      multiplier ? "the constraint repeats what others hold already (redundant)"
+                 : "it has no mass, or nothing holds it, or constraints beside it are redundant"));
+}
+
+void LinearStep::solve(const Eigen::Ref<const VectorX>& r, Eigen::Ref<VectorX> delta) const {
+  delta = -r;
+  auto multipliers = delta.tail(system_.multipliers());
+  multipliers *= scale_;
+  factors_.solve(delta);
+  multipliers *= scale_;
+}
+
+void LinearStep::row_sums(const Eigen::Ref<const VectorX>& unknown_scale, Eigen::Ref<VectorX> sums) const {
+  const SparsePattern& pattern = system_.pattern();
+  sums.setZero();
+  for (int column = 0; column < pattern.size(); ++column)
+    for (int k = pattern.column_start()[static_cast<std::size_t>(column)];
+         k < pattern.column_start()[static_cast<std::size_t>(column) + 1]; ++k)
+      sums[pattern.row()[static_cast<std::size_t>(k)]] +=
+          std::abs(values_[static_cast<std::size_t>(k)]) * unknown_scale[column];
+}
+
+double LinearStep::diagonal(int unknown) const {
+  const int place = diagonal_[static_cast<std::size_t>(unknown)];
+  return place < 0 ? 0 : values_[static_cast<std::size_t>(place)];
+}
+
+}  // namespace bielle::mechanism

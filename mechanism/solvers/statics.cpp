@@ -1,0 +1,63 @@
+#include "mechanism/solvers/statics.hpp"
+
+#include <fmt/format.h>
+
+namespace bielle::mechanism {
+namespace {
+
+/// Newton's method at a fixed load. Returns the iterations, or -1 with the state as it was.
+int equilibrate(const System& system, const Environment& environment, const NewtonOptions& options, LinearStep& linear,
+                Convergence& convergence, State& state) {
+  const State start = state;
+  VectorX r(system.size()), delta(system.size());
+  ResidualScale scale;
+  for (int iteration = 0;; ++iteration) {
+    system.residual(state, environment, r, &scale);
+    if (iteration > 0 && convergence.reached(r, scale)) return iteration;
+    if (iteration == options.iterations || !r.allFinite()) {
+      convergence.reached(r, scale);
+      state = start;
+      return -1;
+    }
+    linear.factor(state, environment, TangentWeights{}, nullptr);
+    convergence.measure_rounding(linear, state);
+    linear.solve(r, delta);
+    const State base = state;
+    system.displace(state, base, delta.head(system.dofs()));
+    state.first_order += delta.segment(system.dofs(), system.first_orders());
+    state.multiplier += delta.tail(system.multipliers());
+  }
+}
+
+}  // namespace
+
+void solve_statics(const System& system, const Environment& environment, int steps, const NewtonOptions& options,
+                   State& state, const std::function<void(const State&, double, int)>& record) {
+  const VectorX zero = VectorX::Zero(system.dofs());
+  system.set_rates(state, zero, zero);
+  LinearStep linear(system);
+  Convergence convergence(system, options);
+  const double first_increment = 1.0 / steps, least_increment = first_increment / 1024;
+  double factor = 0, increment = first_increment;
+  while (factor < 1) {
+    const double target = std::min(1.0, factor + increment);
+    Environment loaded = environment;
+    loaded.load_factor = target;
+    loaded.gravity = target * environment.gravity;
+    const int iterations = equilibrate(system, loaded, options, linear, convergence, state);
+    if (iterations < 0) {
+      increment /= 2;
+      if (increment < least_increment)
+        throw ComputationError(
+            fmt::format("statics: Newton did not converge at load factor {:.6g} (increment {:.3g}); largest residual: {}",
+                        target, increment * 2, convergence.worst()));
+      continue;
+    }
+    factor = target > 1 - 1e-12 ? 1 : target;
+    system.accept(state, loaded);
+    if (record) record(state, factor, iterations);
+    if (iterations <= 5) increment = std::min(first_increment, 2 * increment);
+  }
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,262 @@
+// Residual and tangent of the whole from those of the components.
+//
+// Residual: local forces are added node by node, carried nodes hand theirs to their carriers, and G^T keeps the free
+// directions. Tangent: with z = (x, R) of a local node, da = W_z dz + W_v dv + A..., see node_kinematics.hpp,
+//     dr = (K A + C V + M W_z) G T dp + (C A + M W_v) G dv + M A G da,     rows (A G)^T,
+// plus the turning of the arm at fixed force, c~ (R^T f)~ on the carrier's rotations.
+#include <algorithm>
+#include <array>
+
+#include "mechanism/system/system.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+using Matrix6X = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 6>;
+
+/// The relations of one local node to its independent increments.
+struct NodeRelation {
+  Matrix6X displacement;             ///< A G
+  Matrix6X displacement_step;        ///< A G T: along increments since the base
+  Matrix6X rate_of_displacement;     ///< V G T
+  Matrix6X acceleration_of_displacement;  ///< W_z G T
+  Matrix6X acceleration_of_rate;     ///< W_v G
+  bool carried = false;
+};
+
+/// X T(Dq) on the columns of three free rotations; about a single axis T is the identity.
+Matrix6X times_step_tangent(const Matrix6X& X, const NodeFreedom& f, const VectorX* dq) {
+  Matrix6X Y = X;
+  if (dq && f.rotations == 3) Y.rightCols<3>() = X.rightCols<3>() * tangent(dq->segment<3>(f.begin + f.count - 3));
+  return Y;
+}
+
+NodeRelation relate(const NodeKinematics& kinematics, int node, const State& state, const VectorX* dq) {
+  NodeRelation relation;
+  const Carry* carry = kinematics.carry(node);
+  const NodeFreedom& f = kinematics.freedom(carry ? carry->carrier : node);
+  const Matrix6X G = f.G.leftCols(f.count);
+  const Matrix6X GT = times_step_tangent(G, f, dq);
+  if (!carry) {
+    relation.displacement = G;
+    relation.displacement_step = GT;
+    return relation;
+  }
+  relation.carried = true;
+  const NodeState& i = state.nodes[static_cast<std::size_t>(carry->carrier)];
+  const Vector3 arm_rate = i.Omega.cross(carry->c);
+  Matrix6 A = Matrix6::Zero(), V = Matrix6::Zero(), W_z = Matrix6::Zero(), W_v = Matrix6::Zero();
+  A.topLeftCorner<3, 3>().setIdentity();
+  A.topRightCorner<3, 3>() = -i.R * skew(carry->c);
+  A.bottomRightCorner<3, 3>() = carry->R_c.transpose();
+  V.topRightCorner<3, 3>() = -i.R * skew(arm_rate);
+  W_v.topRightCorner<3, 3>() = -i.R * (skew(arm_rate) + skew(i.Omega) * skew(carry->c));
+  W_z.topRightCorner<3, 3>() = -i.R * skew(i.Omegadot.cross(carry->c) + i.Omega.cross(arm_rate));
+  relation.displacement = A * G;
+  relation.displacement_step = A * GT;
+  relation.rate_of_displacement = V * GT;
+  relation.acceleration_of_displacement = W_z * GT;
+  relation.acceleration_of_rate = W_v * G;
+  return relation;
+}
+
+}  // namespace
+
+void System::node_forces(const State& state, const Environment& environment, VectorX& forces, Eigen::Ref<VectorX> r,
+                         ResidualScale* scale) const {
+  thread_local VectorX local;
+  local.resize(largest_local_);
+  forces.setZero(6 * static_cast<Eigen::Index>(state.nodes.size()));
+  const int amplitude_row = kinematics_.unknowns(), first_order_row = dofs(), multiplier_row = dofs() + first_orders_;
+  for (std::size_t m = 0; m < slots_.size(); ++m) {
+    const Slots& slots = slots_[m];
+    auto part = local.head(slots.size());
+    part.setZero();
+    model_.members()[m].component->add_residual(LocalState(state, slots, environment), part);
+    for (std::size_t k = 0; k < slots.nodes.size(); ++k) {
+      const auto node_part = part.segment<6>(6 * static_cast<Eigen::Index>(k));
+      forces.segment<6>(6 * slots.nodes[k]) += node_part;
+      if (scale) {
+        (*scale)[Kind::translation] = std::max((*scale)[Kind::translation], node_part.head<3>().cwiseAbs().maxCoeff());
+        (*scale)[Kind::rotation] = std::max((*scale)[Kind::rotation], node_part.tail<3>().cwiseAbs().maxCoeff());
+      }
+    }
+    const auto scalars = [&](int local_row, int count, int global_row, Kind kind) {
+      if (count == 0) return;
+      r.segment(global_row, count) += part.segment(local_row, count);
+      if (scale) (*scale)[kind] = std::max((*scale)[kind], part.segment(local_row, count).cwiseAbs().maxCoeff());
+    };
+    scalars(slots.amplitude_row(), slots.amplitudes, amplitude_row + slots.amplitude_begin, Kind::amplitude);
+    scalars(slots.first_order_row(), slots.first_orders, first_order_row + slots.first_order_begin, Kind::first_order);
+    scalars(slots.multiplier_row(), slots.multipliers, multiplier_row + slots.multiplier_begin, Kind::multiplier);
+  }
+  kinematics_.carry_forces(state.nodes, forces);
+}
+
+void System::residual(const State& state, const Environment& environment, Eigen::Ref<VectorX> r,
+                      ResidualScale* scale) const {
+  thread_local VectorX forces;
+  r.setZero();
+  if (scale) *scale = {};
+  node_forces(state, environment, forces, r, scale);
+  for (int i = 0; i < static_cast<int>(state.nodes.size()); ++i) {
+    const NodeFreedom& f = kinematics_.freedom(i);
+    if (f.all_free)
+      r.segment<6>(f.begin) = forces.segment<6>(6 * i);
+    else if (f.count > 0)
+      r.segment(f.begin, f.count).noalias() = f.G.leftCols(f.count).transpose() * forces.segment<6>(6 * i);
+  }
+  for (const int multiplier : set_aside_) r[dofs() + first_orders_ + multiplier] = state.multiplier[multiplier];
+}
+
+Energy System::energy(const State& state, const Environment& environment) const {
+  Energy energy;
+  for (std::size_t m = 0; m < slots_.size(); ++m)
+    model_.members()[m].component->add_energy(LocalState(state, slots_[m], environment), energy);
+  if (kinematics_.any_prescribed()) {
+    VectorX forces, scalars = VectorX::Zero(size());
+    node_forces(state, environment, forces, scalars, nullptr);
+    energy.input += kinematics_.support_power(state.nodes, forces);
+  }
+  return energy;
+}
+
+/// Buffers of one thread: local matrices, their reduced sum.
+struct System::Workspace {
+  std::vector<double> K, C, M, sum;
+  VectorX r;
+  explicit Workspace(int n) {
+    const auto size = static_cast<std::size_t>(n) * static_cast<std::size_t>(n);
+    for (auto* buffer : {&K, &C, &M, &sum}) buffer->resize(size);
+    r.resize(n);
+  }
+};
+
+void System::add_reduced(const Placement& placement, const LocalState& local, const TangentWeights& weights,
+                         const Component& component, const VectorX* dq, Workspace& work,
+                         std::vector<double>& values) const {
+  const Slots& slots = local.slots();
+  const int n = slots.size();
+  using Map = Eigen::Map<MatrixX>;
+  Map K(work.K.data(), n, n), C(work.C.data(), n, n), M(work.M.data(), n, n);
+  // Convective terms of carried nodes bring C and M into the stiffness: then all three are needed.
+  const bool wants_K = placement.stiffness && (weights.stiffness != 0 || (weights.constraint != 0 && slots.multipliers > 0));
+  const bool rates_in_K = !placement.plain && weights.stiffness != 0;
+  const bool rate_rows = weights.acceleration_level && !placement.nonholonomic.empty();
+  const bool wants_C =
+      placement.damping && (rates_in_K || weights.damping != 0 || weights.first_order != 0 || rate_rows);
+  const bool wants_M = placement.mass && (rates_in_K || weights.mass != 0 || weights.damping != 0);
+  if (!wants_K && !wants_C && !wants_M && placement.plain) return;
+  K.setZero();
+  C.setZero();
+  M.setZero();
+  {
+    LocalTangent tangent{K, C, M, wants_K, wants_C, wants_M};
+    component.add_tangent(local, tangent);
+  }
+  if (rate_rows)
+    for (const int row : placement.nonholonomic) {
+      K.row(row) = C.row(row);
+      C.row(row).setZero();
+    }
+  if (wants_K) {
+    const int free_rows = n - slots.multipliers;
+    if (weights.stiffness != 1) K.topLeftCorner(free_rows, free_rows) *= weights.stiffness;
+    if (weights.constraint != 1) {
+      K.bottomRows(slots.multipliers) *= weights.constraint;
+      K.topRightCorner(free_rows, slots.multipliers) *= weights.constraint;
+    }
+  }
+  const int reduced = static_cast<int>(placement.unknown.size());
+  Map sum(work.sum.data(), reduced, reduced);
+  const int scalar_row = slots.amplitude_row();
+  const int first_order = slots.first_order_row();
+
+  if (placement.plain) {
+    if (dq && wants_K)
+      for (std::size_t k = 0; k < slots.nodes.size(); ++k) {
+        const NodeFreedom& f = kinematics_.freedom(slots.nodes[k]);
+        if (!f.all_free) continue;
+        auto columns = K.middleCols<3>(6 * static_cast<Eigen::Index>(k) + 3);
+        columns = (columns * mechanism::tangent(dq->segment<3>(f.begin + 3))).eval();
+      }
+    sum = K;
+    if (wants_C) {
+      sum.leftCols(first_order) += weights.damping * C.leftCols(first_order);
+      sum.middleCols(first_order, slots.first_orders) += weights.first_order * C.middleCols(first_order, slots.first_orders);
+    }
+    if (wants_M) sum += weights.mass * M;
+  } else {
+    const int scalars = n - scalar_row, reduced_scalar_row = reduced - scalars;
+    const State& state = local.global();
+    std::array<NodeRelation, 2> pair;
+    std::vector<NodeRelation> many;  // more than two nodes: superelements
+    NodeRelation* relation = pair.data();
+    if (slots.nodes.size() > pair.size()) {
+      many.resize(slots.nodes.size());
+      relation = many.data();
+    }
+    for (std::size_t k = 0; k < slots.nodes.size(); ++k) relation[k] = relate(kinematics_, slots.nodes[k], state, dq);
+    // Columns first, over all local rows; then rows.
+    MatrixX columns(n, reduced);
+    columns.rightCols(scalars) = K.rightCols(scalars);
+    columns.rightCols(scalars) += weights.mass * M.rightCols(scalars);
+    columns.middleCols(reduced_scalar_row, slots.amplitudes) += weights.damping * C.middleCols(scalar_row, slots.amplitudes);
+    columns.middleCols(reduced_scalar_row + slots.amplitudes, slots.first_orders) +=
+        weights.first_order * C.middleCols(first_order, slots.first_orders);
+    for (std::size_t k = 0; k < slots.nodes.size(); ++k) {
+      const NodeRelation& node = relation[k];
+      const Eigen::Index count = node.displacement.cols(), at = 6 * static_cast<Eigen::Index>(k);
+      auto part = columns.middleCols(placement.reduced_begin[k], count);
+      const auto Kk = K.middleCols<6>(at), Ck = C.middleCols<6>(at), Mk = M.middleCols<6>(at);
+      part.noalias() = Kk * node.displacement_step;
+      part.noalias() += weights.damping * (Ck * node.displacement) + weights.mass * (Mk * node.displacement);
+      if (!node.carried) continue;
+      part.noalias() += weights.stiffness * (Ck * node.rate_of_displacement + Mk * node.acceleration_of_displacement);
+      part.noalias() += weights.damping * (Mk * node.acceleration_of_rate);
+    }
+    sum.bottomRows(scalars) = columns.bottomRows(scalars);
+    for (std::size_t k = 0; k < slots.nodes.size(); ++k)
+      sum.middleRows(placement.reduced_begin[k], relation[k].displacement.cols()).noalias() =
+          relation[k].displacement.transpose() * columns.middleRows<6>(6 * static_cast<Eigen::Index>(k));
+    if (std::any_of(relation, relation + slots.nodes.size(), [](const NodeRelation& node) { return node.carried; })) {
+      auto r = work.r.head(n);
+      r.setZero();
+      component.add_residual(local, r);
+      for (std::size_t k = 0; k < slots.nodes.size(); ++k) {
+        const Carry* carry = kinematics_.carry(slots.nodes[k]);
+        if (!carry) continue;
+        const NodeFreedom& f = kinematics_.freedom(carry->carrier);
+        const Matrix3& R = state.nodes[static_cast<std::size_t>(carry->carrier)].R;
+        const Matrix3 turn = skew(carry->c) * skew(R.transpose() * r.segment<3>(6 * static_cast<Eigen::Index>(k)));
+        const Matrix6X G = f.G.leftCols(f.count);
+        const Matrix6X GT = times_step_tangent(G, f, dq);
+        const int at = placement.reduced_begin[k];
+        sum.block(at, at, f.count, f.count).noalias() +=
+            weights.stiffness * (G.bottomRows<3>().transpose() * turn * GT.bottomRows<3>());
+      }
+    }
+  }
+  const double* entry = sum.data();
+  for (const int position : placement.position) {
+    if (position >= 0) values[static_cast<std::size_t>(position)] += *entry;
+    ++entry;
+  }
+}
+
+void System::tangent(const State& state, const Environment& environment, const TangentWeights& weights,
+                     const VectorX* dq, std::vector<double>& values) const {
+  thread_local std::unique_ptr<Workspace> work;
+  if (!work || work->r.size() < largest_local_) work = std::make_unique<Workspace>(largest_local_);
+  values.assign(static_cast<std::size_t>(pattern_.entry_count()), 0.0);
+  for (std::size_t m = 0; m < slots_.size(); ++m) {
+    const Placement& placement = placements_[m];
+    if (placement.position.empty()) continue;
+    add_reduced(placement, LocalState(state, slots_[m], environment), weights, *model_.members()[m].component, dq,
+                *work, values);
+  }
+  for (const int place : set_aside_entries_) values[static_cast<std::size_t>(place)] = 0;
+  for (const int place : set_aside_diagonal_) values[static_cast<std::size_t>(place)] = 1;
+}
+
+}  // namespace bielle::mechanism

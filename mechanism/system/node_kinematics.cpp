@@ -1,0 +1,213 @@
+#include "mechanism/system/node_kinematics.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace bielle::mechanism {
+namespace {
+
+/// Follows carriers up to the node that is carried by none. @throws InputError when they run in a circle
+int root_carrier(const Model& model, int node) {
+  const int start = node;
+  for (std::size_t steps = 0; model.node(node).carrier; ++steps) {
+    node = *model.node(node).carrier;
+    if (node == start || steps > model.nodes().size())
+      throw InputError(fmt::format("node '{}' is carried by itself, through other nodes", model.node(start).name));
+  }
+  return node;
+}
+
+int count_rotations(const Node& node, Freedom kind) {
+  return static_cast<int>(std::count(node.freedom.begin() + 3, node.freedom.end(), kind));
+}
+
+NodeFreedom freedom_of(const Node& node, int begin) {
+  NodeFreedom f;
+  f.begin = begin;
+  for (int k = 0; k < 3; ++k)
+    if (node.freedom[static_cast<std::size_t>(k)] == Freedom::free) f.G(k, f.count++) = 1;
+  const int free_rotations = count_rotations(node, Freedom::free);
+  if (free_rotations == 3) {
+    for (int k = 0; k < 3; ++k) f.G(3 + k, f.count++) = 1;
+  } else if (free_rotations == 1) {
+    if (count_rotations(node, Freedom::prescribed) > 0)
+      throw InputError(fmt::format(
+          "node '{}': with one free rotation the other two must be fixed; prescribe all three rotations or use a joint",
+          node.name));
+    for (int k = 0; k < 3; ++k)
+      if (node.freedom[static_cast<std::size_t>(3 + k)] == Freedom::free)
+        f.G.col(f.count++).tail<3>() = node.frame.R.row(k).transpose();
+  } else if (free_rotations == 2) {
+    throw InputError(fmt::format("node '{}': all three rotations can be held, or two, or none, but not one alone; "
+                                 "a universal joint holds one",
+                                 node.name));
+  }
+  f.rotations = free_rotations;
+  f.all_free = f.count == 6;
+  return f;
+}
+
+}  // namespace
+
+NodeKinematics::NodeKinematics(const Model& model) {
+  const std::size_t count = model.nodes().size();
+  freedom_.resize(count);
+  carry_of_node_.assign(count, -1);
+  start_.resize(count);
+  for (int i = 0; i < static_cast<int>(count); ++i) {
+    const Node& node = model.node(i);
+    NodeState& start = start_[static_cast<std::size_t>(i)];
+    start.x = node.frame.x;
+    start.R = node.frame.R;
+    start.v = node.velocity;
+    start.Omega = node.angular_velocity;
+    const bool held = std::any_of(node.freedom.begin(), node.freedom.end(), [](Freedom f) { return f != Freedom::free; });
+    if (node.carrier) {
+      if (held)
+        throw InputError(fmt::format("node '{}' is carried rigidly by '{}' and cannot be fixed or prescribed as well",
+                                     node.name, model.node(*node.carrier).name));
+      const int root = root_carrier(model, i);
+      const Frame relative = inverse(model.node(root).frame) * node.frame;
+      carry_of_node_[static_cast<std::size_t>(i)] = static_cast<int>(carries_.size());
+      carries_.push_back({i, root, relative.x, relative.R});
+      continue;
+    }
+    freedom_[static_cast<std::size_t>(i)] = freedom_of(node, unknowns_);
+    unknowns_ += freedom_[static_cast<std::size_t>(i)].count;
+    if (std::find(node.freedom.begin(), node.freedom.end(), Freedom::prescribed) != node.freedom.end())
+      prescribed_.push_back({i, node.frame, node.freedom, node.motion, count_rotations(node, Freedom::prescribed) > 0});
+  }
+}
+
+const Carry* NodeKinematics::carry(int node) const {
+  const int index = carry_of_node_[static_cast<std::size_t>(node)];
+  return index < 0 ? nullptr : &carries_[static_cast<std::size_t>(index)];
+}
+
+void NodeKinematics::prescribe_positions(std::vector<NodeState>& nodes, double time) const {
+  for (const Prescribed& p : prescribed_) {
+    NodeState& node = nodes[static_cast<std::size_t>(p.node)];
+    for (std::size_t k = 0; k < 3; ++k)
+      if (p.freedom[k] == Freedom::prescribed) node.x[static_cast<int>(k)] = p.start.x[static_cast<int>(k)] + p.motion[k](time);
+    if (p.rotation)
+      node.R = exp_so3({p.motion[3](time), p.motion[4](time), p.motion[5](time)}) * p.start.R;
+  }
+}
+
+void NodeKinematics::follow_carriers(std::vector<NodeState>& nodes) const {
+  for (const Carry& carry : carries_) {
+    const NodeState& i = nodes[static_cast<std::size_t>(carry.carrier)];
+    NodeState& j = nodes[static_cast<std::size_t>(carry.node)];
+    const Vector3 arm_rate = i.Omega.cross(carry.c);
+    j.x = i.x + i.R * carry.c;
+    j.R = i.R * carry.R_c;
+    j.v = i.v + i.R * arm_rate;
+    j.Omega = carry.R_c.transpose() * i.Omega;
+    j.a = i.a + i.R * (i.Omegadot.cross(carry.c) + i.Omega.cross(arm_rate));
+    j.Omegadot = carry.R_c.transpose() * i.Omegadot;
+  }
+}
+
+void NodeKinematics::start(std::vector<NodeState>& nodes, double time) const {
+  nodes = start_;
+  prescribe_positions(nodes, time);
+  VectorX v(unknowns_), a(unknowns_);
+  get_rates(nodes, v, a);
+  set_rates(nodes, v, a, time);
+}
+
+void NodeKinematics::displace(std::vector<NodeState>& nodes, const std::vector<NodeState>& base,
+                              const Eigen::Ref<const VectorX>& dp, double time) const {
+  for (std::size_t i = 0; i < freedom_.size(); ++i) {
+    const NodeFreedom& f = freedom_[i];
+    if (f.count == 0) continue;
+    Vector6 dz;
+    if (f.all_free)
+      dz = dp.segment<6>(f.begin);
+    else
+      dz.noalias() = f.G.leftCols(f.count) * dp.segment(f.begin, f.count);
+    nodes[i].x = base[i].x + dz.head<3>();
+    nodes[i].R.noalias() = base[i].R * exp_so3(dz.tail<3>());
+  }
+  prescribe_positions(nodes, time);
+  follow_carriers(nodes);
+}
+
+void NodeKinematics::set_rates(std::vector<NodeState>& nodes, const Eigen::Ref<const VectorX>& v,
+                               const Eigen::Ref<const VectorX>& a, double time) const {
+  for (std::size_t i = 0; i < freedom_.size(); ++i) {
+    const NodeFreedom& f = freedom_[i];
+    NodeState& node = nodes[i];
+    if (f.all_free) {
+      node.v = v.segment<3>(f.begin);
+      node.Omega = v.segment<3>(f.begin + 3);
+      node.a = a.segment<3>(f.begin);
+      node.Omegadot = a.segment<3>(f.begin + 3);
+      continue;
+    }
+    const Vector6 rate = f.G.leftCols(f.count) * v.segment(f.begin, f.count);
+    const Vector6 acceleration = f.G.leftCols(f.count) * a.segment(f.begin, f.count);
+    node.v = rate.head<3>();
+    node.Omega = rate.tail<3>();
+    node.a = acceleration.head<3>();
+    node.Omegadot = acceleration.tail<3>();
+  }
+  for (const Prescribed& p : prescribed_) {
+    NodeState& node = nodes[static_cast<std::size_t>(p.node)];
+    for (std::size_t k = 0; k < 3; ++k)
+      if (p.freedom[k] == Freedom::prescribed) {
+        node.v[static_cast<int>(k)] = p.motion[k].derivative(time, 1);
+        node.a[static_cast<int>(k)] = p.motion[k].derivative(time, 2);
+      }
+    if (!p.rotation) continue;
+    Vector3 psi, rate, acceleration;
+    for (std::size_t k = 0; k < 3; ++k) {
+      psi[static_cast<int>(k)] = p.motion[3 + k](time);
+      rate[static_cast<int>(k)] = p.motion[3 + k].derivative(time, 1);
+      acceleration[static_cast<int>(k)] = p.motion[3 + k].derivative(time, 2);
+    }
+    // Inertial angular velocity of exp(psi): omega = T^T psidot; R_start only changes the axes that it is seen in.
+    const Matrix3 T = tangent(psi);
+    node.Omega = node.R.transpose() * (T.transpose() * rate);
+    node.Omegadot =
+        node.R.transpose() * (T.transpose() * acceleration + tangent_derivative(psi, rate).transpose() * rate);
+  }
+  follow_carriers(nodes);
+}
+
+void NodeKinematics::get_rates(const std::vector<NodeState>& nodes, Eigen::Ref<VectorX> v, Eigen::Ref<VectorX> a) const {
+  for (std::size_t i = 0; i < freedom_.size(); ++i) {
+    const NodeFreedom& f = freedom_[i];
+    if (f.count == 0) continue;
+    Vector6 rate, acceleration;
+    rate << nodes[i].v, nodes[i].Omega;
+    acceleration << nodes[i].a, nodes[i].Omegadot;
+    // The columns of G are orthonormal.
+    v.segment(f.begin, f.count) = f.G.leftCols(f.count).transpose() * rate;
+    a.segment(f.begin, f.count) = f.G.leftCols(f.count).transpose() * acceleration;
+  }
+}
+
+void NodeKinematics::carry_forces(const std::vector<NodeState>& nodes, Eigen::Ref<VectorX> forces) const {
+  for (const Carry& carry : carries_) {
+    const Vector3 force = forces.segment<3>(6 * carry.node), moment = forces.segment<3>(6 * carry.node + 3);
+    const Matrix3& R = nodes[static_cast<std::size_t>(carry.carrier)].R;
+    forces.segment<3>(6 * carry.carrier) += force;
+    forces.segment<3>(6 * carry.carrier + 3) += carry.c.cross(R.transpose() * force) + carry.R_c * moment;
+    forces.segment<6>(6 * carry.node).setZero();
+  }
+}
+
+double NodeKinematics::support_power(const std::vector<NodeState>& nodes, const Eigen::Ref<const VectorX>& forces) const {
+  double power = 0;
+  for (const Prescribed& p : prescribed_) {
+    const NodeState& node = nodes[static_cast<std::size_t>(p.node)];
+    for (int k = 0; k < 3; ++k)
+      if (p.freedom[static_cast<std::size_t>(k)] == Freedom::prescribed) power += forces[6 * p.node + k] * node.v[k];
+    if (p.rotation) power += forces.segment<3>(6 * p.node + 3).dot(node.Omega);
+  }
+  return power;
+}
+
+}  // namespace bielle::mechanism

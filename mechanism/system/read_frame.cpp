@@ -1,0 +1,60 @@
+#include "mechanism/system/read_frame.hpp"
+
+#include <fmt/format.h>
+
+namespace bielle::mechanism {
+namespace {
+
+Matrix3 about(int axis, double angle) { return exp_so3(angle * Vector3::Unit(axis)); }
+
+Matrix3 read_axes(const YamlValue& value) {
+  value.check_keys({"x", "y", "z"}, "`axes`");
+  const std::vector<std::pair<std::string, YamlValue>> entries = value.entries();
+  if (entries.size() != 2) value.fail("expected two of the axes x, y, z: the first as given, the second made orthogonal to it");
+  Matrix3 R = Matrix3::Zero();
+  const auto index = [](const std::string& name) { return name[0] - 'x'; };
+  const int first = index(entries[0].first), second = index(entries[1].first), third = 3 - first - second;
+  R.col(first) = entries[0].second.direction();
+  Vector3 other = entries[1].second.direction();
+  other -= R.col(first) * R.col(first).dot(other);
+  if (other.norm() < 1e-9) value.fail(fmt::format("axis {} is parallel to axis {}", entries[1].first, entries[0].first));
+  R.col(second) = other.normalized();
+  const Vector3 cross = R.col(first).cross(R.col(second));
+  R.col(third) = (second - first + 3) % 3 == 1 ? cross : Vector3(-cross);
+  return R;
+}
+
+}  // namespace
+
+const std::vector<std::string>& orientation_keys() {
+  static const std::vector<std::string> keys = {"rotation_vector", "quaternion", "bryant", "euler", "axes"};
+  return keys;
+}
+
+Matrix3 read_orientation(const YamlValue& entry) {
+  std::string given;
+  for (const std::string& key : orientation_keys()) {
+    if (!entry.has(key)) continue;
+    if (!given.empty()) entry.fail(fmt::format("has two orientations, `{}` and `{}`", given, key));
+    given = key;
+  }
+  if (given.empty()) return Matrix3::Identity();
+  const YamlValue value = entry.at(given);
+  if (given == "axes") return read_axes(value);
+  if (given == "quaternion") {
+    const VectorX q = value.vector();
+    if (q.size() != 4) value.fail(fmt::format("expected the four numbers w x y z of a quaternion, found {}", q.size()));
+    if (q.norm() == 0) value.fail("a quaternion of length zero is no rotation");
+    return rotation_of_quaternion(q);
+  }
+  const Vector3 a = value.vector3();
+  if (given == "rotation_vector") return exp_so3(a);
+  if (given == "bryant") return about(0, a[0]) * about(1, a[1]) * about(2, a[2]);
+  return about(2, a[0]) * about(0, a[1]) * about(2, a[2]);
+}
+
+Frame read_frame(const YamlValue& entry) {
+  return {entry.has("position") ? Vector3(entry.at("position").vector3()) : Vector3::Zero(), read_orientation(entry)};
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,27 @@
+// Frames in input files: a position and one of several ways to give an orientation.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mechanism/math/se3.hpp"
+#include "reduce/common/yaml_file.hpp"
+
+namespace bielle::mechanism {
+
+/// The keys that give an orientation; at most one of them may be present.
+///   rotation_vector: [rad x3]          axis times angle
+///   quaternion: [w, x, y, z]           need not be of length one
+///   bryant: [a, b, c]                  R = R_x(a) R_y(b) R_z(c) [rad]
+///   euler: [a, b, c]                   R = R_z(a) R_x(b) R_z(c) [rad]
+///   axes: {x: [..], y: [..]}           two of x, y, z; the second is made orthogonal to the first
+const std::vector<std::string>& orientation_keys();
+
+/// Rotation (own axes -> inertial axes) of an entry; identity when it has none of the keys.
+/// @throws InputError when there are two, or one that gives no rotation
+Matrix3 read_orientation(const YamlValue& entry);
+
+/// `position` (default zero) with an orientation.
+Frame read_frame(const YamlValue& entry);
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,267 @@
+#include "mechanism/system/system.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace bielle::mechanism {
+namespace {
+
+constexpr const char* axis_names[] = {"x", "y", "z"};
+
+/// "joint 'main'", "element 'rod'": how a message names a member.
+std::string describe(const Member& member) {
+  const std::string section = member.group.substr(0, member.group.find('/'));
+  const std::string kind = section.empty() ? member.component->type() : section.substr(0, section.size() - 1);
+  return fmt::format("{} '{}'", kind, member.component->name());
+}
+
+}  // namespace
+
+System::System(const Model& model) : model_(model), kinematics_(model) {
+  std::vector<Declaration> declarations;
+  std::vector<double> amplitude, first_order, multiplier, memory;
+  std::vector<std::string> amplitude_names, first_order_names, multiplier_names;
+  std::vector<std::string> amplitude_units, first_order_units, multiplier_units;
+  const auto append = [](const std::vector<Declaration::Scalar>& scalars, const Member& member,
+                         std::vector<double>& values, std::vector<std::string>& names,
+                         std::vector<std::string>& units) {
+    for (const Declaration::Scalar& scalar : scalars) {
+      values.push_back(scalar.start);
+      names.push_back(fmt::format("{} of {}", scalar.name, describe(member)));
+      units.push_back(scalar.units);
+    }
+  };
+  for (const Member& member : model.members()) {
+    Declaration declaration;
+    member.component->declare(declaration);
+    Slots slots;
+    slots.nodes = declaration.nodes;
+    slots.amplitude_begin = static_cast<int>(amplitude.size());
+    slots.amplitudes = static_cast<int>(declaration.amplitudes.size());
+    slots.first_order_begin = static_cast<int>(first_order.size());
+    slots.first_orders = static_cast<int>(declaration.first_order.size());
+    slots.multiplier_begin = static_cast<int>(multiplier.size());
+    slots.multipliers = static_cast<int>(declaration.multipliers.size());
+    slots.memory_begin = static_cast<int>(memory.size());
+    slots.memories = static_cast<int>(declaration.memory.size());
+    append(declaration.amplitudes, member, amplitude, amplitude_names, amplitude_units);
+    append(declaration.first_order, member, first_order, first_order_names, first_order_units);
+    append(declaration.multipliers, member, multiplier, multiplier_names, multiplier_units);
+    for (const Declaration::Scalar& scalar : declaration.multipliers) constraint_kinds_.push_back(scalar.kind);
+    memory.insert(memory.end(), declaration.memory.begin(), declaration.memory.end());
+    slots_.push_back(slots);
+    declarations.push_back(std::move(declaration));
+  }
+  const auto as_vector = [](const std::vector<double>& values) {
+    return VectorX(Eigen::Map<const VectorX>(values.data(), static_cast<Eigen::Index>(values.size())));
+  };
+  amplitudes_ = static_cast<int>(amplitude.size());
+  first_orders_ = static_cast<int>(first_order.size());
+  multipliers_ = static_cast<int>(multiplier.size());
+  start_amplitude_ = as_vector(amplitude);
+  start_first_order_ = as_vector(first_order);
+  start_multiplier_ = as_vector(multiplier);
+  start_memory_ = as_vector(memory);
+  for (auto* names : {&amplitude_names, &first_order_names, &multiplier_names})
+    scalar_names_.insert(scalar_names_.end(), names->begin(), names->end());
+  for (auto* units : {&amplitude_units, &first_order_units, &multiplier_units})
+    scalar_units_.insert(scalar_units_.end(), units->begin(), units->end());
+
+  kinds_.assign(static_cast<std::size_t>(size()), Kind::multiplier);
+  for (int i = 0; i < static_cast<int>(model.nodes().size()); ++i) {
+    const NodeFreedom& f = kinematics_.freedom(i);
+    for (int c = 0; c < f.count; ++c)
+      kinds_[static_cast<std::size_t>(f.begin + c)] =
+          f.G.col(c).head<3>().squaredNorm() > 0 ? Kind::translation : Kind::rotation;
+  }
+  const auto fill = [&](int begin, int count, Kind kind) {
+    std::fill_n(kinds_.begin() + begin, count, kind);
+  };
+  fill(kinematics_.unknowns(), amplitudes_, Kind::amplitude);
+  fill(dofs(), first_orders_, Kind::first_order);
+  place(declarations);
+}
+
+void System::place(const std::vector<Declaration>& declarations) {
+  const int first_multiplier = dofs() + first_orders_;
+  for (std::size_t m = 0; m < slots_.size(); ++m) {
+    const Slots& slots = slots_[m];
+    Placement placement;
+    placement.stiffness = declarations[m].stiffness || slots.multipliers > 0;
+    placement.damping = declarations[m].damping;
+    placement.mass = declarations[m].mass;
+    for (std::size_t k = 0; k < declarations[m].multipliers.size(); ++k)
+      if (declarations[m].multipliers[k].kind == ConstraintKind::nonholonomic)
+        placement.nonholonomic.push_back(slots.multiplier_row() + static_cast<int>(k));
+    for (const int node : slots.nodes) {
+      const Carry* carry = kinematics_.carry(node);
+      const NodeFreedom& f = kinematics_.freedom(carry ? carry->carrier : node);
+      if (carry || !(f.all_free || f.count == 0)) placement.plain = false;
+    }
+    for (const int node : slots.nodes) {
+      const Carry* carry = kinematics_.carry(node);
+      const NodeFreedom& f = kinematics_.freedom(carry ? carry->carrier : node);
+      placement.reduced_begin.push_back(static_cast<int>(placement.unknown.size()));
+      for (int c = 0; c < f.count; ++c) placement.unknown.push_back(f.begin + c);
+      if (placement.plain && f.count == 0) placement.unknown.insert(placement.unknown.end(), 6, -1);
+    }
+    const auto append = [&](int begin, int count) {
+      for (int k = 0; k < count; ++k) placement.unknown.push_back(begin + k);
+    };
+    append(kinematics_.unknowns() + slots.amplitude_begin, slots.amplitudes);
+    append(dofs() + slots.first_order_begin, slots.first_orders);
+    append(first_multiplier + slots.multiplier_begin, slots.multipliers);
+    largest_local_ = std::max(largest_local_, slots.size());
+    placements_.push_back(std::move(placement));
+  }
+  build_pattern();
+}
+
+void System::build_pattern() {
+  // A constraint does not depend on multipliers: that block stays out of the pattern, but for those set aside.
+  const int first_multiplier = dofs() + first_orders_;
+  std::vector<std::pair<int, int>> entries;
+  const auto kept = [&](int row, int column) {
+    return row >= 0 && column >= 0 && !(row >= first_multiplier && column >= first_multiplier);
+  };
+  const auto contributes = [](const Placement& p) { return p.stiffness || p.damping || p.mass; };
+  for (const Placement& placement : placements_) {
+    if (!contributes(placement)) continue;
+    for (const int column : placement.unknown)
+      for (const int row : placement.unknown)
+        if (kept(row, column)) entries.emplace_back(row, column);
+  }
+  for (const int multiplier : set_aside_) entries.emplace_back(first_multiplier + multiplier, first_multiplier + multiplier);
+  pattern_ = SparsePattern(size(), std::move(entries));
+  for (Placement& placement : placements_) {
+    if (!contributes(placement)) continue;
+    placement.position.clear();
+    placement.position.reserve(placement.unknown.size() * placement.unknown.size());
+    for (const int column : placement.unknown)
+      for (const int row : placement.unknown)
+        placement.position.push_back(kept(row, column) ? pattern_.find(row, column) : -1);
+  }
+}
+
+void System::set_aside(const std::vector<int>& multipliers) {
+  set_aside_ = multipliers;
+  build_pattern();
+  set_aside_entries_.clear();
+  set_aside_diagonal_.clear();
+  std::vector<bool> aside(static_cast<std::size_t>(size()), false);
+  for (const int multiplier : multipliers) aside[static_cast<std::size_t>(dofs() + first_orders_ + multiplier)] = true;
+  for (int column = 0; column < size(); ++column)
+    for (int k = pattern_.column_start()[static_cast<std::size_t>(column)];
+         k < pattern_.column_start()[static_cast<std::size_t>(column) + 1]; ++k) {
+      const int row = pattern_.row()[static_cast<std::size_t>(k)];
+      if (row == column && aside[static_cast<std::size_t>(row)])
+        set_aside_diagonal_.push_back(k);
+      else if (aside[static_cast<std::size_t>(row)] || aside[static_cast<std::size_t>(column)])
+        set_aside_entries_.push_back(k);
+    }
+}
+
+std::string System::unknown_name(int unknown) const {
+  if (unknown >= kinematics_.unknowns())
+    return scalar_names_[static_cast<std::size_t>(unknown - kinematics_.unknowns())];
+  for (int i = 0; i < static_cast<int>(model_.nodes().size()); ++i) {
+    const NodeFreedom& f = kinematics_.freedom(i);
+    if (unknown < f.begin || unknown >= f.begin + f.count) continue;
+    Eigen::Index direction = 0;
+    f.G.col(unknown - f.begin).cwiseAbs().maxCoeff(&direction);
+    return fmt::format("{} {} of node '{}'", direction < 3 ? "displacement" : "rotation",
+                       axis_names[direction % 3], model_.node(i).name);
+  }
+  return "unknown " + std::to_string(unknown);
+}
+
+std::string System::equation_name(int equation) const {
+  switch (kind(equation)) {
+    case Kind::translation:
+    case Kind::rotation: {
+      std::string name = unknown_name(equation);
+      const bool force = kind(equation) == Kind::translation;
+      name.replace(0, name.find(' '), force ? "force" : "moment");
+      name.replace(name.find(" of "), 4, " at ");
+      return name;
+    }
+    case Kind::amplitude:
+    case Kind::first_order: return "equation of " + unknown_name(equation);
+    case Kind::multiplier: break;
+  }
+  return "constraint " + unknown_name(equation);
+}
+
+std::string System::equation_units(int equation) const {
+  switch (kind(equation)) {
+    case Kind::translation: return "N";
+    case Kind::rotation: return "N m";
+    case Kind::amplitude: return "N/sqrt(kg)";
+    case Kind::first_order: return scalar_units_[static_cast<std::size_t>(equation - kinematics_.unknowns())] + "/s";
+    case Kind::multiplier: break;
+  }
+  return scalar_units_[static_cast<std::size_t>(equation - kinematics_.unknowns())] == "N" ? "m" : "rad";
+}
+
+State System::start(double time) const {
+  State state;
+  state.time = time;
+  kinematics_.start(state.nodes, time);
+  state.amplitude = start_amplitude_;
+  state.amplitude_rate = VectorX::Zero(amplitudes_);
+  state.amplitude_acceleration = VectorX::Zero(amplitudes_);
+  state.first_order = start_first_order_;
+  state.first_order_rate = VectorX::Zero(first_orders_);
+  state.multiplier = start_multiplier_;
+  state.memory = start_memory_;
+  return state;
+}
+
+void System::displace(State& state, const State& base, const Eigen::Ref<const VectorX>& dq) const {
+  kinematics_.displace(state.nodes, base.nodes, dq.head(kinematics_.unknowns()), state.time);
+  state.amplitude = base.amplitude + dq.tail(amplitudes_);
+}
+
+void System::set_rates(State& state, const Eigen::Ref<const VectorX>& v, const Eigen::Ref<const VectorX>& a) const {
+  const int n = kinematics_.unknowns();
+  kinematics_.set_rates(state.nodes, v.head(n), a.head(n), state.time);
+  state.amplitude_rate = v.tail(amplitudes_);
+  state.amplitude_acceleration = a.tail(amplitudes_);
+}
+
+void System::get_rates(const State& state, Eigen::Ref<VectorX> v, Eigen::Ref<VectorX> a) const {
+  const int n = kinematics_.unknowns();
+  kinematics_.get_rates(state.nodes, v.head(n), a.head(n));
+  v.tail(amplitudes_) = state.amplitude_rate;
+  a.tail(amplitudes_) = state.amplitude_acceleration;
+}
+
+void System::constraint_rates(const State& state, const Environment& environment, Eigen::Ref<VectorX> velocity,
+                              Eigen::Ref<VectorX> acceleration) const {
+  velocity.setZero();
+  acceleration.setZero();
+  for (std::size_t m = 0; m < slots_.size(); ++m) {
+    const Slots& slots = slots_[m];
+    if (slots.multipliers == 0) continue;
+    model_.members()[m].component->add_constraint_rates(
+        LocalState(state, slots, environment), velocity.segment(slots.multiplier_begin, slots.multipliers),
+        acceleration.segment(slots.multiplier_begin, slots.multipliers));
+  }
+}
+
+void System::accept(State& state, const Environment& environment) const {
+  VectorX memory = state.memory;
+  for (std::size_t m = 0; m < slots_.size(); ++m)
+    if (slots_[m].memories > 0)
+      model_.members()[m].component->accept(LocalState(state, slots_[m], environment),
+                                            memory.segment(slots_[m].memory_begin, slots_[m].memories));
+  state.memory = memory;
+  // One Newton step of the polar decomposition removes the rounding that products of rotations gather.
+  for (NodeState& node : state.nodes) {
+    const Matrix3 excess = node.R.transpose() * node.R;
+    node.R = node.R * (1.5 * Matrix3::Identity() - 0.5 * excess);
+  }
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,116 @@
+// A mechanism ready to compute: numbered unknowns, residual, weighted tangent, energies, and names for messages.
+//
+// Unknowns, in this order: independent increments of the nodes, amplitudes, first-order unknowns, multipliers. Equations
+// likewise. "dofs" are the first two: what has inertia.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mechanism/math/sparse.hpp"
+#include "mechanism/system/model.hpp"
+#include "mechanism/system/node_kinematics.hpp"
+
+namespace bielle::mechanism {
+
+/// Kind of an unknown or equation: scales and tolerances go by it.
+enum class Kind { translation, rotation, amplitude, first_order, multiplier };
+inline constexpr std::size_t kind_count = 5;
+
+/// Largest absolute contribution of any component to the equations of each kind: what a residual is small beside.
+struct ResidualScale {
+  std::array<double, kind_count> largest{};
+  double& operator[](Kind kind) { return largest[static_cast<std::size_t>(kind)]; }
+  double operator[](Kind kind) const { return largest[static_cast<std::size_t>(kind)]; }
+};
+
+/// The tangent is  stiffness * K T(Dq) + damping * C + mass * M  on dof columns, stiffness * K + first_order * C on
+/// first-order columns; rows and columns of multipliers (B, B^T) carry the weight `constraint` in place of `stiffness`.
+struct TangentWeights {
+  double stiffness = 1, damping = 0, mass = 0, first_order = 0, constraint = 1;
+  /// Rows of non-holonomic constraints hold their B (the part that multiplies velocities) alone: what relates
+  /// accelerations. For the systems [M B^T; B 0] of a consistent start.
+  bool acceleration_level = false;
+};
+
+class System {
+ public:
+  /// Declares and numbers all components. Keeps a reference: the model must outlive the system.
+  explicit System(const Model& model);
+
+  const Model& model() const { return model_; }
+  const NodeKinematics& kinematics() const { return kinematics_; }
+  const std::vector<Slots>& slots() const { return slots_; }  ///< of the model's members, in their order
+
+  int dofs() const { return kinematics_.unknowns() + amplitudes_; }
+  int first_orders() const { return first_orders_; }
+  int multipliers() const { return multipliers_; }
+  int size() const { return dofs() + first_orders_ + multipliers_; }
+  Kind kind(int unknown) const { return kinds_[static_cast<std::size_t>(unknown)]; }
+  ConstraintKind constraint_kind(int multiplier) const { return constraint_kinds_[static_cast<std::size_t>(multiplier)]; }
+  std::string unknown_name(int unknown) const;   ///< "rotation y of node 'pin'", "mode 3 of element 'rod'"
+  std::string equation_name(int equation) const;  ///< "moment y at node 'pin'", "constraint x of joint 'main'"
+  std::string equation_units(int equation) const;
+
+  /// Takes redundant constraints out of the equations: their multipliers stay zero. Call before solvers are made.
+  void set_aside(const std::vector<int>& multipliers);
+  const std::vector<int>& set_aside() const { return set_aside_; }
+
+  /// State of the input file at a time: positions and rates as given, start values of scalars, multipliers zero.
+  State start(double time) const;
+  /// state = base o exp(dq) at state.time. @param dq (dofs)
+  void displace(State& state, const State& base, const Eigen::Ref<const VectorX>& dq) const;
+  void set_rates(State& state, const Eigen::Ref<const VectorX>& v, const Eigen::Ref<const VectorX>& a) const;
+  void get_rates(const State& state, Eigen::Ref<VectorX> v, Eigen::Ref<VectorX> a) const;
+
+  /// r (size) of all equations. @param scale  if given, receives the largest contributions
+  void residual(const State& state, const Environment& environment, Eigen::Ref<VectorX> r,
+                ResidualScale* scale = nullptr) const;
+  const SparsePattern& pattern() const { return pattern_; }
+  /// Values of the weighted tangent in the pattern's order.
+  /// @param dq  increment since the base of the step, for T(Dq); nullptr: zero
+  void tangent(const State& state, const Environment& environment, const TangentWeights& weights,
+               const VectorX* dq, std::vector<double>& values) const;
+  /// First and second time derivatives of the constraint rows at the state's rates. Vectors (multipliers).
+  void constraint_rates(const State& state, const Environment& environment, Eigen::Ref<VectorX> velocity,
+                        Eigen::Ref<VectorX> acceleration) const;
+  /// Sums of the components, and the power of the supports that move nodes.
+  Energy energy(const State& state, const Environment& environment) const;
+  /// Ends a converged step: components renew their memory; rotation matrices are made orthonormal again.
+  void accept(State& state, const Environment& environment) const;
+
+ private:
+  /// How one component's local rows and columns reach the global ones.
+  struct Placement {
+    bool plain = true;         ///< every node is free in all six directions, or held in all
+    std::vector<int> unknown;  ///< global unknown of each reduced local row, -1 where held
+    std::vector<int> position; ///< in the values, of each reduced entry (column-major), -1 where dropped
+    std::vector<int> reduced_begin;  ///< first reduced row of each node
+    bool stiffness = false, damping = false, mass = false;
+    std::vector<int> nonholonomic;  ///< local rows
+  };
+  struct Workspace;
+  void place(const std::vector<Declaration>& declarations);
+  void build_pattern();
+  void node_forces(const State& state, const Environment& environment, VectorX& forces, Eigen::Ref<VectorX> r,
+                   ResidualScale* scale) const;
+  void add_reduced(const Placement& placement, const LocalState& local, const TangentWeights& weights,
+                   const Component& component, const VectorX* dq, Workspace& work, std::vector<double>& values) const;
+
+  const Model& model_;
+  NodeKinematics kinematics_;
+  std::vector<Slots> slots_;
+  std::vector<Placement> placements_;
+  int amplitudes_ = 0, first_orders_ = 0, multipliers_ = 0, memories_ = 0, largest_local_ = 0;
+  VectorX start_amplitude_, start_first_order_, start_multiplier_, start_memory_;
+  std::vector<Kind> kinds_;
+  std::vector<ConstraintKind> constraint_kinds_;
+  std::vector<std::string> scalar_names_;  ///< of amplitudes, first-order unknowns, multipliers in global order
+  std::vector<std::string> scalar_units_;
+  SparsePattern pattern_;
+  std::vector<int> set_aside_;           ///< multipliers
+  std::vector<int> set_aside_entries_;   ///< places of their rows and columns among the values
+  std::vector<int> set_aside_diagonal_;  ///< places of their diagonal
+};
+
+}  // namespace bielle::mechanism
