@@ -1,1 +1,60 @@
 // bielle-mechanism: a model file in, motion out.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+
+#include "mechanism/io/describe_model.hpp"
+#include "mechanism/io/mechanism_file.hpp"
+#include "mechanism/io/run_analyses.hpp"
+#include "reduce/common/command_line.hpp"
+#include "reduce/common/error.hpp"
+#include "reduce/common/progress.hpp"
+
+namespace {
+
+using namespace bielle;
+using namespace bielle::mechanism;
+
+std::map<std::string, std::string> read_overrides(const std::vector<std::string>& settings) {
+  std::map<std::string, std::string> overrides;
+  for (const std::string& setting : settings) {
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw InputError(fmt::format("--set {}: expected NAME=EXPRESSION", setting));
+    overrides[setting.substr(0, equals)] = setting.substr(equals + 1);
+  }
+  return overrides;
+}
+
+int body(int argc, char** argv) {
+  CLI::App app{"Computes the motion of a mechanism of rigid bodies, beams, superelements and joints.", "bielle-mechanism"};
+  std::string model_path, results_path;
+  std::vector<std::string> settings;
+  bool check = false;
+  CommonOptions common;
+  app.add_option("MODEL", model_path, "mechanism file (YAML)")->required();
+  app.add_option("-o,--output", results_path, "results file (default: MODEL with the ending .h5)");
+  app.add_option("--set", settings, "NAME=EXPRESSION: overrides a parameter of the model")->take_all()->expected(1);
+  app.add_flag("--check", check, "read, assemble and describe the model without running it");
+  add_common_options(app, common);
+  if (!parse_command_line(app, argc, argv)) return 0;
+
+  const MechanismFile file = read_mechanism_file(model_path, read_overrides(settings));
+  if (check) {
+    fmt::print("{}", describe_model(file));
+    return 0;
+  }
+  if (file.analyses.empty())
+    throw InputError(fmt::format("{}: nothing to do: the file has no `analysis`", model_path));
+  if (results_path.empty()) results_path = std::filesystem::path(model_path).replace_extension(".h5").string();
+  Progress progress(common.quiet);
+  const std::vector<AnalysisSummary> summaries = run_analyses(file, results_path, progress);
+  if (!common.quiet) fmt::print("{}", format_summary(file, summaries, progress.phases(), results_path));
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return bielle::run_program("bielle-mechanism", body, argc, argv); }

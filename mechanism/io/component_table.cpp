@@ -4,7 +4,6 @@
 
 #include "mechanism/elements/beam.hpp"
 #include "mechanism/elements/load.hpp"
-#include "mechanism/elements/point_mass.hpp"
 #include "mechanism/elements/rigid_body.hpp"
 #include "mechanism/elements/spring_damper.hpp"
 #include "mechanism/elements/superelement_body.hpp"

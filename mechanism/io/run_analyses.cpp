@@ -7,6 +7,7 @@
 
 #include "mechanism/io/energy_balance.hpp"
 #include "mechanism/io/results_file.hpp"
+#include "mechanism/solvers/redundancy.hpp"
 #include "mechanism/solvers/statics.hpp"
 
 namespace bielle::mechanism {
@@ -43,7 +44,12 @@ class Run {
         environment_(file.model.environment),
         state_(system_.start(0)),
         results_(results_path, file.model, file.text),
-        progress_(progress) {}
+        progress_(progress) {
+    const std::vector<int> redundant = find_redundant(system_, environment_, state_);
+    system_.set_aside(redundant);
+    for (const int multiplier : redundant)
+      redundant_.push_back(system_.equation_name(system_.size() - system_.multipliers() + multiplier));
+  }
 
   std::vector<AnalysisSummary> all() {
     std::vector<AnalysisSummary> summaries;
@@ -56,6 +62,7 @@ class Run {
         case Analysis::Type::dynamics: summaries.push_back(integrate(analysis)); break;
       }
       results_.end_analysis();
+      summaries.back().redundant = redundant_;
     }
     progress_.finish();
     results_.complete();
@@ -162,6 +169,7 @@ class Run {
   ResultsFile results_;
   Progress& progress_;
   InterruptGuard guard_;
+  std::vector<std::string> redundant_;
 };
 
 }  // namespace

@@ -16,6 +16,7 @@ struct AnalysisSummary {
   long steps = 0;
   long iterations = 0;    ///< linear solves
   long records = 0;       ///< rows written
+  std::vector<std::string> redundant;  ///< constraints set aside
   StartReport start;      ///< dynamics: what the consistent start had to change
   Energy energy;          ///< at the end [J]; dissipation and input are integrals over the analysis
   double energy_start = 0;    ///< kinetic + elastic + gravity at the start [J]

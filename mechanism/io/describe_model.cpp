@@ -1,0 +1,101 @@
+#include "mechanism/io/describe_model.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "mechanism/joints/joint.hpp"
+#include "mechanism/solvers/redundancy.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+std::string format_vector(const Vector3& v) {
+  // Rounding residue of orthogonal axes reads as zero.
+  const auto clean = [](double x) { return std::abs(x) < 1e-14 ? 0.0 : x; };
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", clean(v.x()), clean(v.y()), clean(v.z()));
+}
+
+std::string format_start(const StartReport& start) {
+  std::string text;
+  if (start.largest_displacement > 1e-9 || start.largest_rotation > 1e-9)
+    text += fmt::format("  assembly moved node '{}' by {:.3g} m; largest rotation {:.3g} rad\n", start.displaced_node,
+                        start.largest_displacement, start.largest_rotation);
+  if (start.velocity_change > 1e-9)
+    text += fmt::format("  start velocities were changed by up to {:.3g} m/s to satisfy joints and drives\n",
+                        start.velocity_change);
+  return text;
+}
+
+}  // namespace
+
+std::string describe_model(const MechanismFile& file) {
+  const Model& model = file.model;
+  System system(model);
+  State state = system.start(0);
+  const std::vector<int> redundant = find_redundant(system, model.environment, state);
+  system.set_aside(redundant);
+  StartReport report;
+  assemble_positions(system, model.environment, state, report);
+
+  std::string text = fmt::format("{}\n", model.title.empty() ? "mechanism" : model.title);
+  int internal = 0;
+  for (const Node& node : model.nodes()) internal += node.internal;
+  text += fmt::format("  nodes        {}{}\n", model.nodes().size() - static_cast<std::size_t>(internal),
+                      internal > 0 ? fmt::format(" and {} inside of elements", internal) : "");
+  std::map<std::string, std::map<std::string, int>> counts;  // section -> type -> number
+  for (const Member& member : model.members())
+    ++counts[member.group.substr(0, member.group.find('/'))][member.component->type()];
+  for (const auto& [section, types] : counts) {
+    text += fmt::format("  {:<12}", section.empty() ? "others" : section);
+    const char* separator = " ";
+    for (const auto& [type, number] : types) {
+      text += fmt::format("{}{} {}", separator, number, type);
+      separator = ", ";
+    }
+    text += "\n";
+  }
+  const int independent = system.multipliers() - static_cast<int>(redundant.size());
+  text += fmt::format("  unknowns     {} displacements and amplitudes, {} first-order, {} multipliers\n", system.dofs(),
+                      system.first_orders(), system.multipliers());
+  text += fmt::format("  freedom      {} degrees of freedom after {} independent constraints\n", system.dofs() - independent,
+                      independent);
+  text += format_start(report);
+  for (const int multiplier : redundant)
+    text += fmt::format("  redundant    {}: set aside, its multiplier stays zero\n",
+                        system.equation_name(system.size() - system.multipliers() + multiplier));
+  for (const Member& member : model.members()) {
+    const auto* joint = dynamic_cast<const Joint*>(member.component.get());
+    if (!joint) continue;
+    const NodeState& first = state.nodes[static_cast<std::size_t>(joint->frames().first)];
+    const Matrix3 axes = first.R * joint->frames().on_first.R;
+    text += fmt::format("  joint '{}' ({}): at {}, x {}, z {}\n", joint->name(), joint->type(),
+                        format_vector(first.x + first.R * joint->frames().on_first.x), format_vector(axes.col(0)),
+                        format_vector(axes.col(2)));
+  }
+  return text;
+}
+
+std::string format_summary(const MechanismFile& file, const std::vector<AnalysisSummary>& summaries,
+                           const std::vector<PhaseReport>& phases, const std::string& results_path) {
+  std::string text = fmt::format("{}\n", file.model.title.empty() ? "mechanism" : file.model.title);
+  for (const AnalysisSummary& s : summaries) {
+    text += fmt::format("{}\n", s.name);
+    text += format_start(s.start);
+    for (const std::string& name : s.redundant) text += fmt::format("  redundant: {}, set aside\n", name);
+    if (s.steps == 0) continue;
+    text += fmt::format("  {} steps, {:.2f} Newton iterations per step, {} rows recorded, until t = {:.6g} s\n", s.steps,
+                        static_cast<double>(s.iterations) / static_cast<double>(s.steps), s.records, s.end_time);
+    if (s.largest_energy > 0)
+      text += fmt::format(
+          "  energy at the end [J]: kinetic {:.6g}, elastic {:.6g}, gravity {:.6g}; input {:.6g}, dissipated {:.6g}\n"
+          "  balance {:.3g} J, {:.2g} of the largest energy (negative: numerical dissipation)\n",
+          s.energy.kinetic, s.energy.elastic, s.energy.gravity, s.energy.input, s.energy.dissipation, s.balance,
+          s.balance / s.largest_energy);
+  }
+  for (const PhaseReport& phase : phases) text += fmt::format("  {:<12} {:8.2f} s\n", phase.name, phase.seconds);
+  text += fmt::format("results: {}\n", results_path);
+  return text;
+}
+
+}  // namespace bielle::mechanism
