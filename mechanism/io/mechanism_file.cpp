@@ -139,10 +139,7 @@ Analysis read_analysis(const YamlValue& entry) {
   return analysis;
 }
 
-}  // namespace
-
-MechanismFile read_mechanism_file(const std::string& path, const std::map<std::string, std::string>& overrides) {
-  YamlValue root = YamlValue::load(path);
+MechanismFile read_mechanism(YamlValue root, const std::map<std::string, std::string>& overrides) {
   root.check_keys({"mechanism", "gravity", "parameters", "nodes", "elements", "joints", "drives", "loads", "analysis", "output"},
                   "a mechanism file");
   MechanismFile file;
@@ -168,6 +165,17 @@ MechanismFile read_mechanism_file(const std::string& path, const std::map<std::s
     if (file.output.every < 1) output->at("every").fail("expected at least 1");
   }
   return file;
+}
+
+}  // namespace
+
+MechanismFile read_mechanism_file(const std::string& path, const std::map<std::string, std::string>& overrides) {
+  return read_mechanism(YamlValue::load(path), overrides);
+}
+
+MechanismFile read_mechanism_text(const std::string& text, const std::string& name,
+                                  const std::map<std::string, std::string>& overrides) {
+  return read_mechanism(YamlValue::parse(text, name), overrides);
 }
 
 }  // namespace bielle::mechanism

@@ -37,4 +37,8 @@ struct MechanismFile {
 /// @throws InputError
 MechanismFile read_mechanism_file(const std::string& path, const std::map<std::string, std::string>& overrides = {});
 
+/// The same from a file's text, `name` standing for the file in messages.
+MechanismFile read_mechanism_text(const std::string& text, const std::string& name,
+                                  const std::map<std::string, std::string>& overrides = {});
+
 }  // namespace bielle::mechanism

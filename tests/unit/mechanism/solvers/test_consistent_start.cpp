@@ -1,0 +1,80 @@
+#include <catch2/catch.hpp>
+
+#include "mechanism/io/mechanism_file.hpp"
+#include "mechanism/solvers/consistent_start.hpp"
+
+using namespace bielle::mechanism;
+
+TEST_CASE("the start of a pendulum at an angle has its tension and acceleration in closed form") {
+  // Point mass m on a rod of length L, held horizontally and moving at v: tension m v^2/L, acceleration g downwards.
+  const MechanismFile file = read_mechanism_text(R"(
+gravity: [0, 0, -9.81]
+nodes: {bob: {position: [2, 0, 0], velocity: [0, 3, 0]}}
+elements: {bob: {type: rigid_body, node: bob, mass: 1.5, inertia: [1e-3, 1e-3, 1e-3]}}
+joints: {pivot: {type: spherical, nodes: [ground, bob], position: [0, 0, 0]}}
+)", "pendulum.yaml");
+  System system(file.model);
+  State state = system.start(0);
+  make_consistent(system, file.model.environment, state);
+  const NodeState& bob = state.nodes.back();
+  // The given velocity is a translation; kept in the energy norm, the body must turn with its velocity: almost all stays.
+  const double J = 1e-3, m = 1.5, L = 2;
+  const double turn = m * L * 3 / (m * L * L + J);  // angular velocity about z: least change in the mass norm
+  CHECK(bob.v.y() == Approx(turn * L).epsilon(1e-12));
+  CHECK(bob.Omega.z() == Approx(turn).epsilon(1e-12));
+  const double fall = m * 9.81 * L / (m * L * L + J);  // angular acceleration about y
+  CHECK(bob.a.z() == Approx(-fall * L).epsilon(1e-12));
+  CHECK(bob.a.x() == Approx(-turn * turn * L).epsilon(1e-12));
+  // Along x the joint holds the centripetal force: residual = m a + B^T lambda, so B^T lambda = -m a.
+  VectorX r(system.size());
+  system.residual(state, file.model.environment, r);
+  CHECK(r.cwiseAbs().maxCoeff() < 1e-12);
+}
+
+TEST_CASE("a drive that starts away from the drawn position moves its joint there, and says so") {
+  const MechanismFile file = read_mechanism_text(R"(
+nodes: {arm: {position: [1, 0, 0]}}
+elements: {arm: {type: rigid_body, node: arm, mass: 1, inertia: [0.1, 0.1, 0.1]}}
+joints: {axle: {type: hinge, nodes: [ground, arm], axis: [0, 0, 1], position: [0, 0, 0]}}
+drives: {motor: {joint: axle, angle: "0.5 + 2*t + 3*t^2"}}
+)", "drive.yaml");
+  System system(file.model);
+  State state = system.start(0);
+  const StartReport report = make_consistent(system, file.model.environment, state);
+  const NodeState& arm = state.nodes.back();
+  CHECK(report.displaced_node == "arm");
+  CHECK(report.largest_displacement == Approx(2 * std::sin(0.25)).epsilon(1e-10));
+  CHECK((arm.x - Vector3(std::cos(0.5), std::sin(0.5), 0)).norm() < 1e-12);
+  CHECK(arm.Omega.z() == Approx(2).epsilon(1e-12));
+  CHECK(arm.Omegadot.z() == Approx(6).epsilon(1e-10));
+}
+
+TEST_CASE("a mechanism that cannot be put together names the constraint") {
+  const MechanismFile file = read_mechanism_text(R"(
+nodes: {a: {position: [1, 0, 0]}, b: {position: [5, 0, 0]}}
+elements:
+  a: {type: rigid_body, node: a, mass: 1, inertia: [0.1, 0.1, 0.1]}
+  b: {type: rigid_body, node: b, mass: 1, inertia: [0.1, 0.1, 0.1]}
+joints:
+  left: {type: spherical, nodes: [ground, a], position: [0, 0, 0]}
+  slide: {type: prismatic, nodes: [ground, b], axis: [0, 1, 0]}
+  link: {type: spherical, nodes: [a, b]}
+  stop: {type: prismatic, nodes: [a, b], axis: [0, 0, 1]}
+drives: {push: {joint: slide, displacement: "20"}}
+)", "open.yaml");
+  System system(file.model);
+  State state = system.start(0);
+  CHECK_THROWS_WITH(make_consistent(system, file.model.environment, state), Catch::Contains("constraint"));
+}
+
+TEST_CASE("a node without mass that nothing holds is named") {
+  const MechanismFile file = read_mechanism_text(R"(
+nodes: {a: {position: [1, 0, 0]}, lonely: {position: [2, 0, 0]}}
+elements:
+  a: {type: point_mass, node: a, mass: 1}
+  spring: {type: spring_damper, nodes: [a, lonely], stiffness: 10}
+)", "massless.yaml");
+  System system(file.model);
+  State state = system.start(0);
+  CHECK_THROWS_WITH(make_consistent(system, file.model.environment, state), Catch::Contains("node '"));
+}

@@ -1,0 +1,62 @@
+#include <catch2/catch.hpp>
+
+#include "mechanism/io/mechanism_file.hpp"
+#include "mechanism/solvers/redundancy.hpp"
+#include "mechanism/solvers/time_integration.hpp"
+
+using namespace bielle::mechanism;
+
+namespace {
+
+/// A parallelogram of three links and four hinges: 3 * 6 - 4 * 5 = -2 by counting, one degree of freedom in fact.
+const char* const four_bar = R"(
+gravity: [0, -9.81, 0]
+nodes:
+  crank: {position: [0, 0.5, 0]}
+  coupler: {position: [0.5, 1, 0]}
+  rocker: {position: [1, 0.5, 0]}
+elements:
+  crank: {type: rigid_body, node: crank, mass: 1, inertia: [0.0833, 0.001, 0.0833]}
+  coupler: {type: rigid_body, node: coupler, mass: 1, inertia: [0.001, 0.0833, 0.0833]}
+  rocker: {type: rigid_body, node: rocker, mass: 1, inertia: [0.0833, 0.001, 0.0833]}
+joints:
+  a: {type: hinge, nodes: [ground, crank], axis: [0, 0, 1], position: [0, 0, 0]}
+  b: {type: hinge, nodes: [crank, coupler], axis: [0, 0, 1], position: [0, 1, 0]}
+  c: {type: hinge, nodes: [coupler, rocker], axis: [0, 0, 1], position: [1, 1, 0]}
+  d: {type: hinge, nodes: [ground, rocker], axis: [0, 0, 1], position: [1, 0, 0]}
+)";
+
+}  // namespace
+
+TEST_CASE("a planar four-bar of hinges in space has three redundant constraints, named in the last joint") {
+  const MechanismFile file = read_mechanism_text(four_bar, "four_bar.yaml");
+  System system(file.model);
+  const std::vector<int> redundant = find_redundant(system, file.model.environment, system.start(0));
+  // 18 displacements - 20 constraints + 3 redundant ones = 1 degree of freedom.
+  REQUIRE(redundant.size() == 3);
+  for (const int multiplier : redundant)
+    CHECK_THAT(system.equation_name(system.dofs() + multiplier), Catch::Contains("joint 'd'"));
+}
+
+TEST_CASE("with the redundant constraints set aside the four-bar moves on its circle and all joints stay closed") {
+  MechanismFile file = read_mechanism_text(four_bar, "four_bar.yaml");
+  file.model.node(*file.model.find_node("coupler")).velocity = Vector3(1, 0, 0);
+  file.model.node(*file.model.find_node("crank")).angular_velocity = Vector3(0, 0, -1);
+  System system(file.model);
+  State start = system.start(0);
+  const std::vector<int> redundant = find_redundant(system, file.model.environment, start);
+  system.set_aside(redundant);
+  TimeIntegration integration(system, file.model.environment, Scheme::generalized_alpha(0.9), start);
+  const double h = 2e-3;
+  integration.start(h);
+  for (int k = 0; k < 200; ++k) integration.step(h);
+  const NodeState& coupler = integration.state().nodes[static_cast<std::size_t>(*file.model.find_node("coupler"))];
+  // The coupler's centre runs on a circle of radius 1 about (0.5, 0) and does not turn.
+  CHECK(std::abs((coupler.x - Vector3(0.5, 0, 0)).norm() - 1) < 1e-12);
+  CHECK(log_so3(coupler.R).norm() < 1e-12);
+  // Constraints that were set aside hold all the same.
+  system.set_aside({});
+  VectorX r(system.size());
+  system.residual(integration.state(), file.model.environment, r);
+  CHECK(r.tail(system.multipliers()).cwiseAbs().maxCoeff() < 1e-12);
+}
