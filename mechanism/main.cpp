@@ -1,9 +1,9 @@
 // bielle-mechanism: a model file in, motion out.
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "mechanism/io/describe_model.hpp"
 #include "mechanism/io/mechanism_file.hpp"
@@ -29,7 +29,8 @@ std::map<std::string, std::string> read_overrides(const std::vector<std::string>
 }
 
 int body(int argc, char** argv) {
-  CLI::App app{"Computes the motion of a mechanism of rigid bodies, beams, superelements and joints.", "bielle-mechanism"};
+  CLI::App app{"Computes the motion of a mechanism of rigid bodies, beams, superelements and joints.",
+               "bielle-mechanism"};
   std::string model_path, results_path;
   std::vector<std::string> settings;
   bool check = false;
@@ -46,8 +47,7 @@ int body(int argc, char** argv) {
     fmt::print("{}", describe_model(file));
     return 0;
   }
-  if (file.analyses.empty())
-    throw InputError(fmt::format("{}: nothing to do: the file has no `analysis`", model_path));
+  if (file.analyses.empty()) throw InputError(fmt::format("{}: nothing to do: the file has no `analysis`", model_path));
   if (results_path.empty()) results_path = std::filesystem::path(model_path).replace_extension(".h5").string();
   Progress progress(common.quiet);
   const std::vector<AnalysisSummary> summaries = run_analyses(file, results_path, progress);

@@ -33,10 +33,14 @@ const std::vector<ComponentType>& component_table() {
 
 const char* section_name(Section section) {
   switch (section) {
-    case Section::elements: return "elements";
-    case Section::joints: return "joints";
-    case Section::drives: return "drives";
-    case Section::loads: break;
+    case Section::elements:
+      return "elements";
+    case Section::joints:
+      return "joints";
+    case Section::drives:
+      return "drives";
+    case Section::loads:
+      break;
   }
   return "loads";
 }
@@ -49,7 +53,8 @@ void read_component(Section section, const std::string& name, const YamlValue& e
   const std::string wanted = has_types ? entry.at("type").text() : names.front();
   for (const ComponentType& type : component_table())
     if (type.section == section && wanted == type.name) return type.read(name, entry, model);
-  entry.at("type").fail(fmt::format("'{}' is not a type of the {}{}", wanted, section_name(section), did_you_mean(wanted, names)));
+  entry.at("type").fail(
+      fmt::format("'{}' is not a type of the {}{}", wanted, section_name(section), did_you_mean(wanted, names)));
 }
 
 }  // namespace bielle::mechanism

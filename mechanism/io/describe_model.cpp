@@ -1,8 +1,8 @@
 #include "mechanism/io/describe_model.hpp"
 
-#include <fmt/format.h>
-
 #include <map>
+
+#include <fmt/format.h>
 
 #include "mechanism/joints/joint.hpp"
 #include "mechanism/solvers/redundancy.hpp"
@@ -58,8 +58,8 @@ std::string describe_model(const MechanismFile& file) {
   const int independent = system.multipliers() - static_cast<int>(redundant.size());
   text += fmt::format("  unknowns     {} displacements and amplitudes, {} first-order, {} multipliers\n", system.dofs(),
                       system.first_orders(), system.multipliers());
-  text += fmt::format("  freedom      {} degrees of freedom after {} independent constraints\n", system.dofs() - independent,
-                      independent);
+  text += fmt::format("  freedom      {} degrees of freedom after {} independent constraints\n",
+                      system.dofs() - independent, independent);
   text += format_start(report);
   for (const int multiplier : redundant)
     text += fmt::format("  redundant    {}: set aside, its multiplier stays zero\n",
@@ -84,8 +84,9 @@ std::string format_summary(const MechanismFile& file, const std::vector<Analysis
     text += format_start(s.start);
     for (const std::string& name : s.redundant) text += fmt::format("  redundant: {}, set aside\n", name);
     if (s.steps == 0) continue;
-    text += fmt::format("  {} steps, {:.2f} Newton iterations per step, {} rows recorded, until t = {:.6g} s\n", s.steps,
-                        static_cast<double>(s.iterations) / static_cast<double>(s.steps), s.records, s.end_time);
+    text +=
+        fmt::format("  {} steps, {:.2f} Newton iterations per step, {} rows recorded, until t = {:.6g} s\n", s.steps,
+                    static_cast<double>(s.iterations) / static_cast<double>(s.steps), s.records, s.end_time);
     if (s.largest_energy > 0)
       text += fmt::format(
           "  energy at the end [J]: kinetic {:.6g}, elastic {:.6g}, gravity {:.6g}; input {:.6g}, dissipated {:.6g}\n"

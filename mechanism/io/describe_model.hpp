@@ -8,8 +8,8 @@
 
 namespace bielle::mechanism {
 
-/// Nodes, components, unknowns, degrees of freedom, redundant constraints, joint frames, and how well the input positions
-/// fit together. Assembles a copy of the model.
+/// Nodes, components, unknowns, degrees of freedom, redundant constraints, joint frames, and how well the input
+/// positions fit together. Assembles a copy of the model.
 /// @throws ComputationError when the mechanism cannot be assembled
 std::string describe_model(const MechanismFile& file);
 

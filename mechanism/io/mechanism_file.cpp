@@ -1,8 +1,8 @@
 #include "mechanism/io/mechanism_file.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+
+#include <fmt/format.h>
 
 #include "mechanism/io/component_table.hpp"
 #include "mechanism/system/read_frame.hpp"
@@ -93,7 +93,8 @@ Scheme read_scheme(const YamlValue& entry, std::string& description) {
   const auto in_range = [&](const char* key, double fallback, double least, double most) {
     if (!entry.has(key)) return fallback;
     const double value = entry.at(key).number();
-    if (value < least || value > most) entry.at(key).fail(fmt::format("expected a number from {} to {:.4g}, found {}", least, most, value));
+    if (value < least || value > most)
+      entry.at(key).fail(fmt::format("expected a number from {} to {:.4g}, found {}", least, most, value));
     return value;
   };
   if (name == "generalized_alpha") {
@@ -114,10 +115,12 @@ Scheme read_scheme(const YamlValue& entry, std::string& description) {
 }
 
 Analysis read_analysis(const YamlValue& entry) {
-  const std::vector<std::string> planned = {"kinematic", "eigen", "inverse_dynamics", "frequency_response", "state_space"};
+  const std::vector<std::string> planned = {"kinematic", "eigen", "inverse_dynamics", "frequency_response",
+                                            "state_space"};
   const std::string type = entry.at("type").text();
   if (std::find(planned.begin(), planned.end(), type) != planned.end())
-    entry.at("type").fail(fmt::format("the analysis '{}' is not in this version; there are assembly, static and dynamic", type));
+    entry.at("type").fail(
+        fmt::format("the analysis '{}' is not in this version; there are assembly, static and dynamic", type));
   Analysis analysis;
   analysis.name = entry.at("type").word({"assembly", "static", "dynamic"}, "analysis");
   if (analysis.name == "assembly") {
@@ -140,8 +143,9 @@ Analysis read_analysis(const YamlValue& entry) {
 }
 
 MechanismFile read_mechanism(YamlValue root, const std::map<std::string, std::string>& overrides) {
-  root.check_keys({"mechanism", "gravity", "parameters", "nodes", "elements", "joints", "drives", "loads", "analysis", "output"},
-                  "a mechanism file");
+  root.check_keys(
+      {"mechanism", "gravity", "parameters", "nodes", "elements", "joints", "drives", "loads", "analysis", "output"},
+      "a mechanism file");
   MechanismFile file;
   file.text = root.source_text();
   root.set_parameters(read_parameters(root, overrides));

@@ -1,9 +1,9 @@
 #include "mechanism/io/run_analyses.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <csignal>
+
+#include <fmt/format.h>
 
 #include "mechanism/io/energy_balance.hpp"
 #include "mechanism/io/results_file.hpp"
@@ -27,7 +27,8 @@ class InterruptGuard {
   }
   void check(double time) const {
     if (interrupted)
-      throw ComputationError(fmt::format("interrupted at t = {:.6g} s; the results file holds all steps up to there", time));
+      throw ComputationError(
+          fmt::format("interrupted at t = {:.6g} s; the results file holds all steps up to there", time));
   }
 
  private:
@@ -57,9 +58,15 @@ class Run {
       progress_.start(analysis.name);
       results_.begin_analysis(analysis.name);
       switch (analysis.type) {
-        case Analysis::Type::assembly: summaries.push_back(assemble(analysis)); break;
-        case Analysis::Type::statics: summaries.push_back(solve_static(analysis)); break;
-        case Analysis::Type::dynamics: summaries.push_back(integrate(analysis)); break;
+        case Analysis::Type::assembly:
+          summaries.push_back(assemble(analysis));
+          break;
+        case Analysis::Type::statics:
+          summaries.push_back(solve_static(analysis));
+          break;
+        case Analysis::Type::dynamics:
+          summaries.push_back(integrate(analysis));
+          break;
       }
       results_.end_analysis();
       summaries.back().redundant = redundant_;
@@ -128,7 +135,8 @@ class Run {
     const long steps = std::max(1L, std::lround(std::ceil(analysis.duration / analysis.step * (1 - 1e-12))));
     const double h = analysis.duration / static_cast<double>(steps);
     if (std::abs(h - analysis.step) > 1e-9 * h)
-      progress_.note(fmt::format("step {:.6g} s in place of {:.6g} s, so that {} steps fill the duration", h, analysis.step, steps));
+      progress_.note(fmt::format("step {:.6g} s in place of {:.6g} s, so that {} steps fill the duration", h,
+                                 analysis.step, steps));
     TimeIntegration integration(system_, environment_, analysis.scheme, std::move(state_));
     summary.start = integration.start_report();
     state_ = integration.state();

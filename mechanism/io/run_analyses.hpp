@@ -11,17 +11,17 @@ namespace bielle::mechanism {
 
 /// What the summary says of one analysis.
 struct AnalysisSummary {
-  std::string name;       ///< "dynamic", with the scheme
-  double end_time = 0;    ///< [s]
+  std::string name;     ///< "dynamic", with the scheme
+  double end_time = 0;  ///< [s]
   long steps = 0;
-  long iterations = 0;    ///< linear solves
-  long records = 0;       ///< rows written
+  long iterations = 0;                 ///< linear solves
+  long records = 0;                    ///< rows written
   std::vector<std::string> redundant;  ///< constraints set aside
-  StartReport start;      ///< dynamics: what the consistent start had to change
-  Energy energy;          ///< at the end [J]; dissipation and input are integrals over the analysis
-  double energy_start = 0;    ///< kinetic + elastic + gravity at the start [J]
-  double balance = 0;         ///< at the end: what is missing [J]
-  double largest_energy = 0;  ///< largest of kinetic, elastic and change of gravity: to judge the balance by
+  StartReport start;                   ///< dynamics: what the consistent start had to change
+  Energy energy;                       ///< at the end [J]; dissipation and input are integrals over the analysis
+  double energy_start = 0;             ///< kinetic + elastic + gravity at the start [J]
+  double balance = 0;                  ///< at the end: what is missing [J]
+  double largest_energy = 0;           ///< largest of kinetic, elastic and change of gravity: to judge the balance by
 };
 
 /// Runs all analyses and writes the results file.

@@ -14,7 +14,9 @@ std::string force_units(const JointCoordinate& coordinate) {
 }
 
 OutputField force_field(const Joint& joint, std::size_t coordinate) {
-  return {"drive_force", {}, force_units(joint.coordinates()[coordinate]),
+  return {"drive_force",
+          {},
+          force_units(joint.coordinates()[coordinate]),
           "force or torque of the drive along the joint's coordinate"};
 }
 
@@ -176,7 +178,8 @@ void read_drive(const std::string& name, const YamlValue& entry, Model& model) {
     law = key;
   }
   if (law.empty())
-    entry.fail("a drive needs one of angle, rate, torque (turning joints) or displacement, speed, force (sliding joints)");
+    entry.fail(
+        "a drive needs one of angle, rate, torque (turning joints) or displacement, speed, force (sliding joints)");
 
   const bool turning = law == "angle" || law == "rate" || law == "torque";
   const auto wanted = turning ? JointCoordinate::Kind::angle : JointCoordinate::Kind::displacement;
@@ -186,7 +189,8 @@ void read_drive(const std::string& name, const YamlValue& entry, Model& model) {
   if (names.empty())
     entry.at(law).fail(fmt::format("a {} joint has no {} to drive", joint->type(), turning ? "angle" : "displacement"));
   if (names.size() > 1 && !entry.has("coordinate"))
-    entry.fail(fmt::format("joint '{}' has several coordinates: give `coordinate`{}", joint->name(), did_you_mean("", names)));
+    entry.fail(
+        fmt::format("joint '{}' has several coordinates: give `coordinate`{}", joint->name(), did_you_mean("", names)));
   const std::string chosen = entry.has("coordinate")
                                  ? entry.at("coordinate").word(names, fmt::format("coordinate for '{}'", law))
                                  : names.front();

@@ -17,9 +17,10 @@ Measure Joint::calc_coordinate(std::size_t index, const NodeState& first, const 
   const JointCoordinate& coordinate = coordinates_[index];
   if (coordinate.kind == JointCoordinate::Kind::rotation)
     throw std::logic_error("a rotation vector's component is no measure");
-  return coordinate.kind == JointCoordinate::Kind::angle ? measure_angle(first, second, frames_.on_first.R, frames_.on_second.R)
-                             : measure_position(first, second, frames_.on_first.R.col(coordinate.axis),
-                                                frames_.on_first.x, frames_.on_second.x);
+  return coordinate.kind == JointCoordinate::Kind::angle
+             ? measure_angle(first, second, frames_.on_first.R, frames_.on_second.R)
+             : measure_position(first, second, frames_.on_first.R.col(coordinate.axis), frames_.on_first.x,
+                                frames_.on_second.x);
 }
 
 Joint::ValueAndRate Joint::value_and_rate(std::size_t index, const LocalState& state) const {
@@ -43,7 +44,7 @@ void Joint::declare(Declaration& declaration) const {
 }
 
 void Joint::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {
-  for (std::size_t k = 0; k < coordinates_.size(); ++k) 
+  for (std::size_t k = 0; k < coordinates_.size(); ++k)
     memory[static_cast<Eigen::Index>(k)] = value_and_rate(k, state).value;
 }
 
@@ -60,9 +61,12 @@ std::vector<OutputField> Joint::output_fields() const {
     fields.push_back({"coordinate", {coordinates_.size()}, units, names});
     fields.push_back({"rate", {coordinates_.size()}, rate_units, names});
   }
-  fields.push_back({"reaction", {6}, "N, N m",
-                    "force and moment that the joint exerts on its second node, about the attachment point there, in the "
-                    "joint's frame (which rides on the first node)"});
+  fields.push_back(
+      {"reaction",
+       {6},
+       "N, N m",
+       "force and moment that the joint exerts on its second node, about the attachment point there, in the "
+       "joint's frame (which rides on the first node)"});
   fields.push_back({"reaction_inertial", {6}, "N, N m", "the same in inertial components"});
   return fields;
 }
@@ -103,7 +107,8 @@ JointFrames read_joint_frames(const YamlValue& entry, const Model& model, AxisNe
   Frame joint;
   joint.x = entry.has("position") ? entry.at("position").vector3() : second.x;
   if (need == AxisNeed::required || entry.has("axis") || entry.has("second_axis")) {
-    const Vector3 z = need == AxisNeed::required || entry.has("axis") ? Vector3(entry.at("axis").direction()) : Vector3::UnitZ();
+    const Vector3 z =
+        need == AxisNeed::required || entry.has("axis") ? Vector3(entry.at("axis").direction()) : Vector3::UnitZ();
     Vector3 x;
     if (entry.has("second_axis")) {
       x = entry.at("second_axis").direction();

@@ -1,8 +1,9 @@
-// A joint between two nodes: its frames, its coordinates, and its records. What a type constrains is its own file's matter.
+// A joint between two nodes: its frames, its coordinates, and its records. What a type constrains is its own file's
+// matter.
 //
 // The joint's frame J_A rides on the first node, J_B on the second; both coincide in the positions written in the input
-// file. z is the joint's `axis`, x its `second_axis` (made orthogonal) or chosen. Coordinates are zero there; angles are
-// counted over any number of turns.
+// file. z is the joint's `axis`, x its `second_axis` (made orthogonal) or chosen. Coordinates are zero there; angles
+// are counted over any number of turns.
 #pragma once
 
 #include <optional>
@@ -14,8 +15,8 @@
 
 namespace bielle::mechanism {
 
-/// What a coordinate is: a displacement along an axis of the joint's frame, an angle about its z axis, or a component of
-/// the rotation vector of J_B beside J_A (principal value; its rate is the relative angular velocity).
+/// What a coordinate is: a displacement along an axis of the joint's frame, an angle about its z axis, or a component
+/// of the rotation vector of J_B beside J_A (principal value; its rate is the relative angular velocity).
 struct JointCoordinate {
   enum class Kind { displacement, angle, rotation };
   std::string name;  ///< "angle", "displacement", "x", ...

@@ -72,7 +72,8 @@ void read_lower_pair(const std::string& type, const std::string& words, const st
 
 using Rotation = LockedMotions::Rotation;
 using CoordinateKind = JointCoordinate::Kind;
-const JointCoordinate angle{"angle", CoordinateKind::angle, 2}, displacement{"displacement", CoordinateKind::displacement, 2};
+const JointCoordinate angle{"angle", CoordinateKind::angle, 2},
+    displacement{"displacement", CoordinateKind::displacement, 2};
 
 }  // namespace
 
@@ -97,16 +98,16 @@ void read_cylindrical(const std::string& name, const YamlValue& entry, Model& mo
 }
 
 void read_spherical(const std::string& name, const YamlValue& entry, Model& model) {
-  read_lower_pair("spherical", "a spherical joint", name, entry, model, AxisNeed::optional,
-                  {{"rx", CoordinateKind::rotation, 0},
-                   {"ry", CoordinateKind::rotation, 1},
-                   {"rz", CoordinateKind::rotation, 2}},
-                  {{true, true, true}, Rotation::none});
+  read_lower_pair(
+      "spherical", "a spherical joint", name, entry, model, AxisNeed::optional,
+      {{"rx", CoordinateKind::rotation, 0}, {"ry", CoordinateKind::rotation, 1}, {"rz", CoordinateKind::rotation, 2}},
+      {{true, true, true}, Rotation::none});
 }
 
 void read_planar(const std::string& name, const YamlValue& entry, Model& model) {
   read_lower_pair("planar", "a planar joint", name, entry, model, AxisNeed::required,
-                  {{"x", CoordinateKind::displacement, 0}, {"y", CoordinateKind::displacement, 1}, angle}, {{false, false, true}, Rotation::tilt});
+                  {{"x", CoordinateKind::displacement, 0}, {"y", CoordinateKind::displacement, 1}, angle},
+                  {{false, false, true}, Rotation::tilt});
 }
 
 }  // namespace bielle::mechanism

@@ -20,7 +20,7 @@ namespace bielle::mechanism {
 
 /// Which relative motions a lower pair locks.
 struct LockedMotions {
-  std::array<bool, 3> translation{};  ///< along x, y, z of the joint's frame
+  std::array<bool, 3> translation{};                                  ///< along x, y, z of the joint's frame
   enum class Rotation { none, tilt, all } rotation = Rotation::none;  ///< tilt: about x and y
 };
 

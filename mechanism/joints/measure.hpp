@@ -33,8 +33,8 @@ struct Measure {
   double acceleration(const Vector12& v, const Vector12& a) const { return gradient.dot(a) + v.dot(second * v); }
 };
 
-/// e . (p_2 - p_1): position of a point p_2 = x_2 + R_2 c_2 of node 2 beside p_1 = x_1 + R_1 c_1 along an axis e = R_1 e^
-/// carried by node 1.
+/// e . (p_2 - p_1): position of a point p_2 = x_2 + R_2 c_2 of node 2 beside p_1 = x_1 + R_1 c_1 along an axis e = R_1
+/// e^ carried by node 1.
 Measure measure_position(const NodeState& first, const NodeState& second, const Vector3& e_hat, const Vector3& c_1,
                          const Vector3& c_2);
 

@@ -1,9 +1,9 @@
 #include "mechanism/math/rank.hpp"
 
-#include <SuiteSparseQR.hpp>
-
 #include <algorithm>
 #include <stdexcept>
+
+#include <SuiteSparseQR.hpp>
 
 namespace bielle::mechanism {
 
@@ -11,8 +11,9 @@ std::vector<int> dependent_columns(const Eigen::SparseMatrix<double>& A, double 
   if (A.cols() == 0) return {};
   cholmod_common common;
   cholmod_l_start(&common);
-  cholmod_sparse* matrix = cholmod_l_allocate_sparse(static_cast<std::size_t>(A.rows()), static_cast<std::size_t>(A.cols()),
-                                                     static_cast<std::size_t>(A.nonZeros()), 1, 1, 0, CHOLMOD_REAL, &common);
+  cholmod_sparse* matrix =
+      cholmod_l_allocate_sparse(static_cast<std::size_t>(A.rows()), static_cast<std::size_t>(A.cols()),
+                                static_cast<std::size_t>(A.nonZeros()), 1, 1, 0, CHOLMOD_REAL, &common);
   if (!matrix) throw std::bad_alloc();
   auto* starts = static_cast<SuiteSparse_long*>(matrix->p);
   auto* rows = static_cast<SuiteSparse_long*>(matrix->i);

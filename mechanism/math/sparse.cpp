@@ -1,9 +1,9 @@
 #include "mechanism/math/sparse.hpp"
 
-#include <klu.h>
-
 #include <algorithm>
 #include <stdexcept>
+
+#include <klu.h>
 
 namespace bielle::mechanism {
 
@@ -62,8 +62,7 @@ FactorStatus SparseLU::factor(const std::vector<double>& values) {
     // Old pivots serve as long as they stay large beside what they eliminate.
     constexpr double least_growth = 1e-6;
     if (klu_refactor(starts, rows, entries, factors_->symbolic, factors_->numeric, &common) &&
-        common.status == KLU_OK &&
-        klu_rgrowth(starts, rows, entries, factors_->symbolic, factors_->numeric, &common) &&
+        common.status == KLU_OK && klu_rgrowth(starts, rows, entries, factors_->symbolic, factors_->numeric, &common) &&
         common.rgrowth > least_growth)
       return FactorStatus::good;
     klu_free_numeric(&factors_->numeric, &common);

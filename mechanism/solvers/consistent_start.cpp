@@ -1,8 +1,8 @@
 #include "mechanism/solvers/consistent_start.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
+
+#include <fmt/format.h>
 
 namespace bielle::mechanism {
 namespace {
@@ -98,8 +98,8 @@ void assemble_positions(const System& system, const Environment& environment, St
       report.largest_displacement = distance;
       report.displaced_node = system.model().node(static_cast<int>(i)).name;
     }
-    report.largest_rotation = std::max(
-        report.largest_rotation, log_so3(Matrix3(start.nodes[i].R.transpose() * state.nodes[i].R)).norm());
+    report.largest_rotation =
+        std::max(report.largest_rotation, log_so3(Matrix3(start.nodes[i].R.transpose() * state.nodes[i].R)).norm());
   }
 }
 
@@ -117,7 +117,8 @@ void make_velocities_consistent(const System& system, const Environment& environ
     factor_mass_saddle(system, environment, state, linear);
     linear.solve(r, step);
     for (int i = 0; i < system.dofs(); ++i)
-      if (system.kind(i) == Kind::translation) report.velocity_change = std::max(report.velocity_change, std::abs(step[i]));
+      if (system.kind(i) == Kind::translation)
+        report.velocity_change = std::max(report.velocity_change, std::abs(step[i]));
     v += step.head(system.dofs());
   }
   system.set_rates(state, v, a);

@@ -1,9 +1,9 @@
 #include "mechanism/solvers/convergence.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <limits>
+
+#include <fmt/format.h>
 
 namespace bielle::mechanism {
 
@@ -17,11 +17,21 @@ void Convergence::measure_rounding(const LinearStep& linear, const State& state)
                multiplier = largest(state.multiplier);
   unknown_scale_.resize(n);
   for (int i = 0; i < n; ++i) switch (system_.kind(i)) {
-      case Kind::translation: unknown_scale_[i] = length; break;
-      case Kind::rotation: unknown_scale_[i] = 1; break;
-      case Kind::amplitude: unknown_scale_[i] = amplitude; break;
-      case Kind::first_order: unknown_scale_[i] = first_order; break;
-      case Kind::multiplier: unknown_scale_[i] = multiplier; break;
+      case Kind::translation:
+        unknown_scale_[i] = length;
+        break;
+      case Kind::rotation:
+        unknown_scale_[i] = 1;
+        break;
+      case Kind::amplitude:
+        unknown_scale_[i] = amplitude;
+        break;
+      case Kind::first_order:
+        unknown_scale_[i] = first_order;
+        break;
+      case Kind::multiplier:
+        unknown_scale_[i] = multiplier;
+        break;
     }
   floor_.resize(n);
   linear.row_sums(unknown_scale_, floor_);

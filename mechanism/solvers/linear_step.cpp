@@ -1,8 +1,8 @@
 #include "mechanism/solvers/linear_step.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
+
+#include <fmt/format.h>
 
 namespace bielle::mechanism {
 
@@ -14,8 +14,8 @@ LinearStep::LinearStep(const System& system) : system_(system), factors_(system.
     diagonal_.push_back(pattern.find(column, column));
     for (int k = pattern.column_start()[static_cast<std::size_t>(column)];
          k < pattern.column_start()[static_cast<std::size_t>(column) + 1]; ++k)
-      scale_power_.push_back(static_cast<std::uint8_t>((column >= first_multiplier) +
-                                                       (pattern.row()[static_cast<std::size_t>(k)] >= first_multiplier)));
+      scale_power_.push_back(static_cast<std::uint8_t>(
+          (column >= first_multiplier) + (pattern.row()[static_cast<std::size_t>(k)] >= first_multiplier)));
   }
 }
 
@@ -48,10 +48,10 @@ void LinearStep::throw_singular(double time) const {
   const int column = factors_.singular_column();
   const std::string what = column >= 0 ? system_.unknown_name(column) : "an unknown";
   const bool multiplier = column >= system_.size() - system_.multipliers();
-  throw ComputationError(fmt::format(
-      "t = {:.6g} s: the equations are singular at {}: {}", time, what,
-      multiplier ? "the constraint repeats what others hold already (redundant)"
-                 : "it has no mass, or nothing holds it, or constraints beside it are redundant"));
+  throw ComputationError(
+      fmt::format("t = {:.6g} s: the equations are singular at {}: {}", time, what,
+                  multiplier ? "the constraint repeats what others hold already (redundant)"
+                             : "it has no mass, or nothing holds it, or constraints beside it are redundant"));
 }
 
 void LinearStep::solve(const Eigen::Ref<const VectorX>& r, Eigen::Ref<VectorX> delta) const {

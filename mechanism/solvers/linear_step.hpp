@@ -9,8 +9,8 @@
 namespace bielle::mechanism {
 
 /// Solves J delta = -r with the rows and columns of multipliers scaled by a number k of the size of the tangent's
-/// diagonal, so that the conditioning depends on neither the step nor the units (Bottasso, Bauchau and Cardona, IJNME 69
-/// (2007) 498; Bruls, Cardona and Arnold 2012). The multipliers that come back are physical.
+/// diagonal, so that the conditioning depends on neither the step nor the units (Bottasso, Bauchau and Cardona, IJNME
+/// 69 (2007) 498; Bruls, Cardona and Arnold 2012). The multipliers that come back are physical.
 class LinearStep {
  public:
   explicit LinearStep(const System& system);
@@ -23,7 +23,7 @@ class LinearStep {
   /// delta = -J^-1 r. @param r,delta (size)
   void solve(const Eigen::Ref<const VectorX>& r, Eigen::Ref<VectorX> delta) const;
 
-  double scale() const { return scale_; }                ///< k
+  double scale() const { return scale_; }  ///< k
   /// Sum over columns |J_ij| s_j of the last (unscaled) tangent: what rounding of the unknowns does to equation i.
   void row_sums(const Eigen::Ref<const VectorX>& unknown_scale, Eigen::Ref<VectorX> sums) const;
   /// Diagonal of the last (unscaled) tangent.
@@ -34,8 +34,8 @@ class LinearStep {
   const System& system_;
   SparseLU factors_;
   std::vector<double> values_, scaled_;
-  std::vector<int> diagonal_;                ///< places of the diagonal among the values, -1 where absent
-  std::vector<std::uint8_t> scale_power_;    ///< of each value: how many of its row and column are multipliers'
+  std::vector<int> diagonal_;              ///< places of the diagonal among the values, -1 where absent
+  std::vector<std::uint8_t> scale_power_;  ///< of each value: how many of its row and column are multipliers'
   double scale_ = 1;
 };
 

@@ -1,7 +1,8 @@
 #include "mechanism/solvers/redundancy.hpp"
 
-#include <Eigen/SparseCore>
 #include <cmath>
+
+#include <Eigen/SparseCore>
 
 #include "mechanism/math/rank.hpp"
 

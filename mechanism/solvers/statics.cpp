@@ -48,9 +48,9 @@ void solve_statics(const System& system, const Environment& environment, int ste
     if (iterations < 0) {
       increment /= 2;
       if (increment < least_increment)
-        throw ComputationError(
-            fmt::format("statics: Newton did not converge at load factor {:.6g} (increment {:.3g}); largest residual: {}",
-                        target, increment * 2, convergence.worst()));
+        throw ComputationError(fmt::format(
+            "statics: Newton did not converge at load factor {:.6g} (increment {:.3g}); largest residual: {}", target,
+            increment * 2, convergence.worst()));
       continue;
     }
     factor = target > 1 - 1e-12 ? 1 : target;

@@ -7,8 +7,9 @@
 
 namespace bielle::mechanism {
 
-/// Brings the state into equilibrium under the full load in equal increments of the load factor, each by Newton's method;
-/// an increment that does not converge is halved (down to 1/1024 of the first). Velocities and accelerations are zero.
+/// Brings the state into equilibrium under the full load in equal increments of the load factor, each by Newton's
+/// method; an increment that does not converge is halved (down to 1/1024 of the first). Velocities and accelerations
+/// are zero.
 /// @param environment  with gravity of load factor 1
 /// @param record       called after each increment with the state and its load factor
 /// @throws ComputationError naming the load factor and the equation where Newton stalled

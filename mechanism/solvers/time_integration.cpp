@@ -1,8 +1,8 @@
 #include "mechanism/solvers/time_integration.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
+
+#include <fmt/format.h>
 
 namespace bielle::mechanism {
 
@@ -95,8 +95,8 @@ void TimeIntegration::start(double h) {
 
 StepReport TimeIntegration::step(double h) {
   const auto [alpha_m, alpha_f, gamma, beta] = scheme_;
-  const double rate_factor = gamma / (beta * h);                                              // gamma'
-  const double acceleration_factor = (1 - alpha_m) / ((1 - alpha_f) * beta * h * h);          // beta'
+  const double rate_factor = gamma / (beta * h);                                      // gamma'
+  const double acceleration_factor = (1 - alpha_m) / ((1 - alpha_f) * beta * h * h);  // beta'
   const double first_order_factor = (1 - alpha_m) / ((1 - alpha_f) * gamma * h);
   const TangentWeights weights{1, rate_factor, acceleration_factor, first_order_factor, 1};
   const int n = system_.dofs(), y = system_.first_orders(), m = system_.multipliers();

@@ -9,7 +9,8 @@
 //
 // Second order in positions and velocities; in multipliers and accelerations from the first step only with the start
 // values
-//   A_0 = a_0 + delta h j,   v_0 <- v_0 + h^2 w,   [M B^T; B 0][w; mu] = [0; B c],   c = C_q j + [0; Omega x Omegadot]/12,
+//   A_0 = a_0 + delta h j,   v_0 <- v_0 + h^2 w,   [M B^T; B 0][w; mu] = [0; B c],   c = C_q j + [0; Omega x
+//   Omegadot]/12,
 // delta = alpha_m - alpha_f, C_q = -(1 + 3 delta^2)/12, j the rate of the consistent acceleration.
 //
 // O. Bruls, A. Cardona, M. Arnold, Mech. Mach. Theory 48 (2012) 121; M. Arnold, O. Bruls, A. Cardona, Numer. Math. 129

@@ -16,11 +16,11 @@ using Matrix6X = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 6>;
 
 /// The relations of one local node to its independent increments.
 struct NodeRelation {
-  Matrix6X displacement;             ///< A G
-  Matrix6X displacement_step;        ///< A G T: along increments since the base
-  Matrix6X rate_of_displacement;     ///< V G T
+  Matrix6X displacement;                  ///< A G
+  Matrix6X displacement_step;             ///< A G T: along increments since the base
+  Matrix6X rate_of_displacement;          ///< V G T
   Matrix6X acceleration_of_displacement;  ///< W_z G T
-  Matrix6X acceleration_of_rate;     ///< W_v G
+  Matrix6X acceleration_of_rate;          ///< W_v G
   bool carried = false;
 };
 
@@ -140,7 +140,8 @@ void System::add_reduced(const Placement& placement, const LocalState& local, co
   using Map = Eigen::Map<MatrixX>;
   Map K(work.K.data(), n, n), C(work.C.data(), n, n), M(work.M.data(), n, n);
   // Convective terms of carried nodes bring C and M into the stiffness: then all three are needed.
-  const bool wants_K = placement.stiffness && (weights.stiffness != 0 || (weights.constraint != 0 && slots.multipliers > 0));
+  const bool wants_K =
+      placement.stiffness && (weights.stiffness != 0 || (weights.constraint != 0 && slots.multipliers > 0));
   const bool rates_in_K = !placement.plain && weights.stiffness != 0;
   const bool rate_rows = weights.acceleration_level && !placement.nonholonomic.empty();
   const bool wants_C =
@@ -183,7 +184,8 @@ void System::add_reduced(const Placement& placement, const LocalState& local, co
     sum = K;
     if (wants_C) {
       sum.leftCols(first_order) += weights.damping * C.leftCols(first_order);
-      sum.middleCols(first_order, slots.first_orders) += weights.first_order * C.middleCols(first_order, slots.first_orders);
+      sum.middleCols(first_order, slots.first_orders) +=
+          weights.first_order * C.middleCols(first_order, slots.first_orders);
     }
     if (wants_M) sum += weights.mass * M;
   } else {
@@ -201,7 +203,8 @@ void System::add_reduced(const Placement& placement, const LocalState& local, co
     MatrixX columns(n, reduced);
     columns.rightCols(scalars) = K.rightCols(scalars);
     columns.rightCols(scalars) += weights.mass * M.rightCols(scalars);
-    columns.middleCols(reduced_scalar_row, slots.amplitudes) += weights.damping * C.middleCols(scalar_row, slots.amplitudes);
+    columns.middleCols(reduced_scalar_row, slots.amplitudes) +=
+        weights.damping * C.middleCols(scalar_row, slots.amplitudes);
     columns.middleCols(reduced_scalar_row + slots.amplitudes, slots.first_orders) +=
         weights.first_order * C.middleCols(first_order, slots.first_orders);
     for (std::size_t k = 0; k < slots.nodes.size(); ++k) {

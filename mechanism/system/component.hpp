@@ -1,7 +1,8 @@
 // The one interface: whatever adds to the equations of motion (element, joint, drive, load) is a Component.
 //
 // All components together make
-//     r(q, v, a, lambda, y, ydot, t) = 0:   M a + g_internal - g_external + B^T lambda = 0,   Phi(q,t) = 0,   f(y, ydot, q, v) = 0.
+//     r(q, v, a, lambda, y, ydot, t) = 0:   M a + g_internal - g_external + B^T lambda = 0,   Phi(q,t) = 0,   f(y,
+//     ydot, q, v) = 0.
 // A component sees its own nodes, second-order scalars ("amplitudes"), first-order unknowns and multipliers through a
 // LocalState, and writes into local vectors and matrices of the layout
 //     [ 6 per node: force (inertial), moment (node axes) | amplitudes | first-order rows | constraint rows ].
@@ -27,9 +28,9 @@ struct Declaration {
     double start = 0;   ///< initial value
     ConstraintKind kind = ConstraintKind::holonomic;  ///< multipliers only
   };
-  std::vector<int> nodes;             ///< indices into the model's nodes
+  std::vector<int> nodes;  ///< indices into the model's nodes
   std::vector<Scalar> amplitudes, first_order, multipliers;
-  std::vector<double> memory;         ///< initial values
+  std::vector<double> memory;  ///< initial values
   /// Which of the tangent's three matrices the component contributes to.
   bool stiffness = false, damping = false, mass = false;
 };

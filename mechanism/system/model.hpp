@@ -21,12 +21,12 @@ enum class Freedom { free, fixed, prescribed };
 /// A node: start values and how it is held.
 struct Node {
   std::string name;
-  Frame frame;                                ///< start position and axes (node -> inertial)
-  Vector3 velocity = Vector3::Zero();         ///< start [m/s], inertial
+  Frame frame;                                 ///< start position and axes (node -> inertial)
+  Vector3 velocity = Vector3::Zero();          ///< start [m/s], inertial
   Vector3 angular_velocity = Vector3::Zero();  ///< start [rad/s], node axes
   std::array<Freedom, 6> freedom{};
-  /// Prescribed translations are displacements added to the start position [m]; prescribed rotations the components of a
-  /// rotation vector [rad] about inertial axes, applied to the start axes: R = exp(psi(t)) R_start.
+  /// Prescribed translations are displacements added to the start position [m]; prescribed rotations the components of
+  /// a rotation vector [rad] about inertial axes, applied to the start axes: R = exp(psi(t)) R_start.
   std::array<Expression, 6> motion;
   std::optional<int> carrier;  ///< rigidly carried by this node, at the relative position of the start
   bool internal = false;       ///< made by an element (inside of a beam): recorded with it, not under /nodes
@@ -78,8 +78,8 @@ class Model {
   std::vector<Chain> chains_;
 };
 
-/// Reads one entry of a section of the mechanism file (`name: {type: ..., ...}`) into the model. Each component type has
-/// one, in its own file; io/component_table lists them.
+/// Reads one entry of a section of the mechanism file (`name: {type: ..., ...}`) into the model. Each component type
+/// has one, in its own file; io/component_table lists them.
 using ComponentReader = void (*)(const std::string& name, const YamlValue& entry, Model& model);
 
 }  // namespace bielle::mechanism

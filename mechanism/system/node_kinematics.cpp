@@ -1,8 +1,8 @@
 #include "mechanism/system/node_kinematics.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+
+#include <fmt/format.h>
 
 namespace bielle::mechanism {
 namespace {
@@ -39,9 +39,10 @@ NodeFreedom freedom_of(const Node& node, int begin) {
       if (node.freedom[static_cast<std::size_t>(3 + k)] == Freedom::free)
         f.G.col(f.count++).tail<3>() = node.frame.R.row(k).transpose();
   } else if (free_rotations == 2) {
-    throw InputError(fmt::format("node '{}': all three rotations can be held, or two, or none, but not one alone; "
-                                 "a universal joint holds one",
-                                 node.name));
+    throw InputError(
+        fmt::format("node '{}': all three rotations can be held, or two, or none, but not one alone; "
+                    "a universal joint holds one",
+                    node.name));
   }
   f.rotations = free_rotations;
   f.all_free = f.count == 6;
@@ -62,7 +63,8 @@ NodeKinematics::NodeKinematics(const Model& model) {
     start.R = node.frame.R;
     start.v = node.velocity;
     start.Omega = node.angular_velocity;
-    const bool held = std::any_of(node.freedom.begin(), node.freedom.end(), [](Freedom f) { return f != Freedom::free; });
+    const bool held =
+        std::any_of(node.freedom.begin(), node.freedom.end(), [](Freedom f) { return f != Freedom::free; });
     if (node.carrier) {
       if (held)
         throw InputError(fmt::format("node '{}' is carried rigidly by '{}' and cannot be fixed or prescribed as well",
@@ -89,9 +91,9 @@ void NodeKinematics::prescribe_positions(std::vector<NodeState>& nodes, double t
   for (const Prescribed& p : prescribed_) {
     NodeState& node = nodes[static_cast<std::size_t>(p.node)];
     for (std::size_t k = 0; k < 3; ++k)
-      if (p.freedom[k] == Freedom::prescribed) node.x[static_cast<int>(k)] = p.start.x[static_cast<int>(k)] + p.motion[k](time);
-    if (p.rotation)
-      node.R = exp_so3({p.motion[3](time), p.motion[4](time), p.motion[5](time)}) * p.start.R;
+      if (p.freedom[k] == Freedom::prescribed)
+        node.x[static_cast<int>(k)] = p.start.x[static_cast<int>(k)] + p.motion[k](time);
+    if (p.rotation) node.R = exp_so3({p.motion[3](time), p.motion[4](time), p.motion[5](time)}) * p.start.R;
   }
 }
 
@@ -176,7 +178,8 @@ void NodeKinematics::set_rates(std::vector<NodeState>& nodes, const Eigen::Ref<c
   follow_carriers(nodes);
 }
 
-void NodeKinematics::get_rates(const std::vector<NodeState>& nodes, Eigen::Ref<VectorX> v, Eigen::Ref<VectorX> a) const {
+void NodeKinematics::get_rates(const std::vector<NodeState>& nodes, Eigen::Ref<VectorX> v,
+                               Eigen::Ref<VectorX> a) const {
   for (std::size_t i = 0; i < freedom_.size(); ++i) {
     const NodeFreedom& f = freedom_[i];
     if (f.count == 0) continue;
@@ -199,7 +202,8 @@ void NodeKinematics::carry_forces(const std::vector<NodeState>& nodes, Eigen::Re
   }
 }
 
-double NodeKinematics::support_power(const std::vector<NodeState>& nodes, const Eigen::Ref<const VectorX>& forces) const {
+double NodeKinematics::support_power(const std::vector<NodeState>& nodes,
+                                     const Eigen::Ref<const VectorX>& forces) const {
   double power = 0;
   for (const Prescribed& p : prescribed_) {
     const NodeState& node = nodes[static_cast<std::size_t>(p.node)];

@@ -1,8 +1,9 @@
-// How the six directions of each node follow the independent unknowns: free, fixed, prescribed in time, or carried rigidly.
+// How the six directions of each node follow the independent unknowns: free, fixed, prescribed in time, or carried
+// rigidly.
 //
-// A node that moves by itself has independent increments dp with dz = [dx; dTheta] = G dp, G (6,n) constant: unit columns for
-// free directions; a node that may turn about one inertial axis e only has the column [0; R_start^T e].
-// A node j carried by i at (c, R_c) (in i's axes) has x_j = x_i + R_i c, R_j = R_i R_c, hence
+// A node that moves by itself has independent increments dp with dz = [dx; dTheta] = G dp, G (6,n) constant: unit
+// columns for free directions; a node that may turn about one inertial axis e only has the column [0; R_start^T e]. A
+// node j carried by i at (c, R_c) (in i's axes) has x_j = x_i + R_i c, R_j = R_i R_c, hence
 //     dz_j = A dz_i,                      A = [I, -R_i c~; 0, R_c^T]
 //     v_j = A v_i,                        dv_j = A dv_i + V dz_i,        V   = [0, -R_i (Omega~ c)~; 0, 0]
 //     a_j = A a_i + [R_i Omega~ Omega~ c; 0],  da_j = A da_i + W_v dv_i + W_z dz_i,
@@ -18,10 +19,10 @@ namespace bielle::mechanism {
 
 /// Columns of G of one node and where its independent increments stand among the unknowns.
 struct NodeFreedom {
-  int begin = 0;              ///< first independent unknown
-  int count = 0;              ///< 0..6
-  int rotations = 0;          ///< 0, 1 (about one axis) or 3: the last columns of G
-  bool all_free = false;      ///< G = I
+  int begin = 0;          ///< first independent unknown
+  int count = 0;          ///< 0..6
+  int rotations = 0;      ///< 0, 1 (about one axis) or 3: the last columns of G
+  bool all_free = false;  ///< G = I
   Eigen::Matrix<double, 6, 6> G = Eigen::Matrix<double, 6, 6>::Zero();  ///< first `count` columns
 };
 
@@ -54,7 +55,8 @@ class NodeKinematics {
   /// Independent rates of the free directions (inverse of set_rates on them).
   void get_rates(const std::vector<NodeState>& nodes, Eigen::Ref<VectorX> v, Eigen::Ref<VectorX> a) const;
 
-  /// Node forces [force (inertial); moment (node axes)] of carried nodes moved to their carriers. @param forces (6 nodes)
+  /// Node forces [force (inertial); moment (node axes)] of carried nodes moved to their carriers. @param forces (6
+  /// nodes)
   void carry_forces(const std::vector<NodeState>& nodes, Eigen::Ref<VectorX> forces) const;
   /// Power [W] that supports put in: forces of held directions times their prescribed velocities.
   double support_power(const std::vector<NodeState>& nodes, const Eigen::Ref<const VectorX>& forces) const;

@@ -10,14 +10,16 @@ Matrix3 about(int axis, double angle) { return exp_so3(angle * Vector3::Unit(axi
 Matrix3 read_axes(const YamlValue& value) {
   value.check_keys({"x", "y", "z"}, "`axes`");
   const std::vector<std::pair<std::string, YamlValue>> entries = value.entries();
-  if (entries.size() != 2) value.fail("expected two of the axes x, y, z: the first as given, the second made orthogonal to it");
+  if (entries.size() != 2)
+    value.fail("expected two of the axes x, y, z: the first as given, the second made orthogonal to it");
   Matrix3 R = Matrix3::Zero();
   const auto index = [](const std::string& name) { return name[0] - 'x'; };
   const int first = index(entries[0].first), second = index(entries[1].first), third = 3 - first - second;
   R.col(first) = entries[0].second.direction();
   Vector3 other = entries[1].second.direction();
   other -= R.col(first) * R.col(first).dot(other);
-  if (other.norm() < 1e-9) value.fail(fmt::format("axis {} is parallel to axis {}", entries[1].first, entries[0].first));
+  if (other.norm() < 1e-9)
+    value.fail(fmt::format("axis {} is parallel to axis {}", entries[1].first, entries[0].first));
   R.col(second) = other.normalized();
   const Vector3 cross = R.col(first).cross(R.col(second));
   R.col(third) = (second - first + 3) % 3 == 1 ? cross : Vector3(-cross);

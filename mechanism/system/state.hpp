@@ -58,7 +58,9 @@ class LocalState {
   double time() const { return state_.time; }
   const Environment& environment() const { return environment_; }
   const Slots& slots() const { return slots_; }
-  const NodeState& node(int k) const { return state_.nodes[static_cast<std::size_t>(slots_.nodes[static_cast<std::size_t>(k)])]; }
+  const NodeState& node(int k) const {
+    return state_.nodes[static_cast<std::size_t>(slots_.nodes[static_cast<std::size_t>(k)])];
+  }
   Segment amplitude() const { return {state_.amplitude.data() + slots_.amplitude_begin, slots_.amplitudes}; }
   Segment amplitude_rate() const { return {state_.amplitude_rate.data() + slots_.amplitude_begin, slots_.amplitudes}; }
   Segment amplitude_acceleration() const {

@@ -1,8 +1,8 @@
 #include "mechanism/system/system.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+
+#include <fmt/format.h>
 
 namespace bielle::mechanism {
 namespace {
@@ -75,9 +75,7 @@ System::System(const Model& model) : model_(model), kinematics_(model) {
       kinds_[static_cast<std::size_t>(f.begin + c)] =
           f.G.col(c).head<3>().squaredNorm() > 0 ? Kind::translation : Kind::rotation;
   }
-  const auto fill = [&](int begin, int count, Kind kind) {
-    std::fill_n(kinds_.begin() + begin, count, kind);
-  };
+  const auto fill = [&](int begin, int count, Kind kind) { std::fill_n(kinds_.begin() + begin, count, kind); };
   fill(kinematics_.unknowns(), amplitudes_, Kind::amplitude);
   fill(dofs(), first_orders_, Kind::first_order);
   place(declarations);
@@ -132,7 +130,8 @@ void System::build_pattern() {
       for (const int row : placement.unknown)
         if (kept(row, column)) entries.emplace_back(row, column);
   }
-  for (const int multiplier : set_aside_) entries.emplace_back(first_multiplier + multiplier, first_multiplier + multiplier);
+  for (const int multiplier : set_aside_)
+    entries.emplace_back(first_multiplier + multiplier, first_multiplier + multiplier);
   pattern_ = SparsePattern(size(), std::move(entries));
   for (Placement& placement : placements_) {
     if (!contributes(placement)) continue;
@@ -170,8 +169,8 @@ std::string System::unknown_name(int unknown) const {
     if (unknown < f.begin || unknown >= f.begin + f.count) continue;
     Eigen::Index direction = 0;
     f.G.col(unknown - f.begin).cwiseAbs().maxCoeff(&direction);
-    return fmt::format("{} {} of node '{}'", direction < 3 ? "displacement" : "rotation",
-                       axis_names[direction % 3], model_.node(i).name);
+    return fmt::format("{} {} of node '{}'", direction < 3 ? "displacement" : "rotation", axis_names[direction % 3],
+                       model_.node(i).name);
   }
   return "unknown " + std::to_string(unknown);
 }
@@ -187,19 +186,26 @@ std::string System::equation_name(int equation) const {
       return name;
     }
     case Kind::amplitude:
-    case Kind::first_order: return "equation of " + unknown_name(equation);
-    case Kind::multiplier: break;
+    case Kind::first_order:
+      return "equation of " + unknown_name(equation);
+    case Kind::multiplier:
+      break;
   }
   return "constraint " + unknown_name(equation);
 }
 
 std::string System::equation_units(int equation) const {
   switch (kind(equation)) {
-    case Kind::translation: return "N";
-    case Kind::rotation: return "N m";
-    case Kind::amplitude: return "N/sqrt(kg)";
-    case Kind::first_order: return scalar_units_[static_cast<std::size_t>(equation - kinematics_.unknowns())] + "/s";
-    case Kind::multiplier: break;
+    case Kind::translation:
+      return "N";
+    case Kind::rotation:
+      return "N m";
+    case Kind::amplitude:
+      return "N/sqrt(kg)";
+    case Kind::first_order:
+      return scalar_units_[static_cast<std::size_t>(equation - kinematics_.unknowns())] + "/s";
+    case Kind::multiplier:
+      break;
   }
   return scalar_units_[static_cast<std::size_t>(equation - kinematics_.unknowns())] == "N" ? "m" : "rad";
 }

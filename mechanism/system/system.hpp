@@ -1,7 +1,7 @@
 // A mechanism ready to compute: numbered unknowns, residual, weighted tangent, energies, and names for messages.
 //
-// Unknowns, in this order: independent increments of the nodes, amplitudes, first-order unknowns, multipliers. Equations
-// likewise. "dofs" are the first two: what has inertia.
+// Unknowns, in this order: independent increments of the nodes, amplitudes, first-order unknowns, multipliers.
+// Equations likewise. "dofs" are the first two: what has inertia.
 #pragma once
 
 #include <string>
@@ -47,8 +47,10 @@ class System {
   int multipliers() const { return multipliers_; }
   int size() const { return dofs() + first_orders_ + multipliers_; }
   Kind kind(int unknown) const { return kinds_[static_cast<std::size_t>(unknown)]; }
-  ConstraintKind constraint_kind(int multiplier) const { return constraint_kinds_[static_cast<std::size_t>(multiplier)]; }
-  std::string unknown_name(int unknown) const;   ///< "rotation y of node 'pin'", "mode 3 of element 'rod'"
+  ConstraintKind constraint_kind(int multiplier) const {
+    return constraint_kinds_[static_cast<std::size_t>(multiplier)];
+  }
+  std::string unknown_name(int unknown) const;    ///< "rotation y of node 'pin'", "mode 3 of element 'rod'"
   std::string equation_name(int equation) const;  ///< "moment y at node 'pin'", "constraint x of joint 'main'"
   std::string equation_units(int equation) const;
 
@@ -69,8 +71,8 @@ class System {
   const SparsePattern& pattern() const { return pattern_; }
   /// Values of the weighted tangent in the pattern's order.
   /// @param dq  increment since the base of the step, for T(Dq); nullptr: zero
-  void tangent(const State& state, const Environment& environment, const TangentWeights& weights,
-               const VectorX* dq, std::vector<double>& values) const;
+  void tangent(const State& state, const Environment& environment, const TangentWeights& weights, const VectorX* dq,
+               std::vector<double>& values) const;
   /// First and second time derivatives of the constraint rows at the state's rates. Vectors (multipliers).
   void constraint_rates(const State& state, const Environment& environment, Eigen::Ref<VectorX> velocity,
                         Eigen::Ref<VectorX> acceleration) const;
@@ -82,9 +84,9 @@ class System {
  private:
   /// How one component's local rows and columns reach the global ones.
   struct Placement {
-    bool plain = true;         ///< every node is free in all six directions, or held in all
-    std::vector<int> unknown;  ///< global unknown of each reduced local row, -1 where held
-    std::vector<int> position; ///< in the values, of each reduced entry (column-major), -1 where dropped
+    bool plain = true;               ///< every node is free in all six directions, or held in all
+    std::vector<int> unknown;        ///< global unknown of each reduced local row, -1 where held
+    std::vector<int> position;       ///< in the values, of each reduced entry (column-major), -1 where dropped
     std::vector<int> reduced_begin;  ///< first reduced row of each node
     bool stiffness = false, damping = false, mass = false;
     std::vector<int> nonholonomic;  ///< local rows

@@ -12,12 +12,14 @@ gravity: [0, 0, -9.81]
 nodes: {bob: {position: [2, 0, 0], velocity: [0, 3, 0]}}
 elements: {bob: {type: rigid_body, node: bob, mass: 1.5, inertia: [1e-3, 1e-3, 1e-3]}}
 joints: {pivot: {type: spherical, nodes: [ground, bob], position: [0, 0, 0]}}
-)", "pendulum.yaml");
+)",
+                                                 "pendulum.yaml");
   System system(file.model);
   State state = system.start(0);
   make_consistent(system, file.model.environment, state);
   const NodeState& bob = state.nodes.back();
-  // The given velocity is a translation; kept in the energy norm, the body must turn with its velocity: almost all stays.
+  // The given velocity is a translation; kept in the energy norm, the body must turn with its velocity: almost all
+  // stays.
   const double J = 1e-3, m = 1.5, L = 2;
   const double turn = m * L * 3 / (m * L * L + J);  // angular velocity about z: least change in the mass norm
   CHECK(bob.v.y() == Approx(turn * L).epsilon(1e-12));
@@ -37,7 +39,8 @@ nodes: {arm: {position: [1, 0, 0]}}
 elements: {arm: {type: rigid_body, node: arm, mass: 1, inertia: [0.1, 0.1, 0.1]}}
 joints: {axle: {type: hinge, nodes: [ground, arm], axis: [0, 0, 1], position: [0, 0, 0]}}
 drives: {motor: {joint: axle, angle: "0.5 + 2*t + 3*t^2"}}
-)", "drive.yaml");
+)",
+                                                 "drive.yaml");
   System system(file.model);
   State state = system.start(0);
   const StartReport report = make_consistent(system, file.model.environment, state);
@@ -61,7 +64,8 @@ joints:
   link: {type: spherical, nodes: [a, b]}
   stop: {type: prismatic, nodes: [a, b], axis: [0, 0, 1]}
 drives: {push: {joint: slide, displacement: "20"}}
-)", "open.yaml");
+)",
+                                                 "open.yaml");
   System system(file.model);
   State state = system.start(0);
   CHECK_THROWS_WITH(make_consistent(system, file.model.environment, state), Catch::Contains("constraint"));
@@ -73,7 +77,8 @@ nodes: {a: {position: [1, 0, 0]}, lonely: {position: [2, 0, 0]}}
 elements:
   a: {type: point_mass, node: a, mass: 1}
   spring: {type: spring_damper, nodes: [a, lonely], stiffness: 10}
-)", "massless.yaml");
+)",
+                                                 "massless.yaml");
   System system(file.model);
   State state = system.start(0);
   CHECK_THROWS_WITH(make_consistent(system, file.model.environment, state), Catch::Contains("node '"));

@@ -14,7 +14,8 @@ elements:
   arm: {type: rigid_body, node: arm, mass: 2, inertia: [0.1, 0.1, 0.1]}
   spring: {type: spring_damper, nodes: [top, arm], stiffness: 100, length: 1}
 joints: {axle: {type: hinge, nodes: [ground, arm], axis: [0, 1, 0], position: [0, 0, 0]}}
-)", "arm.yaml");
+)",
+                                                 "arm.yaml");
   System system(file.model);
   State state = system.start(0);
   solve_statics(system, file.model.environment, 4, NewtonOptions{}, state);

@@ -9,7 +9,7 @@ using namespace bielle::mechanism;
 
 namespace {
 
-const char* const model_text = R"(
+const char *const model_text = R"(
 gravity: [1, -2, -9.81]
 nodes:
   a: {position: [0.1, 0.2, -0.3], rotation_vector: [0.3, -0.5, 0.2]}
@@ -17,7 +17,10 @@ nodes:
   c: {position: [1.5, -0.2, 0.3], fixed: [y, rx, ry]}
   d: {position: [0.2, 0.9, 0.5], rotation_vector: [1, 0.2, 0]}
   e: {position: [2.0, 0.3, 0.6], rotation_vector: [0.2, 0.2, 0.3]}
-  f: {position: [2.2, 0.1, 0.4], motion: {x: "0.1*sin(3*t)", rx: "0.2*t", ry: "t^2", rz: "0.3*sin(t)"}}
+  f: {position: [2.2, 0.1, 0.4], motion: {x: "0.1*sin(3*t)",
+                  rx : "0.2*t", ry : "t^2", rz : "0.3*sin(t)"
+}
+}
 elements:
   body_a: {type: rigid_body, node: a, mass: 2, centre: [0.1, 0.2, 0.05], inertia: [0.3, 0.4, 0.5], also: [d]}
   body_b: {type: rigid_body, node: b, mass: 1, centre: [0.1, -0.1, 0.2], inertia: [0.1, 0.12, 0.15], also: [e]}
@@ -87,9 +90,9 @@ TEST_CASE("the assembled tangent is the derivative of the assembled residual for
   // Fourth-order differences: truncation e^4 and rounding 1e-16/e meet near e = 1e-3, at 1e-12.
   const double e = 1e-3;
   for (int column = 0; column < n; ++column)
-    difference.col(column) = (8 * (residual(column, e) - residual(column, -e)) -
-                              (residual(column, 2 * e) - residual(column, -2 * e))) /
-                             (12 * e);
+    difference.col(column) =
+        (8 * (residual(column, e) - residual(column, -e)) - (residual(column, 2 * e) - residual(column, -2 * e))) /
+        (12 * e);
   const double scale = J.cwiseAbs().maxCoeff();
   Eigen::Index row, column;
   const double worst = (J - difference).cwiseAbs().maxCoeff(&row, &column);
@@ -106,7 +109,8 @@ TEST_CASE("rates of all nodes are the time derivatives of their positions, carri
   const State state = random_state(system, base, dq, v, a);
   const double e = 1e-4;
   State ahead = state, behind = state;
-  // q(t +- e) along constant independent accelerations: exp(+-e v + e^2/2 a) is right to third order for the difference.
+  // q(t +- e) along constant independent accelerations: exp(+-e v + e^2/2 a) is right to third order for the
+  // difference.
   ahead.time += e;
   behind.time -= e;
   system.displace(ahead, state, e * v + 0.5 * e * e * a);
