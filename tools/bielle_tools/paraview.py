@@ -115,12 +115,12 @@ def _nodes(results):
 
 
 def _joints(results):
-    """Joints stand at their second node; results name it in the attribute `nodes`."""
+    """Joints stand at their second node, which the results name in an attribute."""
     places = {}
     for joint in results.names("joints"):
-        nodes = node_names(results.group(f"joints/{joint}"))
-        if len(nodes) == 2 and results.has(f"nodes/{nodes[1]}") and results.has(f"joints/{joint}/reaction_inertial"):
-            places[joint] = nodes[1]
+        node = results.text(f"joints/{joint}", "second_node")
+        if results.has(f"nodes/{node}") and results.has(f"joints/{joint}/reaction_inertial"):
+            places[joint] = node
     if not places:
         return None
     vertices = np.arange(len(places))[:, None]
@@ -132,14 +132,6 @@ def _joints(results):
         return points, [("vertex", vertices)], data, {}
 
     return "joints", mesh_at
-
-
-def node_names(group):
-    """Names in the attribute `nodes` of a group: an array of strings, or one string with commas."""
-    names = group.attrs.get("nodes", "")
-    if isinstance(names, (str, bytes)):
-        names = (names.decode() if isinstance(names, bytes) else names).split(",")
-    return [(name.decode() if isinstance(name, bytes) else str(name)).strip() for name in names]
 
 
 def _write(path, mesh):

@@ -31,8 +31,8 @@ class Scene:
             self.bodies.append((name, body, corners))
         self.beams = results.elements_with("position", "rotation")
         self.nodes = results.names("nodes")
-        self.links = [_linked(results, name) for name in results.names("elements")]
-        self.links = [link for link in self.links if len(link) > 1]
+        carriers = {name: results.text(f"nodes/{name}", "carrier") for name in self.nodes}
+        self.links = [(carrier, name) for name, carrier in carriers.items() if carrier in self.nodes]
         self.limits = None
         self.norm = None
 
@@ -61,10 +61,8 @@ class Scene:
         coloured = None
         for (_, _, corners), (positions, stress) in zip(self.bodies, self._bodies_at(row)):
             coloured = self._paint_body(panel, positions, stress, corners) or coloured
-        for link in self.links:
-            hub = self._node(link[0], row)
-            lines = [[hub[:2], self._node(other, row)[:2]] for other in link[1:]]
-            panel.add_collection(LineCollection(lines, colors="#8c8c8c", linewidths=5, capstyle="round", zorder=1))
+        lines = [[self._node(carrier, row)[:2], self._node(name, row)[:2]] for carrier, name in self.links]
+        panel.add_collection(LineCollection(lines, colors="#8c8c8c", linewidths=5, capstyle="round", zorder=1))
         for name in self.beams:
             line = self._project(self.results.rows(f"elements/{name}/position", row))[:, :2]
             panel.plot(line[:, 0], line[:, 1], color=COLOURS[1], linewidth=3, solid_capstyle="round", zorder=3)
@@ -98,16 +96,6 @@ class Scene:
 
     def _project(self, points):
         return points @ self.axes.T
-
-
-def _linked(results, element):
-    """Nodes that one rigid body carries, its own first: drawn as bars. From the attribute `nodes` of the element."""
-    from .paraview import node_names
-
-    if element in results.elements_with("frame") or element in results.elements_with("rotation"):
-        return []
-    names = node_names(results.group(f"elements/{element}"))
-    return names if all(results.has(f"nodes/{name}") for name in names) else []
 
 
 def _view_axes(results, view):

@@ -39,8 +39,7 @@ class Results:
     @property
     def title(self):
         """Name of the mechanism, or of the file."""
-        title = self.file.attrs.get("title", self.file.attrs.get("name", ""))
-        return (title.decode() if isinstance(title, bytes) else str(title)) or os.path.splitext(os.path.basename(self.path))[0]
+        return self.text("/", "name") or os.path.splitext(os.path.basename(self.path))[0]
 
     def names(self, section):
         """Names under `nodes`, `joints`, `elements`, ...; empty when there are none."""
@@ -52,14 +51,18 @@ class Results:
     def group(self, place):
         return self.root[place]
 
+    def text(self, place, attribute):
+        """A text attribute of a group or dataset; empty when there is none."""
+        value = self.root[place].attrs.get(attribute, "") if place in self.root else ""
+        return value.decode() if isinstance(value, bytes) else str(value)
+
     def rows(self, place, index=None):
         """A dataset over time, clipped to the rows that count; `index` picks rows."""
         data = self.root[place]
         return np.asarray(data[:len(self.time)] if index is None else data[index])
 
     def units(self, place):
-        units = self.root[place].attrs.get("units", "")
-        return units.decode() if isinstance(units, bytes) else str(units)
+        return self.text(place, "units")
 
     def elements_with(self, *datasets):
         """Elements that record all of these: `frame` is a superelement, `rotation` a beam."""

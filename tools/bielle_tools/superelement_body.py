@@ -85,10 +85,8 @@ def find_superelement(results, element, given):
     """
     if element in given:
         return given[element]
-    name = results.group(f"elements/{element}").attrs.get("file", "")
-    name = name.decode() if isinstance(name, bytes) else str(name)
-    model = results.file.attrs.get("model", "")
-    model = model.decode() if isinstance(model, bytes) else str(model)
+    name = results.text(f"elements/{element}", "file")
+    model = results.text("/", "model")
     folders = [os.path.dirname(model) or ".", os.path.dirname(results.path), "."]
     for folder in folders:
         path = os.path.join(folder, name)

@@ -60,7 +60,7 @@ def write_results(path, superelement, rows=41, complete=True, extra_rows=0):
         put(file, "joints/main/rate", (OMEGA + zero)[:, None], "rad/s")
         put(file, "joints/main/reaction", np.column_stack([zero + 3, zero + 4, zero, zero, zero, np.sin(more)]), "N, N m")
         put(file, "joints/main/reaction_inertial", np.column_stack([zero + 3, zero + 4, zero, zero, zero, zero]), "N, N m")
-        file["joints/main"].attrs["nodes"] = "ground,hub"
+        file["joints/main"].attrs.update({"first_node": "ground", "second_node": "hub"})
         put(file, "elements/rod/frame", np.column_stack([origin, turn]), "m")
         put(file, "elements/rod/coordinates", np.column_stack([zero, strain(more)]), "m")
         file["elements/rod"].attrs["file"] = superelement
