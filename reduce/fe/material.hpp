@@ -10,8 +10,20 @@ struct Material {
   Eigen::Matrix<double, 6, 6> elasticity;  ///< C [Pa], symmetric positive definite, body axes
   double density = 0;                      ///< [kg/m^3]
 
-  /// @param young > 0 [Pa]; @param poisson in (-1, 0.5); @param density > 0. @throws InputError
+  /// @param young > 0 [Pa]; @param poisson in (-1, 0.5); @param density > 0 [kg/m^3]. @throws InputError
   static Material isotropic(double young, double poisson, double density);
+
+  /// Three planes of symmetry, normal to the body axes.
+  /// @param young    E_x E_y E_z > 0 [Pa]
+  /// @param poisson  nu_yz nu_xz nu_xy: contraction along the second axis by stress along the first, so that
+  ///                 nu_yz / E_y = nu_zy / E_z
+  /// @param shear    G_yz G_xz G_xy > 0 [Pa]
+  /// @throws InputError when a modulus is not positive or the constants do not make a positive energy
+  static Material orthotropic(const Eigen::Vector3d& young, const Eigen::Vector3d& poisson,
+                              const Eigen::Vector3d& shear, double density);
+
+  /// @param elasticity  C [Pa] in the order xx yy zz yz xz xy, symmetric positive definite. @throws InputError
+  static Material anisotropic(const Eigen::Matrix<double, 6, 6>& elasticity, double density);
 };
 
 }  // namespace bielle::reduce

@@ -1,0 +1,217 @@
+#include "reduce/fe/assembly.hpp"
+
+#include <atomic>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "reduce/common/error.hpp"
+#include "reduce/fe/cell_geometry.hpp"
+#include "reduce/fe/elasticity.hpp"
+
+namespace bielle::reduce {
+
+namespace {
+
+/// Remembers the inverted cell with the lowest number, from any thread.
+class InvertedCells {
+ public:
+  void note(Eigen::Index cell) {
+    Eigen::Index lowest = lowest_.load();
+    while ((lowest < 0 || cell < lowest) && !lowest_.compare_exchange_weak(lowest, cell)) {
+    }
+  }
+  void check(const Solid& solid) const {
+    if (const Eigen::Index cell = lowest_.load(); cell >= 0) {
+      const Eigen::Vector3d centre = solid.mesh.points(Eigen::all, solid.nodes.col(cell)).rowwise().mean();
+      throw ComputationError(
+          fmt::format("cell {} of the mesh, near ({:.6g}, {:.6g}, {:.6g}) m, is turned inside out; mesh "
+                      "that region finer or with straight edges",
+                      cell, centre.x(), centre.y(), centre.z()));
+    }
+  }
+
+ private:
+  std::atomic<Eigen::Index> lowest_{-1};
+};
+
+/// work(cell) for every cell, those of one colour at the same time.
+template <typename Work>
+void for_each_cell(const Solid& solid, int threads, const Work& work) {
+  for (const std::vector<int>& cells : colour_cells(solid.nodes, solid.points())) {
+#pragma omp parallel for num_threads(threads) schedule(static)
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      work(cells[k]);
+    }
+  }
+}
+
+/// Pattern of K: columns of node b hold the rest of its own block, then the blocks of its higher neighbours.
+SymmetricMatrix stiffness_pattern(const NodeGraph& graph) {
+  SymmetricMatrix k;
+  k.size = 3 * graph.size();
+  k.starts.reserve(k.size + 1);
+  k.rows.reserve(9 * (graph.neighbours.size() + graph.size()) / 2);
+  for (int b = 0; b < graph.size(); ++b) {
+    for (int j = 0; j < 3; ++j) {
+      for (int i = j; i < 3; ++i) {
+        k.rows.push_back(3 * b + i);
+      }
+      for (std::int64_t p = graph.starts[b]; p < graph.starts[b + 1]; ++p) {
+        if (const int a = graph.neighbours[p]; a > b) {
+          k.rows.insert(k.rows.end(), {3 * a, 3 * a + 1, 3 * a + 2});
+        }
+      }
+      k.starts.push_back(static_cast<std::int64_t>(k.rows.size()));
+    }
+  }
+  k.values.assign(k.rows.size(), 0.0);
+  return k;
+}
+
+/// The cell's stiffness by blocks: K_ab(i,k) in row i + 3 k of column a + N b, for all a >= b in the order of the mesh.
+template <int N>
+void add_stiffness(const Solid& solid, const NodeGraph& graph, SymmetricMatrix& k, int threads) {
+  const CellRules<N> rules(N == 4 ? CellDegrees{0, 0} : CellDegrees{2, 5});
+  std::vector<Eigen::Matrix<double, 9, 9>> tensors;
+  for (const Material& material : solid.materials) {
+    tensors.push_back(elasticity_tensor(material.elasticity));
+  }
+  InvertedCells inverted;
+  for_each_cell(solid, threads, [&](Eigen::Index e) {
+    const CellPoints<N> x = cell_points<N>(solid.mesh.points, solid.nodes, e);
+    const CellRule<N>& rule = rules.of(x);
+    // w_(3a+j)(3b+l) = int dN_a/dx_j dN_b/dx_l dV
+    Eigen::Matrix<double, 3 * N, 3 * N> w = Eigen::Matrix<double, 3 * N, 3 * N>::Zero();
+    Eigen::Matrix<double, N, 3> gradients;
+    for (std::size_t p = 0; p < rule.size(); ++p) {
+      const double volume = map_point<N>(rule, p, x, gradients);
+      if (!(volume > 0)) {
+        inverted.note(e);
+        return;
+      }
+      const Eigen::Matrix<double, 3 * N, 1> g = gradients.transpose().reshaped();
+      w.noalias() += volume * g * g.transpose();
+    }
+    const Eigen::Matrix<double, 9, 9>& tensor = tensors[solid.material_of[e]];
+    for (int cell_b = 0; cell_b < N; ++cell_b) {
+      const int b = solid.nodes(cell_b, e);
+      const std::int64_t own = graph.place(b, b);
+      for (int cell_a = 0; cell_a < N; ++cell_a) {
+        const int a = solid.nodes(cell_a, e);
+        if (a < b) {
+          continue;
+        }
+        const Eigen::Matrix<double, 9, 1> w_ab = w.template block<3, 3>(3 * cell_a, 3 * cell_b).reshaped();
+        const Eigen::Matrix<double, 9, 1> k_ab = tensor * w_ab;
+        // Behind the own block come three rows for each higher neighbour.
+        const std::int64_t behind = a == b ? 0 : 3 * (graph.place(b, a) - own - 1);
+        for (int j = 0; j < 3; ++j) {
+          double* column = &k.values[k.starts[3 * b + j]];
+          if (a == b) {
+            for (int i = j; i < 3; ++i) {
+              column[i - j] += k_ab(i + 3 * j);
+            }
+          } else {
+            for (int i = 0; i < 3; ++i) {
+              column[3 - j + behind + i] += k_ab(i + 3 * j);
+            }
+          }
+        }
+      }
+    }
+  });
+  inverted.check(solid);
+}
+
+template <int N>
+void add_to_node_matrix(const Solid& solid, const NodeGraph& graph, Eigen::Index e,
+                        const Eigen::Matrix<double, N, N>& values, NodeMatrix& m) {
+  for (int a = 0; a < N; ++a) {
+    for (int b = 0; b < N; ++b) {
+      m.values[graph.place(solid.nodes(a, e), solid.nodes(b, e))] += values(a, b);
+    }
+  }
+}
+
+template <int N>
+void add_mass(const Solid& solid, const NodeGraph& graph, NodeMatrix& m, int threads) {
+  const CellRules<N> rules(N == 4 ? CellDegrees{2, 2} : CellDegrees{4, 7});
+  const auto integrate = [](const CellRule<N>& rule, const auto& jacobian) {
+    Eigen::Matrix<double, N, N> sum = Eigen::Matrix<double, N, N>::Zero();
+    for (std::size_t p = 0; p < rule.size(); ++p) {
+      sum.noalias() += rule.weights(p) * jacobian(p) * rule.values[p] * rule.values[p].transpose();
+    }
+    return sum;
+  };
+  const Eigen::Matrix<double, N, N> straight = integrate(rules.straight, [](std::size_t) { return 1.0; });
+  InvertedCells inverted;
+  for_each_cell(solid, threads, [&](Eigen::Index e) {
+    const CellPoints<N> x = cell_points<N>(solid.mesh.points, solid.nodes, e);
+    const CellRule<N>& rule = rules.of(x);
+    const auto jacobian = [&](std::size_t p) {
+      const double value = Eigen::Matrix3d(x * rule.local_gradients[p]).determinant();
+      if (!(value > 0)) {
+        inverted.note(e);
+      }
+      return value;
+    };
+    const double density = solid.materials[solid.material_of[e]].density;
+    const Eigen::Matrix<double, N, N> reference =
+        &rule == &rules.straight ? Eigen::Matrix<double, N, N>(jacobian(0) * straight) : integrate(rule, jacobian);
+    add_to_node_matrix<N>(solid, graph, e, density * reference, m);
+  });
+  inverted.check(solid);
+}
+
+template <int N>
+void add_geometric_stiffness(const Solid& solid, const NodeGraph& graph, const RowMatrix& fields,
+                             std::vector<NodeMatrix>& g, int threads) {
+  const CellRules<N> rules(N == 4 ? CellDegrees{0, 0} : CellDegrees{3, 5});
+  for_each_cell(solid, threads, [&](Eigen::Index e) {
+    const CellPoints<N> x = cell_points<N>(solid.mesh.points, solid.nodes, e);
+    const CellRule<N>& rule = rules.of(x);
+    const Eigen::Matrix<double, 6, 6>& elasticity = solid.materials[solid.material_of[e]].elasticity;
+    std::vector<Eigen::Matrix<double, N, N>> sums(g.size(), Eigen::Matrix<double, N, N>::Zero());
+    Eigen::Matrix<double, N, 3> gradients;
+    Eigen::Matrix<double, 3, N> u;
+    for (std::size_t p = 0; p < rule.size(); ++p) {
+      const double volume = map_point<N>(rule, p, x, gradients);
+      for (std::size_t f = 0; f < g.size(); ++f) {
+        for (int a = 0; a < N; ++a) {
+          u.col(a) = fields.block<3, 1>(3 * solid.nodes(a, e), static_cast<Eigen::Index>(f));
+        }
+        const Eigen::Matrix3d stress = tensor_of(Eigen::Matrix<double, 6, 1>(elasticity * strain_of(u * gradients)));
+        sums[f].noalias() += volume * gradients * stress * gradients.transpose();
+      }
+    }
+    for (std::size_t f = 0; f < g.size(); ++f) {
+      add_to_node_matrix<N>(solid, graph, e, sums[f], g[f]);
+    }
+  });
+}
+
+}  // namespace
+
+SymmetricMatrix assemble_stiffness(const Solid& solid, const NodeGraph& graph, int threads) {
+  SymmetricMatrix k = stiffness_pattern(graph);
+  solid.type == CellType::tet4 ? add_stiffness<4>(solid, graph, k, threads)
+                               : add_stiffness<10>(solid, graph, k, threads);
+  return k;
+}
+
+NodeMatrix assemble_mass(const Solid& solid, const NodeGraph& graph, int threads) {
+  NodeMatrix m{&graph, std::vector<double>(graph.neighbours.size(), 0.0)};
+  solid.type == CellType::tet4 ? add_mass<4>(solid, graph, m, threads) : add_mass<10>(solid, graph, m, threads);
+  return m;
+}
+
+std::vector<NodeMatrix> assemble_geometric_stiffness(const Solid& solid, const NodeGraph& graph,
+                                                     const RowMatrix& fields, int threads) {
+  std::vector<NodeMatrix> g(fields.cols(), NodeMatrix{&graph, std::vector<double>(graph.neighbours.size(), 0.0)});
+  solid.type == CellType::tet4 ? add_geometric_stiffness<4>(solid, graph, fields, g, threads)
+                               : add_geometric_stiffness<10>(solid, graph, fields, g, threads);
+  return g;
+}
+
+}  // namespace bielle::reduce

@@ -1,0 +1,31 @@
+// Stiffness and mass of a solid.
+//
+// Stiffness K_ab,ik = sum_jl C_ijkl int dN_a/dx_j dN_b/dx_l dV, quadrature exact for straight cells (4 points for
+// tet10) and of degree 5 for curved ones, which keeps the patch test exact there too (int dN/dx dV is of degree 3).
+// Consistent mass m_ab = int rho N_a N_b dV, integrated exactly on straight cells (degree 4) and curved ones (degree
+// 7): the common 4-point rule would cost 5e-4 in frequencies.
+#pragma once
+
+#include "reduce/fe/node_graph.hpp"
+#include "reduce/fe/solid.hpp"
+
+namespace bielle::reduce {
+
+/// K (3 points, 3 points) [N/m], unknowns x y z of node 0, of node 1, ...; rows of points outside the solid are zero
+/// except for a zero on the diagonal.
+/// @throws ComputationError when a cell is turned inside out: which, and where
+SymmetricMatrix assemble_stiffness(const Solid& solid, const NodeGraph& graph, int threads = 1);
+
+/// Scalar mass matrix m [kg]: the mass matrix of the solid is m (x) I3.
+/// @throws ComputationError as above
+NodeMatrix assemble_mass(const Solid& solid, const NodeGraph& graph, int threads = 1);
+
+/// Geometric stiffness of the stresses of several displacement fields: g_ab = int dN_a/dx_i sigma_ij dN_b/dx_j dV
+/// [N/m], to be used as g (x) I3: u^T (g (x) I3) u / 2 is the work of the stress on the second-order strain
+/// (grad u)^T (grad u) / 2.
+/// @param fields  (3 points, k) displacements u0 whose linear elastic stress acts
+/// @returns one matrix per field
+std::vector<NodeMatrix> assemble_geometric_stiffness(const Solid& solid, const NodeGraph& graph,
+                                                     const RowMatrix& fields, int threads = 1);
+
+}  // namespace bielle::reduce

@@ -1,0 +1,38 @@
+// Between tensors and their six components in the order xx yy zz yz xz xy.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace bielle::reduce {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+/// Place of component ij in the order xx yy zz yz xz xy.
+constexpr int voigt(int i, int j) { return i == j ? i : 6 - i - j; }
+
+/// Engineering strain of the displacement gradient du_i/dx_j.
+inline Vector6 strain_of(const Eigen::Matrix3d& h) {
+  return {h(0, 0), h(1, 1), h(2, 2), h(1, 2) + h(2, 1), h(0, 2) + h(2, 0), h(0, 1) + h(1, 0)};
+}
+
+/// Symmetric tensor of six stress components.
+inline Eigen::Matrix3d tensor_of(const Vector6& s) {
+  return (Eigen::Matrix3d() << s(0), s(5), s(4), s(5), s(1), s(3), s(4), s(3), s(2)).finished();
+}
+
+/// C_ijkl in row i + 3 k, column j + 3 l: turns int dN_a/dx_j dN_b/dx_l into the stiffness block K_ab,ik.
+inline Eigen::Matrix<double, 9, 9> elasticity_tensor(const Eigen::Matrix<double, 6, 6>& c) {
+  Eigen::Matrix<double, 9, 9> tensor;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      for (int k = 0; k < 3; ++k) {
+        for (int l = 0; l < 3; ++l) {
+          tensor(i + 3 * k, j + 3 * l) = c(voigt(i, j), voigt(k, l));
+        }
+      }
+    }
+  }
+  return tensor;
+}
+
+}  // namespace bielle::reduce

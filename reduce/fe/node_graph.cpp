@@ -1,0 +1,115 @@
+#include "reduce/fe/node_graph.hpp"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+namespace bielle::reduce {
+
+namespace {
+
+/// Cells of each node: `cells[starts[a] .. starts[a+1])`.
+struct CellsOfNodes {
+  std::vector<std::int64_t> starts;
+  std::vector<int> cells;
+};
+
+CellsOfNodes cells_of_nodes(const Eigen::MatrixXi& nodes, Eigen::Index points) {
+  CellsOfNodes result;
+  result.starts.assign(points + 1, 0);
+  for (const int a : nodes.reshaped()) {
+    ++result.starts[a + 1];
+  }
+  for (Eigen::Index a = 0; a < points; ++a) {
+    result.starts[a + 1] += result.starts[a];
+  }
+  result.cells.resize(nodes.size());
+  std::vector<std::int64_t> next(result.starts.begin(), result.starts.end() - 1);
+  for (Eigen::Index e = 0; e < nodes.cols(); ++e) {
+    for (const int a : nodes.col(e)) {
+      result.cells[next[a]++] = static_cast<int>(e);
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+std::int64_t NodeGraph::place(int a, int b) const {
+  const auto first = neighbours.begin() + starts[a], last = neighbours.begin() + starts[a + 1];
+  return std::lower_bound(first, last, b) - neighbours.begin();
+}
+
+NodeGraph node_graph(const Eigen::MatrixXi& nodes, Eigen::Index points, int threads) {
+  const CellsOfNodes around = cells_of_nodes(nodes, points);
+  std::vector<std::vector<int>> lists(points);
+#pragma omp parallel for num_threads(threads) schedule(static)
+  for (Eigen::Index a = 0; a < points; ++a) {
+    std::vector<int>& list = lists[a];
+    for (std::int64_t p = around.starts[a]; p < around.starts[a + 1]; ++p) {
+      const auto cell = nodes.col(around.cells[p]);
+      list.insert(list.end(), cell.begin(), cell.end());
+    }
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  }
+  NodeGraph graph;
+  graph.starts.reserve(points + 1);
+  std::int64_t total = 0;
+  for (const auto& list : lists) {
+    graph.starts.push_back(total += static_cast<std::int64_t>(list.size()));
+  }
+  graph.neighbours.reserve(total);
+  for (const auto& list : lists) {
+    graph.neighbours.insert(graph.neighbours.end(), list.begin(), list.end());
+  }
+  return graph;
+}
+
+std::vector<std::vector<int>> colour_cells(const Eigen::MatrixXi& nodes, Eigen::Index points) {
+  constexpr std::size_t words = 8;
+  using Colours = std::array<std::uint64_t, words>;
+  std::vector<Colours> used(points, Colours{});
+  std::vector<std::vector<int>> cells;
+  for (Eigen::Index e = 0; e < nodes.cols(); ++e) {
+    Colours taken{};
+    for (const int a : nodes.col(e)) {
+      for (std::size_t w = 0; w < words; ++w) {
+        taken[w] |= used[a][w];
+      }
+    }
+    std::size_t colour = 0;
+    while (colour < 64 * words && (taken[colour / 64] >> (colour % 64) & 1)) {
+      ++colour;
+    }
+    if (colour == 64 * words) {
+      throw std::length_error("a node of the mesh belongs to too many cells");
+    }
+    for (const int a : nodes.col(e)) {
+      used[a][colour / 64] |= std::uint64_t{1} << (colour % 64);
+    }
+    cells.resize(std::max(cells.size(), colour + 1));
+    cells[colour].push_back(static_cast<int>(e));
+  }
+  return cells;
+}
+
+RowMatrix NodeMatrix::multiply(const RowMatrix& x, int rows_per_node, int threads) const {
+  const Eigen::Index width = rows_per_node * x.cols();  // numbers that a node owns, consecutive in memory
+  RowMatrix y(x.rows(), x.cols());
+#pragma omp parallel for num_threads(threads) schedule(static)
+  for (Eigen::Index a = 0; a < graph->size(); ++a) {
+    double* ya = y.data() + a * width;
+    std::fill(ya, ya + width, 0.0);
+    for (std::int64_t p = graph->starts[a]; p < graph->starts[a + 1]; ++p) {
+      const double m = values[p];
+      const double* xb = x.data() + graph->neighbours[p] * width;
+      for (Eigen::Index c = 0; c < width; ++c) {
+        ya[c] += m * xb[c];
+      }
+    }
+  }
+  return y;
+}
+
+}  // namespace bielle::reduce

@@ -1,0 +1,42 @@
+// Which nodes share a cell: the pattern of every matrix of the finite elements.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "reduce/spectral/symmetric_matrix.hpp"
+
+namespace bielle::reduce {
+
+/// Neighbours of node a, itself included, ascending: `neighbours[starts[a] .. starts[a+1])`. Nodes without cells have
+/// none.
+struct NodeGraph {
+  std::vector<std::int64_t> starts{0};
+  std::vector<int> neighbours;
+
+  Eigen::Index size() const { return static_cast<Eigen::Index>(starts.size()) - 1; }
+  /// Place of node b in the list of node a, which must be its neighbour.
+  std::int64_t place(int a, int b) const;
+};
+
+/// @param nodes  (nodes of a cell, cells)
+NodeGraph node_graph(const Eigen::MatrixXi& nodes, Eigen::Index points, int threads = 1);
+
+/// Cells sorted into colours so that no two cells of a colour share a node: those of one colour are assembled at the
+/// same time, and sums come out the same for any number of threads.
+std::vector<std::vector<int>> colour_cells(const Eigen::MatrixXi& nodes, Eigen::Index points);
+
+/// A symmetric matrix with one number per pair of neighbours (both triangles); stands for `m (x) I3` on vectors of
+/// three components per node.
+struct NodeMatrix {
+  const NodeGraph* graph = nullptr;
+  std::vector<double> values;  ///< as `graph->neighbours`
+
+  /// (m (x) I_k) x: node a owns k consecutive rows of x. @param x  (k points, any)
+  RowMatrix multiply(const RowMatrix& x, int rows_per_node, int threads = 1) const;
+};
+
+}  // namespace bielle::reduce

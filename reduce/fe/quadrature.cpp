@@ -1,0 +1,69 @@
+#include "reduce/fe/quadrature.hpp"
+
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+
+namespace bielle::reduce {
+
+namespace {
+
+struct Rule {
+  Eigen::VectorXd points, weights;
+};
+
+/// n-point Gauss-Jacobi rule on [0,1] for the weight (1 - x)^a, degree 2n - 1: eigenvalues of the Jacobi matrix
+/// (G. H. Golub, J. H. Welsch, Math. Comp. 23 (1969) 221).
+Rule gauss_jacobi(int n, int a) {
+  Eigen::MatrixXd jacobi = Eigen::MatrixXd::Zero(n, n);
+  for (int k = 0; k < n; ++k) {
+    const double s = 2 * k + a;
+    jacobi(k, k) = k == 0 ? -a / (a + 2.0) : -double(a * a) / (s * (s + 2));
+    if (k > 0) {
+      const double p = 4.0 * k * k * (k + a) * (k + a) / (s * s * (s + 1) * (s - 1));
+      jacobi(k, k - 1) = jacobi(k - 1, k) = std::sqrt(p);
+    }
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(jacobi);
+  return {(1 + eigen.eigenvalues().array()) / 2, eigen.eigenvectors().row(0).array().square().transpose() / (a + 1)};
+}
+
+Quadrature four_points() {
+  const double a = (5 - std::sqrt(5.0)) / 20, b = 1 - 3 * a;
+  Quadrature rule;
+  rule.points = Eigen::MatrixXd::Constant(3, 4, a);
+  rule.points.rightCols<3>().diagonal().setConstant(b);
+  rule.weights = Eigen::VectorXd::Constant(4, 1.0 / 24);
+  return rule;
+}
+
+}  // namespace
+
+Quadrature simplex_quadrature(int dimension, int degree) {
+  if (dimension == 3 && degree == 2) {
+    return four_points();
+  }
+  const int n = degree / 2 + 1;
+  // x = u, y = v (1 - u), z = w (1 - u)(1 - v): the Jacobian (1 - u)^(d-1) (1 - v)^(d-2) goes into the rules' weights.
+  Quadrature rule{Eigen::MatrixXd::Zero(dimension, 1), Eigen::VectorXd::Ones(1)};
+  Eigen::VectorXd left = Eigen::VectorXd::Ones(1);  // what the coordinates so far leave of 1
+  for (int k = 0; k < dimension; ++k) {
+    const Rule line = gauss_jacobi(n, dimension - 1 - k);
+    const Eigen::Index points = rule.weights.size();
+    Quadrature finer{Eigen::MatrixXd(dimension, points * n), Eigen::VectorXd(points * n)};
+    Eigen::VectorXd finer_left(points * n);
+    for (Eigen::Index p = 0; p < points; ++p) {
+      for (int q = 0; q < n; ++q) {
+        finer.points.col(p * n + q) = rule.points.col(p);
+        finer.points(k, p * n + q) = left(p) * line.points(q);
+        finer.weights(p * n + q) = rule.weights(p) * line.weights(q);
+        finer_left(p * n + q) = left(p) * (1 - line.points(q));
+      }
+    }
+    rule = std::move(finer);
+    left = std::move(finer_left);
+  }
+  return rule;
+}
+
+}  // namespace bielle::reduce

@@ -1,0 +1,56 @@
+// The solid cells of a mesh with their materials: what the assembly integrates over.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "reduce/fe/material.hpp"
+#include "reduce/mesh/mesh.hpp"
+
+namespace bielle::reduce {
+
+/// Tetrahedra (tet4, or isoparametric tet10 whose edges may be curved) of linear elastic material. Refers to its mesh.
+struct Solid {
+  const Mesh& mesh;
+  CellType type;                 ///< of all its cells
+  const Eigen::MatrixXi& nodes;  ///< (nodes of a cell, cells)
+  std::vector<Material> materials;
+  std::vector<int> material_of;  ///< of each cell, number in `materials`
+
+  Eigen::Index cells() const { return nodes.cols(); }
+  Eigen::Index points() const { return mesh.points.cols(); }
+};
+
+/// Gives every solid cell its material.
+/// @param regions  volume group -> name of a material; the key "all" stands for every cell that no other group claims
+/// @throws InputError for a group that the mesh has not or that is no volume, a material that is not defined, cells
+///         claimed twice or by nobody
+Solid make_solid(const Mesh& mesh, const std::map<std::string, Material>& materials,
+                 const std::map<std::string, std::string>& regions);
+
+/// Mass, its centre and the inertia about it, integrated over the cells.
+struct MassProperties {
+  double mass = 0;                                    ///< [kg]
+  double volume = 0;                                  ///< [m^3]
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();   ///< [m]
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the centre, body axes [kg m^2]
+};
+
+MassProperties mass_properties(const Solid& solid);
+
+/// Points that belong to solid cells, by point.
+std::vector<bool> points_of_solid(const Solid& solid);
+
+/// For each point the number of the connected piece of the body that it belongs to (cells that share a point are one
+/// piece), -1 for points outside the solid; and the number of pieces.
+struct Pieces {
+  std::vector<int> of_point;
+  int count = 0;
+};
+
+Pieces connected_pieces(const Solid& solid);
+
+}  // namespace bielle::reduce

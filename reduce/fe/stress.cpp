@@ -1,0 +1,168 @@
+#include "reduce/fe/stress.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include <Eigen/LU>
+
+#include "reduce/fe/cell_geometry.hpp"
+#include "reduce/fe/elasticity.hpp"
+#include "reduce/fe/node_graph.hpp"
+
+namespace bielle::reduce {
+
+namespace {
+
+using Stress = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Values at the nodes of a cell from those at the four points: (nodes, 4).
+Eigen::MatrixXd extrapolation(CellType type, const Quadrature& rule) {
+  const int vertices = vertex_count(type), nodes = node_count(type);
+  if (type == CellType::tet4) {
+    return Eigen::MatrixXd::Ones(nodes, 1);
+  }
+  Eigen::Matrix4d barycentric;
+  barycentric << 1 - rule.points.colwise().sum().array(), rule.points;
+  Eigen::MatrixXd result(nodes, 4);
+  result.topRows(vertices) = barycentric.transpose().inverse();
+  const Eigen::Matrix2Xi edges = edges_of(type);
+  for (Eigen::Index e = 0; e < edges.cols(); ++e) {
+    result.row(vertices + e) = (result.row(edges(0, e)) + result.row(edges(1, e))) / 2;
+  }
+  return result;
+}
+
+template <int N>
+double cell_volume(const CellRule<N>& rule, const CellPoints<N>& x) {
+  double volume = 0;
+  for (std::size_t p = 0; p < rule.size(); ++p) {
+    volume += rule.weights(p) * Eigen::Matrix3d(x * rule.local_gradients[p]).determinant();
+  }
+  return volume;
+}
+
+/// The material with the most volume around each node, and that volume.
+struct NodeShares {
+  std::vector<int> material;
+  std::vector<double> volume;
+};
+
+NodeShares node_shares(const Solid& solid, const std::vector<double>& volumes) {
+  const auto materials = static_cast<Eigen::Index>(solid.materials.size());
+  Eigen::MatrixXd share = Eigen::MatrixXd::Zero(materials, solid.points());
+  for (Eigen::Index e = 0; e < solid.cells(); ++e) {
+    for (const int a : solid.nodes.col(e)) {
+      share(solid.material_of[e], a) += volumes[e];
+    }
+  }
+  NodeShares result{std::vector<int>(solid.points()), std::vector<double>(solid.points())};
+  for (Eigen::Index a = 0; a < solid.points(); ++a) {
+    result.volume[a] = share.col(a).maxCoeff(&result.material[a]);
+  }
+  return result;
+}
+
+template <int N>
+RowMatrix stress_at(const Solid& solid, const RowMatrix& fields, const std::vector<int>& nodes, int threads) {
+  const Quadrature quadrature = simplex_quadrature(3, N == 4 ? 0 : 2);
+  const CellRule<N> rule(quadrature);
+  const Eigen::MatrixXd to_nodes = extrapolation(CellRule<N>::type, quadrature);
+  std::vector<double> volumes(solid.cells());
+  for (Eigen::Index e = 0; e < solid.cells(); ++e) {
+    volumes[e] = cell_volume<N>(rule, cell_points<N>(solid.mesh.points, solid.nodes, e));
+  }
+  const NodeShares shares = node_shares(solid, volumes);
+  std::vector<int> row_of(solid.points(), -1);
+  for (std::size_t r = 0; r < nodes.size(); ++r) {
+    row_of[nodes[r]] = static_cast<int>(r);
+  }
+  const Eigen::Index k = fields.cols();
+  RowMatrix result = RowMatrix::Zero(6 * static_cast<Eigen::Index>(nodes.size()), k);
+  for (const std::vector<int>& cells : colour_cells(solid.nodes, solid.points())) {
+#pragma omp parallel for num_threads(threads) schedule(static)
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      const int e = cells[c];
+      const int material = solid.material_of[e];
+      const auto wanted = [&](int a) { return row_of[a] >= 0 && shares.material[a] == material; };
+      const auto cell_nodes = solid.nodes.col(e);
+      if (std::none_of(cell_nodes.begin(), cell_nodes.end(), wanted)) {
+        continue;
+      }
+      const CellPoints<N> x = cell_points<N>(solid.mesh.points, solid.nodes, e);
+      std::array<Stress, 4> at_points;
+      Eigen::Matrix<double, N, 3> gradients;
+      for (std::size_t p = 0; p < rule.size(); ++p) {
+        map_point<N>(rule, p, x, gradients);
+        Stress strain = Stress::Zero(6, k);
+        for (int a = 0; a < N; ++a) {
+          for (int i = 0; i < 3; ++i) {
+            const auto u = fields.row(3 * cell_nodes(a) + i);
+            for (int j = 0; j < 3; ++j) {
+              strain.row(voigt(i, j)) += gradients(a, j) * u;
+            }
+          }
+        }
+        at_points[p] = solid.materials[material].elasticity * strain;
+      }
+      for (int a = 0; a < N; ++a) {
+        if (!wanted(cell_nodes(a))) {
+          continue;
+        }
+        const double weight = volumes[e] / shares.volume[cell_nodes(a)];
+        for (std::size_t p = 0; p < rule.size(); ++p) {
+          result.middleRows<6>(6 * row_of[cell_nodes(a)]) += weight * to_nodes(a, p) * at_points[p];
+        }
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+RowMatrix nodal_stress(const Solid& solid, const RowMatrix& fields, const std::vector<int>& nodes, int threads) {
+  return solid.type == CellType::tet4 ? stress_at<4>(solid, fields, nodes, threads)
+                                      : stress_at<10>(solid, fields, nodes, threads);
+}
+
+std::vector<int> surface_nodes(const Solid& solid) {
+  constexpr int faces[4][3] = {{0, 1, 2}, {0, 1, 3}, {1, 2, 3}, {0, 2, 3}};
+  // tet10: mid-side nodes of the edges of each face, same order of faces
+  constexpr int middles[4][3] = {{4, 5, 6}, {4, 9, 7}, {5, 8, 9}, {6, 8, 7}};
+  struct Face {
+    std::array<int, 3> key;
+    Eigen::Index cell;
+    int side;
+  };
+  std::vector<Face> all;
+  all.reserve(4 * solid.cells());
+  for (Eigen::Index e = 0; e < solid.cells(); ++e) {
+    for (int side = 0; side < 4; ++side) {
+      std::array<int, 3> key;
+      for (int v = 0; v < 3; ++v) {
+        key[v] = solid.nodes(faces[side][v], e);
+      }
+      std::sort(key.begin(), key.end());
+      all.push_back({key, e, side});
+    }
+  }
+  std::sort(all.begin(), all.end(), [](const Face& a, const Face& b) { return a.key < b.key; });
+  std::vector<int> result;
+  for (std::size_t f = 0; f < all.size(); ++f) {
+    const bool shared = (f > 0 && all[f - 1].key == all[f].key) || (f + 1 < all.size() && all[f + 1].key == all[f].key);
+    if (shared) {
+      continue;
+    }
+    result.insert(result.end(), all[f].key.begin(), all[f].key.end());
+    if (solid.type == CellType::tet10) {
+      for (const int m : middles[all[f].side]) {
+        result.push_back(solid.nodes(m, all[f].cell));
+      }
+    }
+  }
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+}  // namespace bielle::reduce

@@ -1,0 +1,31 @@
+// The BLAS below the factorisations: its threads, and whether it runs the kernels that this processor deserves.
+#pragma once
+
+#include <string>
+
+namespace bielle {
+
+/// Sets the number of OpenBLAS threads while it lives. OpenBLAS threads spin, so they are never left on beside threads
+/// of our own.
+class BlasThreads {
+ public:
+  explicit BlasThreads(int threads);
+  ~BlasThreads();
+  BlasThreads(const BlasThreads&) = delete;
+  BlasThreads& operator=(const BlasThreads&) = delete;
+
+ private:
+  int before_;
+};
+
+/// E.g. "OpenBLAS 0.3.21, kernels for SkylakeX".
+std::string blas_description();
+
+/// A sentence when OpenBLAS runs slower kernels than this processor offers (forced by OPENBLAS_CORETYPE, or unknown to
+/// this OpenBLAS); empty otherwise.
+std::string blas_warning();
+
+/// Speed of a product of two square matrices [GFLOP/s], the best of `repeats`.
+double measure_dgemm(int size, int threads, int repeats = 3);
+
+}  // namespace bielle

@@ -1,0 +1,184 @@
+#include "reduce/spectral/eigenpairs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+#include <Eigen/Eigenvalues>
+#include <arpack/arpack.hpp>
+#include <fmt/format.h>
+
+#include "reduce/common/error.hpp"
+
+namespace bielle {
+
+namespace {
+
+/// The same start vector in every run and on every machine: a linear congruential generator (Knuth's MMIX constants).
+Eigen::MatrixXd start_vectors(Eigen::Index size, Eigen::Index count) {
+  std::uint64_t state = 0x9E3779B97F4A7C15ULL;
+  Eigen::MatrixXd result(size, count);
+  for (double& value : result.reshaped()) {
+    state = state * 6364136223846793005ULL + 1442695040888963407ULL;
+    value = static_cast<double>(static_cast<std::int64_t>(state)) * 0x1p-63;
+  }
+  return result;
+}
+
+/// Ascending eigenvalues, M-normalised vectors with their largest component positive.
+void put_in_order(Eigenpairs& pairs) {
+  std::vector<Eigen::Index> order(pairs.values.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Eigen::Index a, Eigen::Index b) { return pairs.values(a) < pairs.values(b); });
+  pairs.values = Eigen::VectorXd(pairs.values(order));
+  pairs.vectors = Eigen::MatrixXd(pairs.vectors(Eigen::all, order));
+  for (auto column : pairs.vectors.colwise()) {
+    Eigen::Index largest = 0;
+    column.cwiseAbs().maxCoeff(&largest);
+    if (column(largest) < 0) {
+      column = -column;
+    }
+  }
+}
+
+/// Normalises the vectors and measures what the operator makes of them.
+void add_residuals(const ShiftInvertProblem& problem, Eigenpairs& pairs) {
+  Eigen::MatrixXd mass_vectors = problem.multiply_mass(pairs.vectors);
+  for (Eigen::Index k = 0; k < pairs.values.size(); ++k) {
+    const double norm = std::sqrt(pairs.vectors.col(k).dot(mass_vectors.col(k)));
+    pairs.vectors.col(k) /= norm;
+    mass_vectors.col(k) /= norm;
+  }
+  const Eigen::VectorXd distance = pairs.values.array() - problem.shift;
+  const Eigen::MatrixXd error = pairs.vectors - problem.solve(mass_vectors) * distance.asDiagonal();
+  pairs.residuals = error.cwiseProduct(problem.multiply_mass(error)).colwise().sum().cwiseMax(0).cwiseSqrt();
+}
+
+/// Small problems, densely: S = (K - shift M)^-1 is symmetric, and S M phi = nu phi with nu = 1 / (lambda - shift)
+/// becomes M^1/2 S M^1/2 y = nu y, phi = S M^1/2 y / nu. Directions in which S vanishes (constraints) have no
+/// eigenvalue.
+Eigenpairs dense_eigenpairs(const ShiftInvertProblem& problem, int count) {
+  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(problem.size, problem.size);
+  const Eigen::MatrixXd mass = problem.multiply_mass(identity);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> mass_eigen((mass + mass.transpose()) / 2);
+  const Eigen::MatrixXd root = mass_eigen.eigenvectors() *
+                               mass_eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() *
+                               mass_eigen.eigenvectors().transpose();
+  const Eigen::MatrixXd range = problem.solve(root);
+  const Eigen::MatrixXd projected = root * range;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen((projected + projected.transpose()) / 2);
+  const Eigen::ArrayXd nu = eigen.eigenvalues().array();
+  const double negligible = 1e-13 * nu.abs().maxCoeff();
+  std::vector<Eigen::Index> order;
+  for (Eigen::Index k = 0; k < nu.size(); ++k) {
+    if (std::abs(nu(k)) > negligible) {
+      order.push_back(k);
+    }
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Eigen::Index a, Eigen::Index b) { return std::abs(nu(a)) > std::abs(nu(b)); });
+  order.resize(std::min<std::size_t>(order.size(), count));
+  Eigenpairs pairs;
+  pairs.values = problem.shift + nu(order).inverse();
+  pairs.vectors = range * eigen.eigenvectors()(Eigen::all, order) * nu(order).inverse().matrix().asDiagonal();
+  pairs.solves = static_cast<int>(problem.size);
+  return pairs;
+}
+
+Eigenpairs arpack_eigenpairs(const ShiftInvertProblem& problem, int count, const EigenpairOptions& options) {
+  const auto n = static_cast<a_int>(problem.size);
+  const a_int wanted = count;
+  // Enough vectors that most problems converge in one or two sweeps: solutions are dear, vectors are not.
+  const a_int basis = std::min<a_int>(n, std::max<a_int>(2 * wanted + 10, 30));
+  const a_int work_size = basis * (basis + 8);
+  Eigen::VectorXd residual = start_vectors(n, 1);
+  Eigen::MatrixXd lanczos(n, basis);
+  Eigen::MatrixXd work(n, 3);
+  std::vector<double> small_work(work_size);
+  std::array<a_int, 11> parameters{}, pointers{};
+  parameters[0] = 1;                 // exact shifts
+  parameters[2] = options.restarts;  // on return: how many were made
+  parameters[3] = 1;                 // block size, the only one implemented
+  parameters[6] = 3;                 // shift-invert
+  Eigenpairs pairs;
+  a_int request = 0, info = 1;  // info = 1: start from `residual`
+  const auto column = [&](int pointer) { return Eigen::Map<Eigen::VectorXd>(work.data() + pointers[pointer] - 1, n); };
+  const auto solve = [&](const Eigen::MatrixXd& b) {
+    ++pairs.solves;
+    if (options.on_solve) {
+      options.on_solve(pairs.solves);
+    }
+    return problem.solve(b);
+  };
+  while (request != 99) {
+    arpack::saupd(request, arpack::bmat::generalized, n, arpack::which::largest_magnitude, wanted, options.tolerance,
+                  residual.data(), basis, lanczos.data(), n, parameters.data(), pointers.data(), work.data(),
+                  small_work.data(), work_size, info);
+    if (request == -1) {  // y = OP x
+      column(1) = solve(problem.multiply_mass(column(0)));
+    } else if (request == 1) {  // the same with M x at hand
+      column(1) = solve(column(2));
+    } else if (request == 2) {  // y = M x
+      column(1) = problem.multiply_mass(column(0));
+    } else if (request != 99) {
+      throw ComputationError(fmt::format("ARPACK made an unknown request ({})", request));
+    }
+  }
+  pairs.restarts = parameters[2];
+  const int converged = parameters[4];
+  if (info == 1 || (info >= 0 && converged < wanted)) {
+    throw ComputationError(
+        fmt::format("the eigenvalue iteration stopped after {} restarts with {} of {} modes converged", pairs.restarts,
+                    converged, count));
+  }
+  if (info < 0) {
+    throw ComputationError(fmt::format("the eigenvalue iteration failed (ARPACK's dsaupd returned {})", info));
+  }
+  std::vector<a_int> select(basis);
+  pairs.values.resize(wanted);
+  pairs.vectors.resize(n, wanted);
+  arpack::seupd(1, arpack::howmny::ritz_vectors, select.data(), pairs.values.data(), pairs.vectors.data(), n,
+                problem.shift, arpack::bmat::generalized, n, arpack::which::largest_magnitude, wanted,
+                options.tolerance, residual.data(), basis, lanczos.data(), n, parameters.data(), pointers.data(),
+                work.data(), small_work.data(), work_size, info);
+  if (info != 0) {
+    throw ComputationError(fmt::format("the eigenvectors could not be formed (ARPACK's dseupd returned {})", info));
+  }
+  return pairs;
+}
+
+}  // namespace
+
+Eigenpairs shift_invert_eigenpairs(const ShiftInvertProblem& problem, int count, const EigenpairOptions& options) {
+  constexpr Eigen::Index dense_size = 60;  // below which ARPACK's vectors would fill the space anyway
+  const bool dense = problem.size <= dense_size || 2 * static_cast<Eigen::Index>(count) + 10 > problem.size;
+  Eigenpairs pairs = dense ? dense_eigenpairs(problem, count) : arpack_eigenpairs(problem, count, options);
+  put_in_order(pairs);
+  add_residuals(problem, pairs);
+  return pairs;
+}
+
+Eigenpairs shift_invert_eigenpairs_below(const ShiftInvertProblem& problem, double limit, int first_guess,
+                                         const EigenpairOptions& options) {
+  const auto most = static_cast<int>(problem.size);
+  int count = std::min(std::max(first_guess, 1), most);
+  while (true) {
+    Eigenpairs pairs = shift_invert_eigenpairs(problem, count, options);
+    const Eigen::Index found = pairs.values.size();
+    const Eigen::Index below = (pairs.values.array() <= limit).count();
+    if (below < found || found < count || count == most) {
+      pairs.values.conservativeResize(below);
+      pairs.vectors.conservativeResize(Eigen::NoChange, below);
+      pairs.residuals.conservativeResize(below);
+      return pairs;
+    }
+    // Frequencies of a solid are spaced evenly or denser: extrapolate what was found, and a little more.
+    const double ratio = std::sqrt(std::max(1.0, (limit - problem.shift) / (pairs.values(found - 1) - problem.shift)));
+    count = std::min(most, std::max(count + 10, static_cast<int>(std::ceil(1.2 * ratio * count)) + 5));
+  }
+}
+
+}  // namespace bielle

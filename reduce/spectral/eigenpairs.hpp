@@ -1,0 +1,54 @@
+// Eigenpairs of K phi = lambda M phi nearest to a shift, by ARPACK's implicitly restarted Lanczos method (mode 3).
+//
+// The caller gives the solution with K - shift M and the product with M, so that one factorisation serves here and
+// elsewhere, and constraints may be worked into the solution. Reference: R. B. Lehoucq, D. C. Sorensen, C. Yang, ARPACK
+// Users' Guide, SIAM 1998.
+#pragma once
+
+#include <functional>
+
+#include <Eigen/Core>
+
+namespace bielle {
+
+/// The pencil K - lambda M, seen through its shift-inverted operator. M is symmetric, positive semi-definite, and
+/// positive definite on the range of `solve`.
+struct ShiftInvertProblem {
+  Eigen::Index size = 0;
+  double shift = 0;
+  /// (K - shift M)^-1 b for a block of columns
+  std::function<Eigen::MatrixXd(const Eigen::MatrixXd& b)> solve;
+  /// M x for a block of columns
+  std::function<Eigen::MatrixXd(const Eigen::MatrixXd& x)> multiply_mass;
+};
+
+struct EigenpairOptions {
+  /// Accuracy asked of ARPACK, relative to the eigenvalues of the inverted operator.
+  double tolerance = 1e-10;
+  int restarts = 300;  ///< before giving up
+  /// Called after every solution with their number so far; may show progress.
+  std::function<void(int solves)> on_solve;
+};
+
+/// Eigenpairs in ascending order of eigenvalue.
+struct Eigenpairs {
+  Eigen::VectorXd values;   ///< lambda
+  Eigen::MatrixXd vectors;  ///< columns phi, phi^T M phi = 1, largest component positive
+  /// |phi - (lambda - shift) (K - shift M)^-1 M phi|_M for each pair: some eigenvalue of the pencil lies within this,
+  /// relative to lambda - shift.
+  Eigen::VectorXd residuals;
+  int solves = 0;    ///< single solutions that ARPACK asked for
+  int restarts = 0;  ///< of the Lanczos iteration
+};
+
+/// The `count` eigenpairs nearest to the shift.
+/// @param count  1 <= count; small problems (count > size / 2 or so) are solved densely
+/// @throws ComputationError when ARPACK does not converge: how many pairs did, of how many
+Eigenpairs shift_invert_eigenpairs(const ShiftInvertProblem& problem, int count, const EigenpairOptions& options = {});
+
+/// All eigenpairs with eigenvalues in (shift, limit], found by asking for growing counts.
+/// @param first_guess  how many to ask for first
+Eigenpairs shift_invert_eigenpairs_below(const ShiftInvertProblem& problem, double limit, int first_guess = 10,
+                                         const EigenpairOptions& options = {});
+
+}  // namespace bielle

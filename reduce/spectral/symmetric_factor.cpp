@@ -1,0 +1,267 @@
+#include "reduce/spectral/symmetric_factor.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <numeric>
+#include <vector>
+
+#include <cholmod.h>
+#include <fmt/format.h>
+#include <omp.h>
+
+#include "reduce/spectral/blas.hpp"
+
+namespace bielle {
+
+namespace {
+
+using Long = SuiteSparse_long;
+static_assert(sizeof(Long) == sizeof(std::int64_t));
+
+constexpr double singular_pivot = 1e-14;
+constexpr std::int64_t small_graph = 200;  // blocks below which minimum degree orders as well as nested dissection
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// CHOLMOD's settings and workspace; one per thread.
+class Common {
+ public:
+  Common() {
+    cholmod_l_start(&common_);
+    common_.print = 0;
+    common_.supernodal = CHOLMOD_SUPERNODAL;
+    common_.nmethods = 1;
+    common_.method[0].ordering = CHOLMOD_GIVEN;
+    common_.postorder = 1;
+    common_.quick_return_if_not_posdef = 1;
+  }
+  ~Common() { cholmod_l_finish(&common_); }
+  Common(const Common&) = delete;
+  Common& operator=(const Common&) = delete;
+  operator cholmod_common*() { return &common_; }
+  cholmod_common* operator->() { return &common_; }
+
+  /// @throws ComputationError when the last call ran out of memory or failed in another way than a bad pivot
+  void check(const char* what) const {
+    if (common_.status == CHOLMOD_OUT_OF_MEMORY || common_.status == CHOLMOD_TOO_LARGE) {
+      throw ComputationError(
+          fmt::format("not enough memory for the {} of the stiffness matrix; a coarser mesh needs less", what));
+    }
+    if (common_.status < 0) {
+      throw ComputationError(fmt::format("CHOLMOD failed in the {} of a matrix (status {})", what, common_.status));
+    }
+  }
+
+ private:
+  cholmod_common common_;
+};
+
+/// CHOLMOD's loops ask for OpenMP threads beside those of OpenBLAS; together they fight for the cores. While this lives
+/// they get none.
+class NoOpenMpThreads {
+ public:
+  NoOpenMpThreads() : before_(omp_get_max_active_levels()) { omp_set_max_active_levels(0); }
+  ~NoOpenMpThreads() { omp_set_max_active_levels(before_); }
+  NoOpenMpThreads(const NoOpenMpThreads&) = delete;
+  NoOpenMpThreads& operator=(const NoOpenMpThreads&) = delete;
+
+ private:
+  int before_;
+};
+
+/// A view of a lower triangle for CHOLMOD, which does not change it.
+cholmod_sparse view(std::int64_t size, const std::vector<std::int64_t>& starts, const std::vector<std::int64_t>& rows,
+                    const double* values) {
+  cholmod_sparse a{};
+  a.nrow = a.ncol = size;
+  a.nzmax = rows.size();
+  a.p = const_cast<std::int64_t*>(starts.data());
+  a.i = const_cast<std::int64_t*>(rows.data());
+  a.x = const_cast<double*>(values);
+  a.stype = -1;
+  a.itype = CHOLMOD_LONG;
+  a.xtype = values ? CHOLMOD_REAL : CHOLMOD_PATTERN;
+  a.dtype = CHOLMOD_DOUBLE;
+  a.sorted = 1;
+  a.packed = 1;
+  return a;
+}
+
+struct Graph {
+  std::vector<std::int64_t> starts{0}, rows;
+};
+
+/// Which blocks of A are coupled, lower triangle.
+Graph block_graph(const SymmetricMatrix& a, std::span<const std::int64_t> block_starts) {
+  const std::int64_t blocks = static_cast<std::int64_t>(block_starts.size()) - 1;
+  std::vector<std::int64_t> block_of(a.size);
+  for (std::int64_t b = 0; b < blocks; ++b) {
+    std::fill(block_of.begin() + block_starts[b], block_of.begin() + block_starts[b + 1], b);
+  }
+  Graph graph;
+  std::vector<std::int64_t> seen_by(blocks, -1);
+  for (std::int64_t b = 0; b < blocks; ++b) {
+    const auto first = static_cast<std::ptrdiff_t>(graph.rows.size());
+    for (std::int64_t p = a.starts[block_starts[b]]; p < a.starts[block_starts[b + 1]]; ++p) {
+      if (const std::int64_t i = block_of[a.rows[p]]; seen_by[i] != b) {
+        seen_by[i] = b;
+        graph.rows.push_back(i);
+      }
+    }
+    std::sort(graph.rows.begin() + first, graph.rows.end());
+    graph.starts.push_back(static_cast<std::int64_t>(graph.rows.size()));
+  }
+  return graph;
+}
+
+/// Order in which to eliminate the unknowns.
+std::vector<std::int64_t> fill_reducing_order(const SymmetricMatrix& a, std::span<const std::int64_t> block_starts,
+                                              Common& common) {
+  const std::int64_t blocks = static_cast<std::int64_t>(block_starts.size()) - 1;
+  const Graph graph = block_graph(a, block_starts);
+  cholmod_sparse pattern = view(blocks, graph.starts, graph.rows, nullptr);
+  std::vector<std::int64_t> order(blocks);
+  if (blocks < small_graph) {
+    cholmod_l_amd(&pattern, nullptr, 0, order.data(), common);
+  } else {
+    cholmod_l_metis(&pattern, nullptr, 0, 1, order.data(), common);
+  }
+  common.check("ordering");
+  std::vector<std::int64_t> expanded;
+  expanded.reserve(a.size);
+  for (const std::int64_t b : order) {
+    for (std::int64_t i = block_starts[b]; i < block_starts[b + 1]; ++i) {
+      expanded.push_back(i);
+    }
+  }
+  return expanded;
+}
+
+/// Squared diagonal of L over the diagonal of A, smallest: where, and how small.
+std::pair<std::int64_t, double> smallest_pivot(const cholmod_factor& factor, const SymmetricMatrix& a) {
+  const auto* super = static_cast<const Long*>(factor.super);
+  const auto* row_starts = static_cast<const Long*>(factor.pi);
+  const auto* value_starts = static_cast<const Long*>(factor.px);
+  const auto* order = static_cast<const Long*>(factor.Perm);
+  const auto* values = static_cast<const double*>(factor.x);
+  std::pair<std::int64_t, double> smallest{-1, 1};
+  for (std::size_t s = 0; s < factor.nsuper; ++s) {
+    const Long rows = row_starts[s + 1] - row_starts[s];
+    for (Long k = 0; k < super[s + 1] - super[s]; ++k) {
+      const std::int64_t unknown = order[super[s] + k];
+      const double pivot = values[value_starts[s] + k * (rows + 1)];
+      const double relative = pivot * pivot / a.values[a.starts[unknown]];
+      if (!(relative >= smallest.second)) {
+        smallest = {unknown, relative};
+      }
+    }
+  }
+  return smallest;
+}
+
+}  // namespace
+
+NotPositiveDefinite::NotPositiveDefinite(std::int64_t unknown)
+    : ComputationError(fmt::format("the matrix is not positive definite at unknown {}", unknown)), unknown_(unknown) {}
+
+struct SymmetricFactor::Implementation {
+  Common common;
+  cholmod_factor* factor = nullptr;
+  FactorStatistics statistics;
+  int threads = 1;
+
+  ~Implementation() { cholmod_l_free_factor(&factor, common); }
+};
+
+SymmetricFactor::SymmetricFactor(const SymmetricMatrix& a, std::span<const std::int64_t> block_starts, int threads)
+    : implementation_(std::make_unique<Implementation>()) {
+  Common& common = implementation_->common;
+  FactorStatistics& statistics = implementation_->statistics;
+  cholmod_factor*& factor = implementation_->factor;
+  implementation_->threads = std::max(1, threads);
+  std::vector<std::int64_t> single;
+  if (block_starts.empty()) {
+    single.resize(a.size + 1);
+    std::iota(single.begin(), single.end(), 0);
+    block_starts = single;
+  }
+  for (std::int64_t j = 0; j < a.size; ++j) {
+    if (!(a.values[a.starts[j]] > 0)) {
+      throw NotPositiveDefinite(j);
+    }
+  }
+
+  auto start = std::chrono::steady_clock::now();
+  std::vector<std::int64_t> order = fill_reducing_order(a, block_starts, common);
+  statistics.ordering_seconds = seconds_since(start);
+
+  const NoOpenMpThreads no_openmp;
+  const BlasThreads blas(implementation_->threads);
+  start = std::chrono::steady_clock::now();
+  cholmod_sparse matrix = view(a.size, a.starts, a.rows, a.values.data());
+  factor = cholmod_l_analyze_p(&matrix, order.data(), nullptr, 0, common);
+  common.check("analysis");
+  statistics.unknowns = a.size;
+  statistics.flops = common->fl;
+  statistics.nonzeros = static_cast<std::int64_t>(common->lnz);
+  statistics.analysis_seconds = seconds_since(start);
+
+  start = std::chrono::steady_clock::now();
+  cholmod_l_factorize(&matrix, factor, common);
+  common.check("factorisation");
+  statistics.factorisation_seconds = seconds_since(start);
+  if (common->status == CHOLMOD_NOT_POSDEF) {
+    throw NotPositiveDefinite(static_cast<const Long*>(factor->Perm)[factor->minor]);
+  }
+  if (const auto [unknown, pivot] = smallest_pivot(*factor, a); !(pivot > singular_pivot)) {
+    throw NotPositiveDefinite(unknown);
+  }
+  statistics.reciprocal_condition = cholmod_l_rcond(factor, common);
+}
+
+SymmetricFactor::SymmetricFactor(SymmetricFactor&&) noexcept = default;
+SymmetricFactor& SymmetricFactor::operator=(SymmetricFactor&&) noexcept = default;
+SymmetricFactor::~SymmetricFactor() = default;
+
+std::int64_t SymmetricFactor::size() const { return implementation_->statistics.unknowns; }
+
+const FactorStatistics& SymmetricFactor::statistics() const { return implementation_->statistics; }
+
+Eigen::MatrixXd SymmetricFactor::solve(const Eigen::MatrixXd& b) const {
+  const Eigen::Index columns = b.cols();
+  Eigen::MatrixXd x(b.rows(), columns);
+  if (columns == 0 || b.rows() == 0) {
+    return x;
+  }
+  const BlasThreads blas(1);
+  const int threads = static_cast<int>(std::min<Eigen::Index>(implementation_->threads, columns));
+  bool failed = false;
+#pragma omp parallel num_threads(threads) reduction(|| : failed)
+  {
+    const Eigen::Index count = omp_get_num_threads(), thread = omp_get_thread_num();
+    const Eigen::Index first = columns * thread / count, width = columns * (thread + 1) / count - first;
+    Common common;  // a workspace of this thread's own; the factor itself is only read
+    cholmod_dense rhs{};
+    rhs.nrow = rhs.d = b.rows();
+    rhs.ncol = width;
+    rhs.nzmax = rhs.nrow * width;
+    rhs.x = const_cast<double*>(b.data() + first * b.rows());
+    rhs.xtype = CHOLMOD_REAL;
+    rhs.dtype = CHOLMOD_DOUBLE;
+    cholmod_dense* solution = cholmod_l_solve(CHOLMOD_A, implementation_->factor, &rhs, common);
+    failed = solution == nullptr;
+    if (solution) {
+      x.middleCols(first, width) =
+          Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(solution->x), b.rows(), width);
+      cholmod_l_free_dense(&solution, common);
+    }
+  }
+  if (failed) {
+    throw ComputationError("not enough memory for the solution with the factorised stiffness matrix");
+  }
+  return x;
+}
+
+}  // namespace bielle

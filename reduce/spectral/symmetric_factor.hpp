@@ -1,0 +1,66 @@
+// Cholesky factorisation of large sparse symmetric positive definite matrices: CHOLMOD's supernodal L L^T.
+//
+// The fill-reducing order is found on the graph of blocks (the nodes of a mesh, whose unknowns have the same
+// neighbours) and expanded to unknowns: METIS nested dissection, or minimum degree (AMD) for small graphs.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include <Eigen/Core>
+
+#include "reduce/common/error.hpp"
+#include "reduce/spectral/symmetric_matrix.hpp"
+
+namespace bielle {
+
+/// What a factorisation cost.
+struct FactorStatistics {
+  std::int64_t unknowns = 0;
+  std::int64_t nonzeros = 0;  ///< of L
+  double flops = 0;
+  double ordering_seconds = 0, analysis_seconds = 0, factorisation_seconds = 0;  ///< wall time
+  double reciprocal_condition = 0;  ///< rough: (smallest / largest diagonal entry of L)^2
+
+  double speed() const { return 1e-9 * flops / factorisation_seconds; }  ///< [GFLOP/s]
+  double memory_MB() const { return 8e-6 * static_cast<double>(nonzeros); }
+  double seconds() const { return ordering_seconds + analysis_seconds + factorisation_seconds; }
+};
+
+/// The matrix is singular or indefinite: the caller knows what the unknown means to the user.
+class NotPositiveDefinite : public ComputationError {
+ public:
+  explicit NotPositiveDefinite(std::int64_t unknown);
+  std::int64_t unknown() const { return unknown_; }  ///< where the elimination met a pivot that is not positive
+
+ private:
+  std::int64_t unknown_;
+};
+
+/// P A P^T = L L^T, and solutions with it.
+class SymmetricFactor {
+ public:
+  /// @param a             positive definite
+  /// @param block_starts  first unknown of each block, then `a.size`; empty: every unknown is its own block
+  /// @param threads       >= 1, for the factorisation and for solutions
+  /// @throws NotPositiveDefinite also when a pivot is so small (1e-14 of its diagonal entry) that A is singular to
+  ///         working precision; ComputationError when memory does not suffice
+  explicit SymmetricFactor(const SymmetricMatrix& a, std::span<const std::int64_t> block_starts = {}, int threads = 1);
+  SymmetricFactor(SymmetricFactor&&) noexcept;
+  SymmetricFactor& operator=(SymmetricFactor&&) noexcept;
+  ~SymmetricFactor();
+
+  std::int64_t size() const;
+  const FactorStatistics& statistics() const;
+
+  /// A^-1 b for a block of right-hand sides (size,k). Solutions are bound by memory: many columns cost little more than
+  /// one, so ask for all at once.
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace bielle

@@ -1,0 +1,136 @@
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "reduce/common/error.hpp"
+#include "reduce/spectral/eigenpairs.hpp"
+#include "reduce/spectral/symmetric_factor.hpp"
+#include "tests/unit/reduce/spectral/laplacian.hpp"
+
+using namespace bielle;
+
+namespace {
+
+/// K = grid Laplacian - shift, M = mass times the identity.
+struct GridProblem {
+  std::array<int, 3> n;
+  SymmetricFactor factor;
+  double mass, shift;
+
+  static SymmetricMatrix shifted(std::array<int, 3> n, double by) {
+    SymmetricMatrix a = test::grid_laplacian(n);
+    for (std::int64_t j = 0; j < a.size; ++j) {
+      a.values[a.starts[j]] -= by;
+    }
+    return a;
+  }
+  explicit GridProblem(std::array<int, 3> points, double m = 1, double s = 0)
+      : n(points), factor(shifted(points, s * m)), mass(m), shift(s) {}
+  ShiftInvertProblem problem() const {
+    return {factor.size(), shift, [this](const Eigen::MatrixXd& b) { return factor.solve(b); },
+            [this](const Eigen::MatrixXd& x) { return Eigen::MatrixXd(mass * x); }};
+  }
+  /// All eigenvalues, ascending.
+  std::vector<double> exact() const {
+    std::vector<double> values;
+    for (int i = 1; i <= n[0]; ++i) {
+      for (int j = 1; j <= n[1]; ++j) {
+        for (int k = 1; k <= n[2]; ++k) {
+          values.push_back(
+              (test::grid_eigenvalue(i, n[0]) + test::grid_eigenvalue(j, n[1]) + test::grid_eigenvalue(k, n[2])) /
+              mass);
+        }
+      }
+    }
+    std::sort(values.begin(), values.end());
+    return values;
+  }
+};
+
+void check_pairs(const GridProblem& grid, const Eigenpairs& pairs) {
+  const std::vector<double> exact = grid.exact();
+  for (Eigen::Index k = 0; k < pairs.values.size(); ++k) {
+    // The factor is that of a matrix that differs from K by a few eps |K|, |K| <= 12: eigenvalues move by as much.
+    const double rounding = 10 * 12 * std::numeric_limits<double>::epsilon();
+    CHECK_THAT(pairs.values(k) * grid.mass, Catch::WithinAbs(exact[k] * grid.mass, rounding + 1e-13 * exact[k]));
+    CHECK(pairs.residuals(k) < 1e-8);
+  }
+  const Eigen::MatrixXd gram = pairs.vectors.transpose() * pairs.vectors * grid.mass;
+  CHECK((gram - Eigen::MatrixXd::Identity(gram.rows(), gram.cols())).cwiseAbs().maxCoeff() < 1e-10);
+}
+
+}  // namespace
+
+TEST_CASE("The lowest eigenvalues of a chain are those of the closed form") {
+  const GridProblem chain({2000, 1, 1}, 2.5);
+  const Eigenpairs pairs = shift_invert_eigenpairs(chain.problem(), 12);
+  REQUIRE(pairs.values.size() == 12);
+  check_pairs(chain, pairs);
+  CHECK(pairs.solves < 100);
+}
+
+TEST_CASE("Every copy of a multiple eigenvalue is found") {
+  const GridProblem cube({12, 12, 12});  // eigenvalues up to six times
+  const Eigenpairs pairs = shift_invert_eigenpairs(cube.problem(), 30);
+  REQUIRE(pairs.values.size() == 30);
+  check_pairs(cube, pairs);
+}
+
+TEST_CASE("Small problems give all of their eigenvalues") {
+  const GridProblem plate({5, 4, 1});
+  const Eigenpairs pairs = shift_invert_eigenpairs(plate.problem(), 20);
+  REQUIRE(pairs.values.size() == 20);
+  check_pairs(plate, pairs);
+}
+
+TEST_CASE("A negative shift, as for floating bodies, leaves the eigenvalues where they are") {
+  const GridProblem chain({500, 1, 1}, 1, -1e-4);
+  const Eigenpairs pairs = shift_invert_eigenpairs(chain.problem(), 5);
+  check_pairs(chain, pairs);
+}
+
+TEST_CASE("All eigenvalues below a limit are found") {
+  const GridProblem cube({12, 11, 10});
+  const std::vector<double> exact = cube.exact();
+  const double limit = (exact[41] + exact[42]) / 2;
+  const Eigenpairs pairs = shift_invert_eigenpairs_below(cube.problem(), limit, 5);
+  REQUIRE(pairs.values.size() == 42);
+  check_pairs(cube, pairs);
+  CHECK(shift_invert_eigenpairs_below(cube.problem(), exact[0] / 2).values.size() == 0);
+}
+
+TEST_CASE("Constraints worked into the solution remove their directions from the spectrum") {
+  // A chain held at its middle as well: two chains of half the length, each eigenvalue twice.
+  const GridProblem chain({801, 1, 1});
+  const Eigen::VectorXd held = Eigen::VectorXd::Unit(801, 400);
+  const Eigen::VectorXd influence = chain.factor.solve(held);
+  ShiftInvertProblem problem = chain.problem();
+  problem.solve = [&](const Eigen::MatrixXd& b) {
+    Eigen::MatrixXd x = chain.factor.solve(b);
+    x -= influence * (x.row(400) / influence(400));
+    return x;
+  };
+  const Eigenpairs pairs = shift_invert_eigenpairs(problem, 6);
+  for (int k = 0; k < 6; ++k) {
+    CHECK(pairs.values(k) == Approx(test::grid_eigenvalue(k / 2 + 1, 400)).epsilon(1e-11));
+    CHECK(std::abs(pairs.vectors(400, k)) < 1e-12);
+  }
+}
+
+TEST_CASE("An iteration that is cut off says how far it came") {
+  const GridProblem cube({12, 12, 12});
+  EigenpairOptions options;
+  options.restarts = 1;
+  options.tolerance = 1e-14;
+  CHECK_THROWS_WITH(shift_invert_eigenpairs(cube.problem(), 40, options), Catch::Contains("of 40 modes converged"));
+}
+
+TEST_CASE("The same problem gives the same numbers every time") {
+  const GridProblem cube({9, 8, 7});
+  const Eigenpairs first = shift_invert_eigenpairs(cube.problem(), 7);
+  const Eigenpairs second = shift_invert_eigenpairs(cube.problem(), 7);
+  CHECK(first.values == second.values);
+  CHECK(first.vectors == second.vectors);
+}
