@@ -8,12 +8,14 @@ from .messages import InputError
 class Parser(argparse.ArgumentParser):
     """Wrong options are one sentence and status 1, as everywhere in Bielle."""
 
+    raw = argparse.RawDescriptionHelpFormatter
+
     def error(self, message):
         raise InputError(f"{message} (--help shows the options)")
 
 
 def results_parser(name, description):
-    parser = Parser(prog=name, description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser(prog=name, description=description, formatter_class=Parser.raw)
     parser.add_argument("results", metavar="RESULTS.h5", help="results of bielle-mechanism")
     parser.add_argument("--analysis", type=int, metavar="N", help="show analysis N only (default: the last state of each group)")
     parser.add_argument("--superelement", action="append", default=[], metavar="ELEMENT=FILE.h5",

@@ -172,9 +172,12 @@ def beams(results, at):
 
 
 def signals(results, at):
-    """What is left: actuators, springs, contacts, hydraulics, points; a panel per dataset of few columns over time."""
+    """What is left: actuators, springs, contacts, hydraulics, points; a panel per dataset of few columns over time.
+
+    Rigid bodies are not: their nodes' paths say the same.
+    """
     written = []
-    drawn = set(results.elements_with("frame")) | set(results.elements_with("rotation"))
+    drawn = set(results.elements_with("frame") + results.elements_with("rotation") + results.elements_with("angular_momentum"))
     for section in ("elements", "contacts", "hydraulics", "points"):
         for name in results.names(section):
             group = results.group(f"{section}/{name}")
