@@ -1,0 +1,18 @@
+// Directions in a body file.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace bielle {
+class YamlValue;
+}
+
+namespace bielle::reduce {
+
+/// `axes: {x: [..], y: [..]}`: a right-handed triad whose x axis has the direction x and whose xy plane contains y,
+/// which is made normal to x.
+/// @returns the rotation from the triad to the body: columns x, y, z
+/// @throws InputError when a direction is missing or zero, or both are parallel
+Eigen::Matrix3d read_axes(const YamlValue& value);
+
+}  // namespace bielle::reduce

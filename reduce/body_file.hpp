@@ -1,0 +1,26 @@
+// The body file: a YAML file that says of what a body consists and how it is to be reduced (format: reduce/README.md).
+#pragma once
+
+#include <string>
+
+#include "reduce/mesh/mesh_request.hpp"
+#include "reduce/reduction/options.hpp"
+
+namespace bielle::reduce {
+
+/// What a body file asks for: first a mesh, then its reduction.
+struct BodyFile {
+  MeshRequest mesh;
+  ReductionOptions options;
+};
+
+/// Reads and checks a body file: keys, types, ranges, names that the file itself must explain. What only the geometry
+/// knows (its groups, whether interfaces overlap) is checked by import_mesh and by the reduction, which get the place
+/// of each wish in the file along with it.
+/// @throws InputError `file:line: key: what was expected; did you mean ...`
+BodyFile read_body_file(const std::string& path);
+
+/// The same from text; `name` stands for the file, and its folder for the place of the geometry.
+BodyFile parse_body_file(const std::string& text, const std::string& name);
+
+}  // namespace bielle::reduce

@@ -1,0 +1,25 @@
+// The `materials` of a body file.
+#pragma once
+
+#include "reduce/fe/material.hpp"
+
+namespace bielle {
+class YamlValue;
+}
+
+namespace bielle::reduce {
+
+/// Reads one material, of one of three kinds, told apart by its keys:
+/// isotropic `young`, `poisson`; orthotropic `E1 E2 E3 nu12 nu13 nu23 G12 G13 G23`; anisotropic `stiffness`, 6x6 in the
+/// order xx yy zz yz xz xy with engineering shear strains. All have a `density` [kg/m^3]; the latter two may have
+/// `axes`, the directions of the material's own axes in those of the body.
+/// @throws InputError with the place: keys of two kinds, moduli out of range, a material that is not stable
+Material read_material(const YamlValue& value);
+
+/// Rotates elastic constants: C'_ijkl = R_im R_jn R_ko R_lp C_mnop.
+/// @param elasticity  C in the material's axes, order xx yy zz yz xz xy [Pa]
+/// @param rotation    R, material -> body: its columns are the material's axes
+Eigen::Matrix<double, 6, 6> rotate_elasticity(const Eigen::Matrix<double, 6, 6>& elasticity,
+                                              const Eigen::Matrix3d& rotation);
+
+}  // namespace bielle::reduce
