@@ -60,6 +60,27 @@ std::size_t count_of(const Shape& shape) {
 
 std::string to_string(const Shape& shape) { return fmt::format("({})", fmt::join(shape, ", ")); }
 
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Calls action(first, rows) for blocks of rows of at most 4 MB, so that a large matrix is not held twice.
+template <class Action>
+void for_row_blocks(Eigen::Index rows, Eigen::Index columns, Action&& action) {
+  if (columns == 0) return;
+  const Eigen::Index most = std::max<Eigen::Index>(1, (Eigen::Index{1} << 19) / columns);
+  for (Eigen::Index first = 0; first < rows; first += most) action(first, std::min(most, rows - first));
+}
+
+/// The part of a 2-d dataset's space that holds some of its rows.
+Id rows_of(hid_t dataset, Eigen::Index first, Eigen::Index rows) {
+  Id space(H5Dget_space(dataset), H5Sclose);
+  hsize_t start[2] = {0, 0}, count[2] = {0, 0};
+  H5Sget_simple_extent_dims(space, count, nullptr);
+  start[0] = static_cast<hsize_t>(first);
+  count[0] = static_cast<hsize_t>(rows);
+  H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, count, nullptr);
+  return space;
+}
+
 /// Files whose format every HDF5 since 1.0 reads, and that stay readable when their writer is killed after a flush.
 Id access_properties() {
   Id properties(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
@@ -113,7 +134,10 @@ struct Hdf5File::Handle {
   void write_text_attribute(hid_t object, const std::string& path, const std::string& name,
                             const std::string& value) const;
   void write_values(const std::string& dataset, hid_t memory_type, hid_t file_type, const void* values,
-                    std::size_t count, const Shape& shape, const std::string& units, const std::string& description);
+                    std::size_t count, const Shape& shape, const std::string& units,
+                    const std::string& description) const;
+  Id make_dataset(const std::string& dataset, hid_t file_type, const Shape& shape, const std::string& units,
+                  const std::string& description) const;
   void describe(hid_t object, const std::string& dataset, const std::string& units,
                 const std::string& description) const;
   Shape shape(hid_t dataset, const std::string& name) const;
@@ -174,16 +198,23 @@ void Hdf5File::Handle::describe(hid_t object, const std::string& dataset, const 
 
 void Hdf5File::Handle::write_values(const std::string& dataset, hid_t memory_type, hid_t file_type, const void* values,
                                     std::size_t count, const Shape& shape, const std::string& units,
-                                    const std::string& description) {
+                                    const std::string& description) const {
   if (count != count_of(shape))
     throw std::logic_error(fmt::format("{} values given for '{}' of shape {}", count, dataset, to_string(shape)));
+  const Id made = make_dataset(dataset, file_type, shape, units, description);
+  if (count > 0)
+    checked(H5Dwrite(made, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), dataset,
+            "cannot be written; is the disk full?");
+}
+
+Id Hdf5File::Handle::make_dataset(const std::string& dataset, hid_t file_type, const Shape& shape,
+                                  const std::string& units, const std::string& description) const {
   make_groups_above(dataset);
   const Id space = dataspace(shape);
-  const Id made(H5Dcreate2(file, dataset.c_str(), file_type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
+  Id made(H5Dcreate2(file, dataset.c_str(), file_type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
   if (!made.valid()) fail(dataset, "cannot be made; is there one of that name already?");
-  if (count > 0)
-    checked(H5Dwrite(made, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), dataset, "cannot be written");
   describe(made, dataset, units, description);
+  return made;
 }
 
 Shape Hdf5File::Handle::shape(hid_t dataset, const std::string& name) const {
@@ -364,9 +395,14 @@ void Hdf5File::write(const std::string& dataset, std::span<const std::int64_t> v
 
 void Hdf5File::write(const std::string& dataset, const Eigen::MatrixXd& matrix, const std::string& units,
                      const std::string& description) {
-  const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows = matrix;
-  write(dataset, {rows.data(), static_cast<std::size_t>(rows.size())},
-        {static_cast<std::size_t>(rows.rows()), static_cast<std::size_t>(rows.cols())}, units, description);
+  const Shape shape{static_cast<std::size_t>(matrix.rows()), static_cast<std::size_t>(matrix.cols())};
+  const Id made = handle_->make_dataset(dataset, H5T_IEEE_F64LE, shape, units, description);
+  for_row_blocks(matrix.rows(), matrix.cols(), [&](Eigen::Index first, Eigen::Index rows) {
+    const RowMajor block = matrix.middleRows(first, rows);
+    const Id space = rows_of(made, first, rows), memory = dataspace({static_cast<std::size_t>(rows), shape[1]});
+    handle_->checked(H5Dwrite(made, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, block.data()), dataset,
+                     "cannot be written; is the disk full?");
+  });
 }
 
 void Hdf5File::write(const std::string& dataset, const Eigen::VectorXd& vector, const std::string& units,
@@ -440,11 +476,19 @@ std::vector<std::int64_t> Hdf5File::read_integers(const std::string& dataset) co
 }
 
 Eigen::MatrixXd Hdf5File::read_matrix(const std::string& dataset) const {
-  const Shape size = shape(dataset);
+  const Id opened = handle_->open_dataset(dataset);
+  handle_->check_class(opened, dataset, H5T_FLOAT);
+  const Shape size = handle_->shape(opened, dataset);
   if (size.size() != 2) handle_->fail(dataset, "expected a matrix, found the shape " + to_string(size));
-  const std::vector<double> values = read(dataset);
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  return Eigen::Map<const Rows>(values.data(), static_cast<Eigen::Index>(size[0]), static_cast<Eigen::Index>(size[1]));
+  Eigen::MatrixXd matrix(static_cast<Eigen::Index>(size[0]), static_cast<Eigen::Index>(size[1]));
+  for_row_blocks(matrix.rows(), matrix.cols(), [&](Eigen::Index first, Eigen::Index rows) {
+    RowMajor block(rows, matrix.cols());
+    const Id space = rows_of(opened, first, rows), memory = dataspace({static_cast<std::size_t>(rows), size[1]});
+    handle_->checked(H5Dread(opened, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, block.data()), dataset,
+                     "cannot be read: the file is damaged");
+    matrix.middleRows(first, rows) = block;
+  });
+  return matrix;
 }
 
 Eigen::VectorXd Hdf5File::read_vector(const std::string& dataset) const {

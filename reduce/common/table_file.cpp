@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <optional>
 #include <string_view>
@@ -43,6 +44,7 @@ std::optional<double> number_in(std::string_view cell) {
 }  // namespace
 
 Eigen::MatrixXd read_table(const std::string& path, Eigen::Index columns) {
+  if (std::filesystem::is_directory(path)) throw InputError(fmt::format("{}: is a folder, expected a file", path));
   std::ifstream file(path);
   if (!file) throw InputError(fmt::format("{}: there is no such file, or it cannot be read", path));
   std::vector<double> values;
