@@ -571,10 +571,14 @@ void Hdf5File::append_rows(const std::string& dataset, std::span<const double> v
 
 void Hdf5File::link(const std::string& target, const std::string& name) {
   handle_->make_groups_above(name);
-  if (H5Lexists(handle_->file, name.c_str(), H5P_DEFAULT) > 0)
-    handle_->checked(H5Ldelete(handle_->file, name.c_str(), H5P_DEFAULT), name, "cannot be replaced");
+  if (H5Lexists(handle_->file, name.c_str(), H5P_DEFAULT) > 0) remove(name);
   handle_->checked(H5Lcreate_soft(target.c_str(), handle_->file, name.c_str(), H5P_DEFAULT, H5P_DEFAULT), name,
                    "the link cannot be made");
+}
+
+void Hdf5File::remove(const std::string& object) {
+  handle_->growing.erase(object);
+  handle_->checked(H5Ldelete(handle_->file, object.c_str(), H5P_DEFAULT), object, "cannot be removed");
 }
 
 // -- files that appear when complete

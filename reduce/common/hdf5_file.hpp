@@ -54,6 +54,8 @@ class Hdf5File {
   void write_text(const std::string& dataset, const std::string& text);
   void write_names(const std::string& dataset, const std::vector<std::string>& names);  ///< variable-length UTF-8
 
+  void remove(const std::string& object);  ///< takes a dataset, group or link out of the file
+
   bool has(const std::string& object) const;
   std::vector<std::string> names_in(const std::string& group) const;  ///< of its groups and datasets, in file order
   Shape shape(const std::string& dataset) const;

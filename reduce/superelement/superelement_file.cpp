@@ -1,0 +1,315 @@
+#include <algorithm>
+#include <charconv>
+
+#include <fmt/format.h>
+
+#include "reduce/common/hdf5_file.hpp"
+#include "reduce/superelement/superelement.hpp"
+#include "reduce/superelement/superelement_check.hpp"
+
+namespace bielle {
+
+namespace {
+
+using Integers = std::vector<std::int64_t>;
+constexpr const char* format_name = "bielle superelement";
+constexpr std::array<const char*, 6> direction_names = {"x", "y", "z", "rx", "ry", "rz"};
+
+// `u` are the units of the generalised coordinates.
+constexpr const char* stiffness_units = "J/(u_i u_j)";
+constexpr const char* damping_units = "J s/(u_i u_j)";
+constexpr const char* mass_units = "J s^2/(u_i u_j)";
+
+std::size_t size(Eigen::Index n) { return static_cast<std::size_t>(n); }
+
+/// HDF5 separates with '/' and knows '.': names that users chose freely are written with %2F, %2E and %25.
+std::string link_name(const std::string& name) {
+  std::string result;
+  for (const char c : name) result += c == '/' ? "%2F" : c == '%' ? "%25" : c == '.' ? "%2E" : std::string(1, c);
+  return result;
+}
+
+std::string name_of_link(const std::string& link) {
+  std::string result;
+  for (std::size_t i = 0; i < link.size(); ++i) {
+    int code = 0;
+    if (link[i] == '%' && i + 2 < link.size() &&
+        std::from_chars(&link[i + 1], &link[i + 3], code, 16).ptr == &link[i + 3]) {
+      result += static_cast<char>(code);
+      i += 2;
+    } else {
+      result += link[i];
+    }
+  }
+  return result;
+}
+
+/// Matrices one after the other, each row by row.
+template <class Matrices>
+std::vector<double> flattened(const Matrices& matrices) {
+  std::vector<double> values;
+  for (const auto& matrix : matrices)
+    for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+      for (Eigen::Index j = 0; j < matrix.cols(); ++j) values.push_back(matrix(i, j));
+  return values;
+}
+
+Eigen::MatrixXd matrix_at(const std::vector<double>& values, std::size_t k, Eigen::Index rows, Eigen::Index columns) {
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  return Eigen::Map<const Rows>(values.data() + k * size(rows * columns), rows, columns);
+}
+
+// -- writing
+
+void write_interfaces(Hdf5File& file, const Superelement& body) {
+  const std::size_t count = body.interfaces.size();
+  std::vector<std::string> names;
+  Integers kept;
+  std::vector<double> positions;
+  std::vector<Eigen::Matrix3d> rotations;
+  for (const Interface& interface : body.interfaces) {
+    names.push_back(interface.name);
+    kept.insert(kept.end(), interface.kept.begin(), interface.kept.end());
+    positions.insert(positions.end(), interface.position.begin(), interface.position.end());
+    rotations.push_back(interface.rotation);
+  }
+  file.write_names("/interface/names", names);
+  file.write("/interface/dofs", kept, {count, 6}, "-", "1: kept; x y z rx ry rz in the interface's axes");
+  file.write("/interface/positions", positions, {count, 3}, "m", "in body axes");
+  file.write("/interface/rotations", flattened(rotations), {count, 3, 3}, "-", "interface axes -> body axes");
+}
+
+void write_coordinates(Hdf5File& file, const Superelement& body) {
+  std::vector<std::string> names, units;
+  for (const Interface& interface : body.interfaces)
+    for (std::size_t k = 0; k < 6; ++k)
+      if (interface.kept[k]) {
+        names.push_back(fmt::format("{} {}", interface.name, direction_names[k]));
+        units.emplace_back(k < 3 ? "m" : "rad");
+      }
+  for (Eigen::Index k = 0; k < body.modes(); ++k) {
+    names.push_back(fmt::format("mode {}", k + 1));
+    units.emplace_back("m kg^(1/2)");
+  }
+  file.write_names("/reduced/coordinates", names);
+  file.write_names("/reduced/coordinate_units", units);
+}
+
+void write_reduced(Hdf5File& file, const Superelement& body) {
+  const std::size_t n = size(body.size());
+  file.write("/reduced/stiffness", body.stiffness, stiffness_units, "u: /reduced/coordinate_units");
+  file.write("/reduced/mass", body.mass, mass_units);
+  file.write("/reduced/damping", body.damping, damping_units);
+  file.write("/reduced/inertia_components", flattened(body.inertia_components), {6, n, n}, mass_units,
+             "S_kl = T_k^T m T_l for kl = 11 22 33 23 13 12");
+  if (body.spin_stiffness[0].size() > 0)
+    file.write("/reduced/geometric_stiffness/spin", flattened(body.spin_stiffness), {6, n, n}, "J/(u_i u_j)/(rad/s)^2",
+               "per unit Om_k Om_l for kl = 11 22 33 23 13 12");
+  if (!body.load_stiffness.empty())
+    file.write("/reduced/geometric_stiffness/load", flattened(body.load_stiffness), {body.load_stiffness.size(), n, n},
+               "J/(u_i u_j)/(N or N m)", "per unit load of each kept interface direction");
+  for (const auto& [name, pattern] : body.loads)
+    file.write("/loads/" + link_name(name), flattened(pattern.force), {3, 3, n}, "J/u_j",
+               "(k, l, j): component k of the pattern acting along body axis l, for a factor of 1");
+}
+
+void write_mesh(Hdf5File& file, const SuperelementMesh& mesh) {
+  file.write("/mesh/points", Eigen::MatrixXd(mesh.points.transpose()), "m");
+  for (const auto& [type, cells] : mesh.cells) {
+    const Integers nodes(cells.data(), cells.data() + cells.size());  // column by column: cell by cell
+    file.write(fmt::format("/mesh/cells/{}", type), nodes, {size(cells.cols()), size(cells.rows())}, "-",
+               "nodes of each cell, counted from 0, in gmsh's order");
+  }
+  for (const auto& [name, nodes] : mesh.groups)
+    file.write("/mesh/groups/" + link_name(name), Integers(nodes.begin(), nodes.end()), {nodes.size()}, "-",
+               "nodes, counted from 0");
+}
+
+void write_recovery(Hdf5File& file, const Superelement& body) {
+  if (body.displacement_recovery.size() > 0)
+    file.write("/recovery/displacement", body.displacement_recovery, "m/u_j", "x y z of node 0, of node 1, ...");
+  if (body.stress_recovery.size() > 0) {
+    file.write("/recovery/stress", body.stress_recovery, "Pa/u_j",
+               "xx yy zz yz xz xy of each of /recovery/stress_nodes");
+    const Integers nodes(body.stress_nodes.begin(), body.stress_nodes.end());
+    file.write("/recovery/stress_nodes", nodes, {nodes.size()}, "-", "nodes of the mesh, counted from 0");
+  }
+}
+
+void write_all(Hdf5File& file, const Superelement& body) {
+  file.write_attribute("/", "format", std::string(format_name));
+  file.write_attribute("/", "version", std::int64_t{superelement_version});
+  file.write_attribute("/", "name", body.name);
+  file.write_attribute("/", "created_by", body.created_by);
+  file.write_attribute("/", "complete", std::int64_t{0});
+  file.write_text("/input", body.input);
+  write_interfaces(file, body);
+  write_coordinates(file, body);
+  write_reduced(file, body);
+  file.write("/modes/frequencies", body.frequencies, "Hz", "of the modes with all interfaces fixed");
+  file.write("/modes/effective_mass", body.effective_mass, "kg, kg m^2",
+             "x y z [kg], rx ry rz about the centre of mass [kg m^2]");
+  file.write("/mass_properties/mass", body.total_mass, "kg");
+  file.write("/mass_properties/centre", Eigen::VectorXd(body.centre), "m");
+  file.write("/mass_properties/inertia", Eigen::MatrixXd(body.inertia), "kg m^2", "about the centre, body axes");
+  write_mesh(file, body.mesh);
+  write_recovery(file, body);
+  for (const auto& [name, value] : body.checks) file.write("/checks/" + link_name(name), value, "SI");
+  file.write_attribute("/", "complete", std::int64_t{1});
+}
+
+// -- reading
+
+/// Reads datasets of expected shapes. Whatever is wrong is told with what to do about it.
+class Reader {
+ public:
+  explicit Reader(const Hdf5File& file) : file_(file) {}
+
+  [[noreturn]] void fail(const std::string& what) const { throw InputError(fmt::format("{}: {}", file_.path(), what)); }
+  std::vector<double> numbers(const std::string& dataset, const Shape& expected) const {
+    check_shape(dataset, expected);
+    return file_.read(dataset);
+  }
+  Integers integers(const std::string& dataset, const Shape& expected) const {
+    check_shape(dataset, expected);
+    return file_.read_integers(dataset);
+  }
+  template <class Matrices>
+  void matrices(const std::string& dataset, Matrices& result, std::size_t rows, std::size_t columns) const {
+    const std::vector<double> values = numbers(dataset, {result.size(), rows, columns});
+    for (std::size_t k = 0; k < result.size(); ++k)
+      result[k] = matrix_at(values, k, static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(columns));
+  }
+  std::vector<std::string> members(const std::string& group) const {
+    return file_.has(group) ? file_.names_in(group) : std::vector<std::string>{};
+  }
+  std::vector<int> nodes(const std::string& dataset) const {
+    const Integers values = file_.read_integers(dataset);
+    return {values.begin(), values.end()};
+  }
+
+ private:
+  void check_shape(const std::string& dataset, const Shape& expected) const {
+    const Shape found = file_.shape(dataset);
+    if (found != expected)
+      fail(fmt::format("{}: expected the shape ({}), found ({})", dataset, fmt::join(expected, ", "),
+                       fmt::join(found, ", ")));
+  }
+  const Hdf5File& file_;
+};
+
+void check_head(const Hdf5File& file, const Reader& reader) {
+  if (!file.has_attribute("/", "format") || file.read_text_attribute("/", "format") != format_name)
+    reader.fail("is no superelement of bielle-reduce");
+  const std::int64_t version = file.read_integer_attribute("/", "version");
+  if (version != superelement_version)
+    reader.fail(
+        fmt::format("has version {} of the file format, but this program reads version {}; run bielle-reduce again",
+                    version, superelement_version));
+  if (file.read_integer_attribute("/", "complete") != 1) reader.fail("was never completed; run bielle-reduce again");
+}
+
+void read_interfaces(const Hdf5File& file, const Reader& reader, Superelement& body) {
+  const std::vector<std::string> names = file.read_names("/interface/names");
+  const std::size_t count = names.size();
+  const Integers kept = reader.integers("/interface/dofs", {count, 6});
+  const std::vector<double> positions = reader.numbers("/interface/positions", {count, 3});
+  std::vector<Eigen::Matrix3d> rotations(count);
+  reader.matrices("/interface/rotations", rotations, 3, 3);
+  for (std::size_t i = 0; i < count; ++i) {
+    Interface interface;
+    interface.name = names[i];
+    interface.position = Eigen::Vector3d(&positions[3 * i]);
+    interface.rotation = rotations[i];
+    for (std::size_t k = 0; k < 6; ++k) {
+      if (kept[6 * i + k] != 0 && kept[6 * i + k] != 1) reader.fail("/interface/dofs: expected 0 or 1");
+      interface.kept[k] = kept[6 * i + k] == 1;
+    }
+    body.interfaces.push_back(interface);
+  }
+}
+
+void read_reduced(const Hdf5File& file, const Reader& reader, Superelement& body) {
+  body.stiffness = file.read_matrix("/reduced/stiffness");
+  body.mass = file.read_matrix("/reduced/mass");
+  body.damping = file.read_matrix("/reduced/damping");
+  const std::size_t n = size(body.size());
+  reader.matrices("/reduced/inertia_components", body.inertia_components, n, n);
+  if (file.has("/reduced/geometric_stiffness/spin"))
+    reader.matrices("/reduced/geometric_stiffness/spin", body.spin_stiffness, n, n);
+  if (file.has("/reduced/geometric_stiffness/load")) {
+    const Shape shape = file.shape("/reduced/geometric_stiffness/load");
+    body.load_stiffness.resize(shape.empty() ? 0 : shape[0]);
+    reader.matrices("/reduced/geometric_stiffness/load", body.load_stiffness, n, n);
+  }
+  for (const std::string& link : reader.members("/loads")) {
+    const std::vector<double> values = reader.numbers("/loads/" + link, {3, 3, n});
+    LoadPattern& pattern = body.loads[name_of_link(link)];
+    for (std::size_t k = 0; k < 3; ++k) pattern.force[k] = matrix_at(values, k, 3, body.size());
+  }
+}
+
+void read_mass_properties(const Hdf5File& file, const Reader& reader, Superelement& body) {
+  body.total_mass = file.read_number("/mass_properties/mass");
+  body.centre = Eigen::Vector3d(reader.numbers("/mass_properties/centre", {3}).data());
+  body.inertia = matrix_at(reader.numbers("/mass_properties/inertia", {3, 3}), 0, 3, 3);
+}
+
+void read_mesh(const Hdf5File& file, const Reader& reader, SuperelementMesh& mesh) {
+  const Eigen::MatrixXd points = file.read_matrix("/mesh/points");
+  if (points.cols() != 3) reader.fail("/mesh/points: expected three columns");
+  mesh.points = points.transpose();
+  for (const std::string& type : reader.members("/mesh/cells")) {
+    const std::string dataset = "/mesh/cells/" + type;
+    const Shape shape = file.shape(dataset);
+    int number = 0;
+    if (shape.size() != 2 ||
+        std::from_chars(type.data(), type.data() + type.size(), number).ptr != type.data() + type.size())
+      reader.fail(dataset + ": expected cells x nodes under the number of a gmsh element type");
+    const std::vector<int> nodes = reader.nodes(dataset);
+    mesh.cells[number] = Eigen::Map<const Eigen::MatrixXi>(nodes.data(), static_cast<Eigen::Index>(shape[1]),
+                                                           static_cast<Eigen::Index>(shape[0]));
+  }
+  for (const std::string& link : reader.members("/mesh/groups"))
+    mesh.groups[name_of_link(link)] = reader.nodes("/mesh/groups/" + link);
+}
+
+}  // namespace
+
+void write_superelement(const Superelement& superelement, const std::string& path) {
+  const std::string fault = fault_of(superelement);
+  if (!fault.empty()) throw ComputationError(fmt::format("{}: not written, since {}", path, fault));
+  AtomicOutput output(path);
+  Hdf5File file = Hdf5File::create(output.temporary_path());
+  write_all(file, superelement);
+  file.close();
+  output.commit();
+}
+
+Superelement read_superelement(const std::string& path) {
+  const Hdf5File file = Hdf5File::open(path);
+  const Reader reader(file);
+  check_head(file, reader);
+  Superelement body;
+  body.name = file.read_text_attribute("/", "name");
+  body.created_by = file.read_text_attribute("/", "created_by");
+  body.input = file.read_text("/input");
+  body.frequencies = file.read_vector("/modes/frequencies");
+  body.effective_mass = file.read_matrix("/modes/effective_mass");
+  read_interfaces(file, reader, body);
+  read_reduced(file, reader, body);
+  read_mass_properties(file, reader, body);
+  read_mesh(file, reader, body.mesh);
+  if (file.has("/recovery/displacement")) body.displacement_recovery = file.read_matrix("/recovery/displacement");
+  if (file.has("/recovery/stress")) {
+    body.stress_recovery = file.read_matrix("/recovery/stress");
+    body.stress_nodes = reader.nodes("/recovery/stress_nodes");
+  }
+  for (const std::string& link : reader.members("/checks"))
+    body.checks[name_of_link(link)] = file.read_number("/checks/" + link);
+  const std::string fault = fault_of(body);
+  if (!fault.empty()) reader.fail(fault);
+  return body;
+}
+
+}  // namespace bielle
