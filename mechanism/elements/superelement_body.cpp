@@ -1,0 +1,140 @@
+#include "mechanism/elements/superelement_body.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "mechanism/elements/superelement_body_tangent.hpp"
+#include "reduce/common/error.hpp"
+
+namespace bielle::mechanism {
+
+SuperelementBody::SuperelementBody(std::string name, const Superelement& superelement, SuperelementPlacement placement)
+    : Component("superelement", std::move(name)),
+      matrices_(superelement, placement.reference_positions, placement.reference_rotations),
+      frame_(matrices_.points, matrices_.A),
+      nodes_(std::move(placement.nodes)) {
+  for (SuperelementPlacement::Load& load : placement.loads) {
+    const auto& names = matrices_.pattern_names;
+    const auto found = std::find(names.begin(), names.end(), load.pattern);
+    if (found == names.end())
+      throw InputError(
+          fmt::format("superelement '{}' has no load '{}'{}", superelement.name, load.pattern,
+                      names.empty() ? std::string("; it has none at all") : did_you_mean(load.pattern, names)));
+    loads_.push_back({static_cast<std::size_t>(found - names.begin()), std::move(load.factor), load.follows});
+  }
+  attributes_ = {{"file", placement.file}, {"superelement", superelement.name}};
+  for (std::size_t k = 0; k < placement.node_names.size(); ++k)
+    attributes_.emplace_back("interface " + superelement.interfaces[k].name, placement.node_names[k]);
+}
+
+void SuperelementBody::declare(Declaration& declaration) const {
+  declaration.nodes = nodes_;
+  for (int k = 1; k <= matrices_.modes; ++k) declaration.amplitudes.push_back({fmt::format("mode {}", k), "m kg^0.5"});
+  if (!matrices_.load_stiffness.empty()) declaration.memory.assign(matrices_.directions.size(), 0.0);
+  declaration.stiffness = declaration.damping = declaration.mass = true;
+}
+
+struct SuperelementBody::Workspace {
+  SuperelementMotion motion;
+  SuperelementTangent tangent;
+};
+
+SuperelementBody::Workspace& SuperelementBody::workspace() const {
+  // One per size and thread: bodies that take turns do not resize each other's memory.
+  thread_local std::map<std::pair<int, std::size_t>, Workspace> workspaces;
+  return workspaces[{matrices_.size(), matrices_.points.size()}];
+}
+
+const SuperelementMotion& SuperelementBody::evaluate(const LocalState& state) const {
+  SuperelementMotion& motion = workspace().motion;
+  try {
+    motion.set_motion(frame_, state);
+  } catch (const ComputationError& error) {
+    throw ComputationError(fmt::format("superelement '{}': {}", name(), error.what()));
+  }
+  motion.loads.clear();
+  for (const Load& load : loads_)
+    motion.loads.push_back(
+        {&matrices_.patterns[load.pattern], state.environment().load_factor * load.factor(state.time()), load.follows});
+  motion.set_forces(matrices_, state.memory());
+  return motion;
+}
+
+void SuperelementBody::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
+  const SuperelementMotion& motion = evaluate(state);
+  const Matrix3& R_0 = motion.geometry.frame.R;
+  for (std::size_t k = 0; k < matrices_.points.size(); ++k) {
+    const BodyPoint& point = matrices_.points[k];
+    const auto row = static_cast<Eigen::Index>(6 * k);
+    r.segment<3>(row) += R_0 * motion.node_force.segment<3>(point.u);
+    if (point.theta >= 0)
+      r.segment<3>(row + 3) +=
+          state.node(static_cast<int>(k)).R.transpose() * (R_0 * motion.node_force.segment<3>(point.theta));
+  }
+  r.segment(state.slots().amplitude_row(), matrices_.modes) += motion.node_force.tail(matrices_.modes);
+}
+
+void SuperelementBody::add_tangent(const LocalState& state, LocalTangent& tangent) const {
+  workspace().tangent.add(matrices_, evaluate(state), state, tangent);
+}
+
+void SuperelementBody::add_energy(const LocalState& state, Energy& energy) const {
+  const SuperelementMotion& motion = evaluate(state);
+  const CorotatedGeometry& geometry = motion.geometry;
+  energy.kinetic += motion.kinetic_energy(matrices_);
+  energy.elastic += 0.5 * geometry.q.dot(motion.elastic_force);
+  // In the mean-axis frame the centre of mass does not move.
+  energy.gravity -=
+      matrices_.mass * state.environment().gravity.dot(geometry.frame.x + geometry.frame.R * matrices_.centre);
+  energy.dissipation += motion.q_rate.dot(matrices_.C * motion.q_rate);
+  energy.input += motion.rigid_load.dot(motion.nu) + motion.load.dot(motion.q_rate);
+}
+
+std::vector<OutputField> SuperelementBody::output_fields() const {
+  const auto n = matrices_.directions.size() + static_cast<std::size_t>(matrices_.modes);
+  return {
+      {"frame", {7}, "m, -", "body frame: position of the mesh's origin, unit quaternion w x y z (body -> inertial)"},
+      {"coordinates", {n}, "m, rad, m kg^0.5", "local coordinates, in the order of the superelement file"},
+      {"interface_force",
+       {matrices_.points.size(), 6},
+       "N, N m",
+       "force and moment that the mechanism exerts at each interface, body axes"}};
+}
+
+void SuperelementBody::write_output(const LocalState& state, double* values) const {
+  const SuperelementMotion& motion = evaluate(state);
+  const Frame& frame = motion.geometry.frame;
+  Eigen::Map<VectorX>(values, 3) = frame.x;
+  Eigen::Map<VectorX>(values + 3, 4) = quaternion_of(frame.R);
+  values += 7;
+  const auto n = static_cast<Eigen::Index>(matrices_.directions.size()) + matrices_.modes;
+  matrices_.to_file(motion.geometry.q, Eigen::Map<VectorX>(values, n));
+  values += n;
+  for (const BodyPoint& point : matrices_.points) {
+    Eigen::Map<Vector6> force(values);
+    force.setZero();
+    force.head<3>() = motion.node_force.segment<3>(point.u);
+    if (point.theta >= 0) force.tail<3>() = motion.node_force.segment<3>(point.theta);
+    values += 6;
+  }
+}
+
+std::vector<std::pair<std::string, std::string>> SuperelementBody::attributes() const { return attributes_; }
+
+void SuperelementBody::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {
+  if (matrices_.load_stiffness.empty()) return;
+  const SuperelementMotion& motion = evaluate(state);
+  for (std::size_t j = 0; j < matrices_.directions.size(); ++j) {
+    const SuperelementMatrices::Direction& direction = matrices_.directions[j];
+    memory[static_cast<Eigen::Index>(j)] = direction.axis.dot(motion.node_force.segment<3>(direction.row));
+  }
+}
+
+void SuperelementBody::add_break_points(std::vector<double>& times) const {
+  for (const Load& load : loads_)
+    for (double time : load.factor.break_points()) times.push_back(time);
+}
+
+}  // namespace bielle::mechanism

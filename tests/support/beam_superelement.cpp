@@ -1,0 +1,243 @@
+#include "tests/support/beam_superelement.hpp"
+
+#include <cmath>
+
+#include <Eigen/Dense>
+#include <Eigen/Geometry>
+
+namespace bielle::test {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using Rows = Eigen::Matrix<double, 3, 12>;
+
+constexpr std::array<double, 4> gauss_points = {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
+                                                0.8611363115940526};
+constexpr std::array<double, 4> gauss_weights = {0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
+                                                 0.3478548451374538};
+
+/// Displacement (order 0) or its derivative along the element of the given order, element axes, at z in 0..1.
+Rows shape_functions(double z, double L, int order) {
+  std::array<double, 4> H;  // v1, theta1, v2, theta2
+  if (order == 0) {
+    H = {1 - 3 * z * z + 2 * z * z * z, L * (z - 2 * z * z + z * z * z), 3 * z * z - 2 * z * z * z,
+         L * (z * z * z - z * z)};
+  } else if (order == 1) {
+    H = {(-6 * z + 6 * z * z) / L, 1 - 4 * z + 3 * z * z, (6 * z - 6 * z * z) / L, 3 * z * z - 2 * z};
+  } else {
+    H = {(-6 + 12 * z) / (L * L), (-4 + 6 * z) / L, (6 - 12 * z) / (L * L), (6 * z - 2) / L};
+  }
+  Rows N = Rows::Zero();
+  N(0, 0) = order == 0 ? 1 - z : (order == 1 ? -1 / L : 0);
+  N(0, 6) = order == 0 ? z : (order == 1 ? 1 / L : 0);
+  N(1, 1) = H[0];
+  N(1, 5) = H[1];
+  N(1, 7) = H[2];
+  N(1, 11) = H[3];
+  N(2, 2) = H[0];
+  N(2, 4) = -H[1];
+  N(2, 8) = H[2];
+  N(2, 10) = -H[3];
+  return N;
+}
+
+/// The unreduced chain.
+struct Full {
+  MatrixXd K, M, rotary, F;  // F: displacement of the mass points
+  Eigen::Matrix3Xd points;
+  VectorXd masses;
+  MatrixXd rigid;
+  std::vector<Eigen::Matrix<double, 12, 12>> turn;  // element axes <- body axes
+  std::vector<double> length;
+
+  explicit Full(const BeamChain& chain) {
+    const auto elements = static_cast<Eigen::Index>(chain.nodes.size()) - 1;
+    const Eigen::Index size = 6 * (elements + 1), gauss = 4 * elements;
+    const BeamProperties& p = chain.properties;
+    K.setZero(size, size);
+    rotary.setZero(size, size);
+    F.setZero(3 * gauss, size);
+    points.resize(3, gauss);
+    masses.resize(gauss);
+    for (Eigen::Index e = 0; e < elements; ++e) {
+      const Vector3d a = chain.nodes[static_cast<std::size_t>(e)], b = chain.nodes[static_cast<std::size_t>(e) + 1];
+      const double L = (b - a).norm();
+      Matrix3d axes;
+      axes.col(0) = (b - a) / L;
+      axes.col(2) = axes.col(0).cross(chain.y_direction).normalized();
+      axes.col(1) = axes.col(2).cross(axes.col(0));
+      Eigen::Matrix<double, 12, 12> Q = Eigen::Matrix<double, 12, 12>::Zero();
+      for (int i = 0; i < 4; ++i) Q.block<3, 3>(3 * i, 3 * i) = axes.transpose();
+      turn.push_back(Q);
+      length.push_back(L);
+      Eigen::Matrix<double, 12, 12> k = Eigen::Matrix<double, 12, 12>::Zero(), j = k;
+      for (std::size_t g = 0; g < 4; ++g) {
+        const double z = (1 + gauss_points[g]) / 2, w = gauss_weights[g] / 2 * L;
+        const Rows d1 = shape_functions(z, L, 1), d2 = shape_functions(z, L, 2), N = shape_functions(z, L, 0);
+        k += w * (p.EA * d1.row(0).transpose() * d1.row(0) + p.EIz * d2.row(1).transpose() * d2.row(1) +
+                  p.EIy * d2.row(2).transpose() * d2.row(2));
+        const Eigen::Index point = 4 * e + static_cast<Eigen::Index>(g);
+        points.col(point) = a + z * (b - a);
+        masses[point] = w * p.mass_per_length;
+        F.block(3 * point, 6 * e, 3, 12) = axes * N * Q;
+      }
+      for (int i : {3, 9})
+        for (int l : {3, 9}) {
+          k(i, l) += (i == l ? 1 : -1) * p.GJ / L;
+          j(i, l) += (i == l ? 2 : 1) * p.rotary_inertia * L / 6;
+        }
+      K.block(6 * e, 6 * e, 12, 12) += Q.transpose() * k * Q;
+      rotary.block(6 * e, 6 * e, 12, 12) += Q.transpose() * j * Q;
+    }
+    const VectorXd weights = masses.transpose().replicate(3, 1).reshaped();
+    M = F.transpose() * weights.asDiagonal() * F + rotary;
+    rigid.setZero(size, 6);
+    for (Eigen::Index n = 0; n <= elements; ++n) {
+      const Vector3d X = chain.nodes[static_cast<std::size_t>(n)];
+      Matrix3d skew;
+      skew << 0, -X.z(), X.y(), X.z(), 0, -X.x(), -X.y(), X.x(), 0;
+      rigid.block<3, 3>(6 * n, 0).setIdentity();
+      rigid.block<3, 3>(6 * n, 3) = -skew;
+      rigid.block<3, 3>(6 * n + 3, 3).setIdentity();
+    }
+  }
+
+  /// Geometric stiffness under the axial forces that `load` raises in the free body, balanced by rigid-body inertia.
+  MatrixXd prestress(const BeamChain& chain, const VectorXd& load) const {
+    const MatrixXd MU = M * rigid;
+    const VectorXd balanced = load - MU * (rigid.transpose() * MU).ldlt().solve(rigid.transpose() * load);
+    const Eigen::Index size = K.rows();
+    VectorXd u = VectorXd::Zero(size);
+    u.tail(size - 6) = K.bottomRightCorner(size - 6, size - 6).ldlt().solve(balanced.tail(size - 6));
+    MatrixXd geometric = MatrixXd::Zero(size, size);
+    for (std::size_t e = 0; e < turn.size(); ++e) {
+      const auto first = static_cast<Eigen::Index>(6 * e);
+      const double L = length[e];
+      const double N = chain.properties.EA * shape_functions(0.5, L, 1).row(0).dot(turn[e] * u.segment<12>(first));
+      Eigen::Matrix<double, 12, 12> k = Eigen::Matrix<double, 12, 12>::Zero();
+      for (std::size_t g = 0; g < 4; ++g) {
+        const Rows d1 = shape_functions((1 + gauss_points[g]) / 2, L, 1);
+        k += (gauss_weights[g] / 2 * L * N) * (d1.row(1).transpose() * d1.row(1) + d1.row(2).transpose() * d1.row(2));
+      }
+      geometric.block<12, 12>(first, first) += turn[e].transpose() * k * turn[e];
+    }
+    return geometric;
+  }
+
+  /// Loads of the centrifugal field of the pair k, l: half of the terms of Om_k Om_l when k differs from l.
+  VectorXd centrifugal(int k, int l) const {
+    VectorXd acceleration(3 * points.cols());
+    for (Eigen::Index g = 0; g < points.cols(); ++g) {
+      const Vector3d X = points.col(g);
+      Vector3d a = (k == l ? 1 : 0) * X;
+      a -= 0.5 * (X[l] * Vector3d::Unit(k) + X[k] * Vector3d::Unit(l));
+      acceleration.segment<3>(3 * g) = masses[g] * a;
+    }
+    return F.transpose() * acceleration;
+  }
+};
+
+}  // namespace
+
+BeamSuperelement BeamChain::reduced() const {
+  const Full full(*this);
+  const Eigen::Index size = full.K.rows();
+  // Unknowns at interfaces turn to the interface's axes: x_body = turn x.
+  MatrixXd turn = MatrixXd::Identity(size, size);
+  std::vector<Eigen::Index> boundary, internal;
+  std::vector<bool> is_boundary(static_cast<std::size_t>(size), false);
+  for (const BeamInterface& interface : interfaces)
+    for (Eigen::Index d = 0; d < 6; ++d) {
+      if (d % 3 == 0) turn.block<3, 3>(6 * interface.node + d, 6 * interface.node + d) = interface.rotation;
+      if (!interface.kept[static_cast<std::size_t>(d)]) continue;
+      boundary.push_back(6 * interface.node + d);
+      is_boundary[static_cast<std::size_t>(boundary.back())] = true;
+    }
+  for (Eigen::Index i = 0; i < size; ++i)
+    if (!is_boundary[static_cast<std::size_t>(i)]) internal.push_back(i);
+  const MatrixXd K = turn.transpose() * full.K * turn, M = turn.transpose() * full.M * turn;
+  const MatrixXd K_ii = K(internal, internal);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(K_ii, MatrixXd(M(internal, internal)));
+  const auto nb = static_cast<Eigen::Index>(boundary.size()), n = nb + modes;
+  MatrixXd basis = MatrixXd::Zero(size, n);
+  basis(boundary, Eigen::seqN(0, nb)) = MatrixXd::Identity(nb, nb);
+  basis(internal, Eigen::seqN(0, nb)) = -K_ii.ldlt().solve(MatrixXd(K(internal, boundary)));
+  basis(internal, Eigen::seqN(nb, modes)) = eigen.eigenvectors().leftCols(modes);
+
+  BeamSuperelement result;
+  result.basis = turn * basis;
+  const MatrixXd& T = result.basis;
+  const auto reduce = [&](const MatrixXd& X) -> MatrixXd { return T.transpose() * X * T; };
+  result.full_stiffness = full.K;
+  result.full_mass = full.M;
+  result.points = full.points;
+  result.masses = full.masses;
+  result.field = full.F * T;
+  result.rotary = reduce(full.rotary);
+
+  Superelement& body = result.body;
+  body.name = "beam";
+  for (std::size_t i = 0; i < interfaces.size(); ++i)
+    body.interfaces.push_back({std::string(1, static_cast<char>('a' + i)),
+                               nodes[static_cast<std::size_t>(interfaces[i].node)], interfaces[i].rotation,
+                               interfaces[i].kept});
+  body.frequencies = eigen.eigenvalues().head(modes).cwiseSqrt() / (2 * M_PI);
+  body.stiffness = reduce(full.K);
+  body.stiffness.rightCols(modes).setZero();
+  body.stiffness.bottomRows(modes).setZero();
+  body.stiffness.bottomRightCorner(modes, modes).diagonal() = eigen.eigenvalues().head(modes);
+  body.mass = reduce(full.M);
+  body.damping = damping * body.stiffness;
+  for (const BeamLoad& load : loads)
+    for (int k = 0; k < 3; ++k) {
+      auto& force = body.loads[load.pattern].force[static_cast<std::size_t>(k)];
+      if (force.size() == 0) force.setZero(3, n);
+      force += load.force[k] * T.middleRows<3>(6 * load.node);
+    }
+  const std::array<std::pair<int, int>, 6> pairs = {{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
+  for (std::size_t i = 0; i < 6; ++i) {
+    const auto [k, l] = pairs[i];
+    const auto rows = [&](int c) { return result.field(Eigen::seqN(c, result.masses.size(), 3), Eigen::all); };
+    body.inertia_components[i] = MatrixXd(rows(k)).transpose() * result.masses.asDiagonal() * MatrixXd(rows(l));
+    if (prestress) body.spin_stiffness[i] = reduce(full.prestress(*this, full.centrifugal(k, l)));
+  }
+  if (prestress)
+    for (Eigen::Index j : boundary) body.load_stiffness.push_back(reduce(full.prestress(*this, turn.col(j))));
+  const Eigen::Matrix<double, 6, 6> rigid = full.rigid.transpose() * full.M * full.rigid;
+  body.total_mass = rigid(0, 0);
+  body.centre = Vector3d(rigid(5, 1), rigid(3, 2), rigid(4, 0)) / body.total_mass;
+  return result;
+}
+
+BeamChain straight_beam(const BeamProperties& properties, int modes) {
+  BeamChain chain;
+  for (int i = 0; i <= 20; ++i) chain.nodes.emplace_back(i / 20.0, 0, 0);
+  chain.properties = properties;
+  chain.interfaces = {{0}, {20}};
+  chain.modes = modes;
+  return chain;
+}
+
+BeamChain bent_chain() {
+  BeamChain chain;
+  for (int i = 0; i <= 12; ++i) {
+    const double s = i / 12.0;
+    chain.nodes.emplace_back(0.3 + s, 0.4 * s * s - 0.1, 0.25 * std::sin(3 * s));
+  }
+  chain.properties = {1.3, 40, 2.1, 1.7, 1.2, 0.02};
+  const auto turned = [](double angle, const Vector3d& axis) {
+    return Matrix3d(Eigen::AngleAxisd(angle, axis.normalized()));
+  };
+  chain.interfaces = {{0, {true, true, true, true, true, true}, turned(0.7, {1, 2, 3})},
+                      {12, {true, true, true, true, true, true}, Matrix3d::Identity()},
+                      {5, {true, true, true, true, true, true}, turned(-1.1, {0, 1, -1})}};
+  chain.loads = {{"push", 3, {1, -2, 0.5}}, {"spread", 8, {0.3, 0.4, 1}}, {"spread", 10, {-1, 0.5, 0.2}}};
+  chain.damping = 1e-2;
+  chain.modes = 5;
+  return chain;
+}
+
+}  // namespace bielle::test

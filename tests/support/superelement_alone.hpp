@@ -1,0 +1,53 @@
+// A superelement with nothing else around it: its state, residual, tangent and energy at hand.
+#pragma once
+
+#include <memory>
+
+#include "mechanism/elements/superelement_body.hpp"
+#include "tests/support/beam_superelement.hpp"
+#include "tests/support/random.hpp"
+
+namespace bielle::test {
+
+class SuperelementAlone {
+ public:
+  /// @param reference_rotations  node axes -> body axes of each interface; identities when empty
+  explicit SuperelementAlone(const Superelement& superelement, std::vector<mechanism::Matrix3> reference_rotations = {},
+                             std::vector<mechanism::SuperelementPlacement::Load> loads = {});
+
+  const mechanism::SuperelementBody& body() const { return *body_; }
+  int nodes() const { return static_cast<int>(slots_.nodes.size()); }
+  int size() const { return slots_.size(); }  ///< of z: 6 per node, then amplitudes
+  mechanism::Environment environment;
+
+  /// The undeformed body placed at `frame` and moving rigidly: v of the frame's origin [inertial], Om [body axes],
+  /// with constant v and Om.
+  mechanism::State rigid_state(const mechanism::Frame& frame, const mechanism::Vector3& v = mechanism::Vector3::Zero(),
+                               const mechanism::Vector3& Om = mechanism::Vector3::Zero()) const;
+  /// Anywhere in space, deformed by translations and rotations up to `deformation`, with rates and accelerations of
+  /// order `rate` and memory of order `force`.
+  mechanism::State random_state(Random& random, double deformation, double rate, double force = 0) const;
+
+  /// state with positions moved by z and rates and accelerations changed.
+  mechanism::State moved(const mechanism::State& state, const Eigen::VectorXd& z) const;
+  mechanism::State with_rates(const mechanism::State& state, const Eigen::VectorXd& v, const Eigen::VectorXd& a) const;
+  Eigen::VectorXd velocity(const mechanism::State& state) const;
+  Eigen::VectorXd acceleration(const mechanism::State& state) const;
+
+  Eigen::VectorXd residual(const mechanism::State& state) const;
+  struct Tangent {
+    Eigen::MatrixXd K, C, M;
+  };
+  Tangent tangent(const mechanism::State& state) const;
+  mechanism::Energy energy(const mechanism::State& state) const;
+  Eigen::VectorXd output(const mechanism::State& state) const;
+  mechanism::CorotatedGeometry geometry(const mechanism::State& state) const;
+  mechanism::State accepted(mechanism::State state) const;
+  mechanism::LocalState local(const mechanism::State& state) const { return {state, slots_, environment}; }
+
+ private:
+  std::unique_ptr<mechanism::SuperelementBody> body_;
+  mechanism::Slots slots_;
+};
+
+}  // namespace bielle::test
