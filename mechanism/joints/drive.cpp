@@ -13,11 +13,16 @@ std::string force_units(const JointCoordinate& coordinate) {
   return coordinate.kind == JointCoordinate::Kind::displacement ? "N" : "N m";
 }
 
+/// Recorded with the joint: one column per coordinate, zero where this drive does not act.
 OutputField force_field(const Joint& joint, std::size_t coordinate) {
   return {"drive_force",
-          {},
+          {joint.coordinates().size()},
           force_units(joint.coordinates()[coordinate]),
-          "force or torque of the drive along the joint's coordinate"};
+          "force or torque of the drive along the joint's coordinates"};
+}
+
+void write_force(const Joint& joint, std::size_t coordinate, double force, double* values) {
+  for (std::size_t k = 0; k < joint.coordinates().size(); ++k) values[k] = k == coordinate ? force : 0.0;
 }
 
 void append_break_points(const Expression& f, std::vector<double>& times) {
@@ -76,7 +81,9 @@ void PositionDrive::add_energy(const LocalState& state, Energy& energy) const {
 }
 
 std::vector<OutputField> PositionDrive::output_fields() const { return {force_field(joint_, coordinate_)}; }
-void PositionDrive::write_output(const LocalState& state, double* values) const { *values = -state.multiplier()[0]; }
+void PositionDrive::write_output(const LocalState& state, double* values) const {
+  write_force(joint_, coordinate_, -state.multiplier()[0], values);
+}
 void PositionDrive::add_break_points(std::vector<double>& times) const { append_break_points(f_, times); }
 
 // -- rate
@@ -126,7 +133,9 @@ void RateDrive::add_energy(const LocalState& state, Energy& energy) const {
 }
 
 std::vector<OutputField> RateDrive::output_fields() const { return {force_field(joint_, coordinate_)}; }
-void RateDrive::write_output(const LocalState& state, double* values) const { *values = -state.multiplier()[0]; }
+void RateDrive::write_output(const LocalState& state, double* values) const {
+  write_force(joint_, coordinate_, -state.multiplier()[0], values);
+}
 void RateDrive::add_break_points(std::vector<double>& times) const { append_break_points(f_, times); }
 
 // -- force
@@ -158,7 +167,9 @@ void ForceDrive::add_energy(const LocalState& state, Energy& energy) const {
 }
 
 std::vector<OutputField> ForceDrive::output_fields() const { return {force_field(joint_, coordinate_)}; }
-void ForceDrive::write_output(const LocalState& state, double* values) const { *values = force(state); }
+void ForceDrive::write_output(const LocalState& state, double* values) const {
+  write_force(joint_, coordinate_, force(state), values);
+}
 void ForceDrive::add_break_points(std::vector<double>& times) const { append_break_points(f_, times); }
 
 // -- reader
@@ -205,7 +216,12 @@ void read_drive(const std::string& name, const YamlValue& entry, Model& model) {
     drive = std::make_unique<RateDrive>(name, *joint, index, std::move(f));
   else
     drive = std::make_unique<ForceDrive>(name, *joint, index, std::move(f));
-  model.add(std::move(drive), "drives/" + name);
+  const std::string group = "joints/" + joint->name();
+  for (const Member& member : model.members())
+    if (member.group == group && member.component->type() == "drive")
+      entry.at("joint").fail(
+          fmt::format("joint '{}' is driven by '{}' already", joint->name(), member.component->name()));
+  model.add(std::move(drive), group);
 }
 
 }  // namespace bielle::mechanism

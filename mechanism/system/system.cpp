@@ -11,9 +11,11 @@ constexpr const char* axis_names[] = {"x", "y", "z"};
 
 /// "joint 'main'", "element 'rod'": how a message names a member.
 std::string describe(const Member& member) {
-  const std::string section = member.group.substr(0, member.group.find('/'));
-  const std::string kind = section.empty() ? member.component->type() : section.substr(0, section.size() - 1);
-  return fmt::format("{} '{}'", kind, member.component->name());
+  const std::string& type = member.component->type();
+  // Drives are recorded with the joint that they drive, and loads not at all: they go by their type.
+  const bool element = member.group.rfind("elements/", 0) == 0;
+  const bool joint = member.group.rfind("joints/", 0) == 0 && type != "drive";
+  return fmt::format("{} '{}'", element ? "element" : joint ? "joint" : type, member.component->name());
 }
 
 }  // namespace
