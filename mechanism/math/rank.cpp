@@ -27,14 +27,25 @@ std::vector<int> dependent_columns(const Eigen::SparseMatrix<double>& A, double 
     }
   }
   starts[A.cols()] = count;
-  // The given order keeps what comes first. Dead columns end up behind the first `rank` ones of the permutation.
+  // In the given order R is a staircase: a column that does not reach one row deeper than those before it is dependent.
   cholmod_sparse* R = nullptr;
   SuiteSparse_long* order = nullptr;
   const SuiteSparse_long rank =
       SuiteSparseQR<double>(SPQR_ORDERING_FIXED, tolerance, A.cols(), matrix, &R, &order, &common);
   std::vector<int> dependent;
-  if (rank >= 0)
-    for (SuiteSparse_long k = rank; k < A.cols(); ++k) dependent.push_back(static_cast<int>(order ? order[k] : k));
+  if (rank >= 0) {
+    const auto* R_starts = static_cast<const SuiteSparse_long*>(R->p);
+    const auto* R_rows = static_cast<const SuiteSparse_long*>(R->i);
+    SuiteSparse_long live = 0;
+    for (SuiteSparse_long k = 0; k < A.cols(); ++k) {
+      SuiteSparse_long deepest = -1;
+      for (SuiteSparse_long e = R_starts[k]; e < R_starts[k + 1]; ++e) deepest = std::max(deepest, R_rows[e]);
+      if (deepest == live)
+        ++live;
+      else
+        dependent.push_back(static_cast<int>(order ? order[k] : k));
+    }
+  }
   std::sort(dependent.begin(), dependent.end());
   cholmod_l_free_sparse(&R, &common);
   if (order) cholmod_l_free(static_cast<std::size_t>(A.cols()), sizeof(SuiteSparse_long), order, &common);

@@ -33,6 +33,13 @@ VectorX small_diagonal(const System& system, const LinearStep& linear, double fr
 void factor_mass_saddle(const System& system, const Environment& environment, const State& state, LinearStep& linear) {
   const TangentWeights weights{0, 0, 1, 1, 1, true};
   if (linear.try_factor(state, environment, weights, nullptr)) return;
+  // A dof without mass, stiffness, damping and constraint has no equation at all.
+  linear.try_factor(state, environment, TangentWeights{1, 1, 1, 1, 1}, nullptr);
+  VectorX sums(system.size());
+  linear.row_sums(VectorX::Ones(system.size()), sums);
+  for (int i = 0; i < system.dofs(); ++i)
+    if (sums[i] == 0)
+      throw ComputationError(fmt::format("{}: it has no mass, and nothing holds it", system.unknown_name(i)));
   // Massless dofs that constraints hold together: any small mass gives the same multipliers to its own size.
   constexpr double floor = 1e-12;
   const VectorX extra = small_diagonal(system, linear, floor);

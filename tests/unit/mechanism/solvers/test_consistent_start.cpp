@@ -7,12 +7,12 @@ using namespace bielle::mechanism;
 
 TEST_CASE("the start of a pendulum at an angle has its tension and acceleration in closed form") {
   // Point mass m on a rod of length L, held horizontally and moving at v: tension m v^2/L, acceleration g downwards.
-  const MechanismFile file = read_mechanism_text(R"(
+  const MechanismFile file = read_mechanism_text(R"yaml(
 gravity: [0, 0, -9.81]
 nodes: {bob: {position: [2, 0, 0], velocity: [0, 3, 0]}}
 elements: {bob: {type: rigid_body, node: bob, mass: 1.5, inertia: [1e-3, 1e-3, 1e-3]}}
 joints: {pivot: {type: spherical, nodes: [ground, bob], position: [0, 0, 0]}}
-)",
+)yaml",
                                                  "pendulum.yaml");
   System system(file.model);
   State state = system.start(0);
@@ -34,12 +34,12 @@ joints: {pivot: {type: spherical, nodes: [ground, bob], position: [0, 0, 0]}}
 }
 
 TEST_CASE("a drive that starts away from the drawn position moves its joint there, and says so") {
-  const MechanismFile file = read_mechanism_text(R"(
+  const MechanismFile file = read_mechanism_text(R"yaml(
 nodes: {arm: {position: [1, 0, 0]}}
 elements: {arm: {type: rigid_body, node: arm, mass: 1, inertia: [0.1, 0.1, 0.1]}}
 joints: {axle: {type: hinge, nodes: [ground, arm], axis: [0, 0, 1], position: [0, 0, 0]}}
 drives: {motor: {joint: axle, angle: "0.5 + 2*t + 3*t^2"}}
-)",
+)yaml",
                                                  "drive.yaml");
   System system(file.model);
   State state = system.start(0);
@@ -53,7 +53,7 @@ drives: {motor: {joint: axle, angle: "0.5 + 2*t + 3*t^2"}}
 }
 
 TEST_CASE("a mechanism that cannot be put together names the constraint") {
-  const MechanismFile file = read_mechanism_text(R"(
+  const MechanismFile file = read_mechanism_text(R"yaml(
 nodes: {a: {position: [1, 0, 0]}, b: {position: [5, 0, 0]}}
 elements:
   a: {type: rigid_body, node: a, mass: 1, inertia: [0.1, 0.1, 0.1]}
@@ -64,7 +64,7 @@ joints:
   link: {type: spherical, nodes: [a, b]}
   stop: {type: prismatic, nodes: [a, b], axis: [0, 0, 1]}
 drives: {push: {joint: slide, displacement: "20"}}
-)",
+)yaml",
                                                  "open.yaml");
   System system(file.model);
   State state = system.start(0);
@@ -72,12 +72,12 @@ drives: {push: {joint: slide, displacement: "20"}}
 }
 
 TEST_CASE("a node without mass that nothing holds is named") {
-  const MechanismFile file = read_mechanism_text(R"(
+  const MechanismFile file = read_mechanism_text(R"yaml(
 nodes: {a: {position: [1, 0, 0]}, lonely: {position: [2, 0, 0]}}
 elements:
   a: {type: point_mass, node: a, mass: 1}
   spring: {type: spring_damper, nodes: [a, lonely], stiffness: 10}
-)",
+)yaml",
                                                  "massless.yaml");
   System system(file.model);
   State state = system.start(0);

@@ -9,7 +9,7 @@ using namespace bielle::mechanism;
 namespace {
 
 /// A parallelogram of three links and four hinges: 3 * 6 - 4 * 5 = -2 by counting, one degree of freedom in fact.
-const char* const four_bar = R"(
+const char* const four_bar = R"yaml(
 gravity: [0, -9.81, 0]
 nodes:
   crank: {position: [0, 0.5, 0]}
@@ -24,7 +24,7 @@ joints:
   b: {type: hinge, nodes: [crank, coupler], axis: [0, 0, 1], position: [0, 1, 0]}
   c: {type: hinge, nodes: [coupler, rocker], axis: [0, 0, 1], position: [1, 1, 0]}
   d: {type: hinge, nodes: [ground, rocker], axis: [0, 0, 1], position: [1, 0, 0]}
-)";
+)yaml";
 
 }  // namespace
 

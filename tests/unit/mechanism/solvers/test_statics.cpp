@@ -7,14 +7,14 @@ using namespace bielle::mechanism;
 
 TEST_CASE("a hinged arm on a spring finds the angle of its equilibrium") {
   // Moments about the hinge: m g L cos(q) = T(q); the spring from (L, 0, h) pulls the tip: solved here by bisection.
-  const MechanismFile file = read_mechanism_text(R"(
+  const MechanismFile file = read_mechanism_text(R"yaml(
 gravity: [0, 0, -9.81]
 nodes: {arm: {position: [1, 0, 0]}, top: {position: [1, 0, 1], fixed: true}}
 elements:
   arm: {type: rigid_body, node: arm, mass: 2, inertia: [0.1, 0.1, 0.1]}
   spring: {type: spring_damper, nodes: [top, arm], stiffness: 100, length: 1}
 joints: {axle: {type: hinge, nodes: [ground, arm], axis: [0, 1, 0], position: [0, 0, 0]}}
-)",
+)yaml",
                                                  "arm.yaml");
   System system(file.model);
   State state = system.start(0);

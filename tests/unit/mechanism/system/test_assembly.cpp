@@ -9,7 +9,7 @@ using namespace bielle::mechanism;
 
 namespace {
 
-const char *const model_text = R"(
+const char *const model_text = R"yaml(
 gravity: [1, -2, -9.81]
 nodes:
   a: {position: [0.1, 0.2, -0.3], rotation_vector: [0.3, -0.5, 0.2]}
@@ -35,7 +35,7 @@ joints:
 drives:
   motor: {joint: pivot, angle: "0.4*sin(2*t)"}
   push: {joint: slide, force: "3*t"}
-)";
+)yaml";
 
 /// A state away from the reference, with rates and multipliers of order one. Fixed seed.
 State random_state(const System& system, State& base, VectorX& dq, VectorX& v, VectorX& a) {

@@ -1,0 +1,84 @@
+#include "mechanism/elements/beam.hpp"
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "mechanism/elements/beam_element.hpp"
+#include "mechanism/elements/beam_geometry.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+/// Velocities of a frame between two nodes: each end alone would move it rigidly.
+void set_start_velocity(Node& inner, const Node& a, const Node& b, double s) {
+  const Vector3 omega_a = a.frame.R * a.angular_velocity, omega_b = b.frame.R * b.angular_velocity;
+  inner.velocity = (1 - s) * (a.velocity + omega_a.cross(inner.frame.x - a.frame.x)) +
+                   s * (b.velocity + omega_b.cross(inner.frame.x - b.frame.x));
+  inner.angular_velocity = inner.frame.R.transpose() * ((1 - s) * omega_a + s * omega_b);
+}
+
+/// Nodes of the beam from start to end, the inner ones made here.
+std::vector<int> make_nodes(const std::string& name, const std::vector<int>& ends, const std::vector<Frame>& sections,
+                            Model& model) {
+  std::vector<int> nodes{ends[0]};
+  const std::size_t count = sections.size() - 1;
+  for (std::size_t k = 1; k < count; ++k) {
+    Node inner;
+    inner.name = fmt::format("{}.{}", name, k);
+    inner.frame = sections[k];
+    inner.internal = true;
+    set_start_velocity(inner, model.node(ends[0]), model.node(ends[1]),
+                       static_cast<double>(k) / static_cast<double>(count));
+    nodes.push_back(model.add_node(std::move(inner)));
+  }
+  nodes.push_back(ends[1]);
+  return nodes;
+}
+
+}  // namespace
+
+void read_beam(const std::string& name, const YamlValue& entry, Model& model) {
+  entry.check_keys({"type", "nodes", "section", "elements", "orientation", "twist", "damping", "bending", "arc_centre",
+                    "arc_through"},
+                   "a beam");
+  const std::vector<int> ends = model.nodes_named_by(entry.at("nodes"), 2);
+  if (ends[0] == ends[1]) entry.at("nodes").fail("a beam joins two different nodes");
+  const auto elements = entry.find("elements"), twist = entry.find("twist"), damping = entry.find("damping"),
+             bending = entry.find("bending");
+  const int count = elements ? elements->integer() : 8;
+  if (count < 1) elements->fail(fmt::format("expected at least one element; found {}", count));
+  const BeamBending law = bending && bending->word({"residual", "constant"}, "bending of a beam") == "constant"
+                              ? BeamBending::constant
+                              : BeamBending::residual;
+  const double damping_time = damping ? damping->non_negative_number() : 0;
+  const SectionLaw section(entry.at("section"));
+
+  const double total_twist = twist ? twist->number() : 0;
+  const BeamLine line = read_beam_line(entry, model.node(ends[0]).frame.x, model.node(ends[1]).frame.x);
+  const Matrix3 R_start = read_start_axes(entry, line.start_tangent());
+  std::vector<Frame> sections;
+  for (int k = 0; k <= count; ++k) sections.push_back(line.frame(static_cast<double>(k) / count, R_start, total_twist));
+  const double turn = std::hypot(line.angle(), total_twist) / count;
+  if (turn > BeamElement::largest_turn)
+    entry.fail(
+        fmt::format("each of {} elements would turn by {:.0f} degrees, and none can follow 180: give more `elements`",
+                    count, turn * 180 / std::numbers::pi));
+
+  const std::vector<int> nodes = make_nodes(name, ends, sections, model);
+  for (int k = 0; k < count; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const Vector6 d0 = log_se3(inverse(sections[i]) * sections[i + 1]);
+    const Matrix3 R_A = model.node(nodes[i]).frame.R.transpose() * sections[i].R;
+    const Matrix3 R_B = model.node(nodes[i + 1]).frame.R.transpose() * sections[i + 1].R;
+    model.add(std::make_unique<BeamElement>(name, BeamPlace{k + 1, count}, nodes[i], nodes[i + 1], R_A, R_B, d0,
+                                            section.at((k + 0.5) / count), damping_time, law),
+              "elements/" + name, true);
+  }
+  model.add_chain("elements/" + name, nodes);
+}
+
+}  // namespace bielle::mechanism

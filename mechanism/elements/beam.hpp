@@ -1,0 +1,18 @@
+// Beams in the mechanism file: a line between two nodes cut into elements (beam_element.hpp) of equal length.
+#pragma once
+
+#include <string>
+
+#include "mechanism/system/model.hpp"
+
+namespace bielle::mechanism {
+
+/// `{type: beam, nodes: [a, b], section, elements, orientation, twist, damping, bending, arc_centre | arc_through}`
+///
+/// Makes elements - 1 internal nodes `<name>.1`, `<name>.2`, ..., whose axes are the section's, and one BeamElement
+/// each between them, recorded together under elements/<name>. The end nodes keep their own axes: section frames are
+/// attached to them as placed. The initial shape is free of stress. Start velocities of the internal nodes go over from
+/// the rigid motion of one end to that of the other.
+void read_beam(const std::string& name, const YamlValue& entry, Model& model);
+
+}  // namespace bielle::mechanism

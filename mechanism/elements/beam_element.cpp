@@ -1,0 +1,168 @@
+#include "mechanism/elements/beam_element.hpp"
+
+#include <numbers>
+#include <utility>
+
+#include <Eigen/Cholesky>
+#include <fmt/format.h>
+
+#include "reduce/common/error.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+using Vector12 = Eigen::Matrix<double, 12, 1>;
+using Matrix12 = Eigen::Matrix<double, 12, 12>;
+using Matrix6x12 = Eigen::Matrix<double, 6, 12>;
+using Matrix12x6 = Eigen::Matrix<double, 12, 6>;
+
+Matrix6 element_stiffness(const Matrix6& section_flexibility, const Matrix6& section_stiffness, const Vector3& chord,
+                          BeamBending bending) {
+  if (bending == BeamBending::constant) return section_stiffness;
+  const Matrix3 t = skew(chord.normalized());
+  Matrix6 S = section_flexibility;
+  S.topLeftCorner<3, 3>() += chord.squaredNorm() / 12 * t.transpose() * S.bottomRightCorner<3, 3>() * t;
+  const Matrix6 C = S.llt().solve(Matrix6::Identity());
+  return 0.5 * (C + C.transpose());
+}
+
+}  // namespace
+
+BeamElement::BeamElement(std::string name, BeamPlace place, int node_a, int node_b, const Matrix3& R_A,
+                         const Matrix3& R_B, const Vector6& d0, const BeamSection& section, double damping,
+                         BeamBending bending)
+    : Component("beam", std::move(name)),
+      place_(place),
+      node_a_(node_a),
+      node_b_(node_b),
+      R_A_(R_A),
+      R_B_(R_B),
+      d0_(d0),
+      L_(d0.head<3>().norm()),
+      flexibility_(section.stiffness.llt().solve(Matrix6::Identity())),
+      damping_(damping),
+      inertia_(section, R_A, R_B, d0.head<3>()) {
+  stiffness_ = element_stiffness(flexibility_, section.stiffness, d0.head<3>(), bending);
+}
+
+void BeamElement::declare(Declaration& declaration) const {
+  declaration.nodes = {node_a_, node_b_};
+  declaration.stiffness = true;
+  declaration.mass = !inertia_.is_massless();
+  declaration.damping = declaration.mass || damping_ > 0;
+}
+
+/// Section frames, relative frame, and what follows from them.
+struct BeamElement::Deformation {
+  Matrix3 R_A, R_B;  ///< section axes -> inertial
+  Vector6 d;
+  Matrix6x12 P;
+  Vector12 v;  ///< body velocities of the section frames
+  Vector6 eps, epsdot;
+  Vector6 f;  ///< resultants
+};
+
+BeamElement::Deformation BeamElement::deformation(const LocalState& state) const {
+  const NodeState &A = state.node(0), &B = state.node(1);
+  Deformation D;
+  D.R_A = A.R * R_A_;
+  D.R_B = B.R * R_B_;
+  D.d = log_se3({D.R_A.transpose() * (B.x - A.x), D.R_A.transpose() * D.R_B});
+  const double turn = D.d.tail<3>().norm();
+  if (turn > largest_turn)
+    throw ComputationError(fmt::format(
+        "t = {:.6g} s: beam '{}', element {} of {}: its ends are turned by {:.0f} degrees against each other, and one "
+        "element cannot follow 180; give the beam more `elements`",
+        state.time(), name(), place_.element, place_.elements, turn * 180 / std::numbers::pi));
+  const Matrix6 inverse = tangent_se3_inverse(D.d);
+  // T6^-1(-d) has the transposed blocks of T6^-1(d).
+  D.P << -inverse.topLeftCorner<3, 3>().transpose(), -inverse.topRightCorner<3, 3>().transpose(), inverse.topRows<3>(),
+      Matrix3::Zero(), -inverse.topLeftCorner<3, 3>().transpose(), inverse.bottomRows<3>();
+  D.v << D.R_A.transpose() * A.v, R_A_.transpose() * A.Omega, D.R_B.transpose() * B.v, R_B_.transpose() * B.Omega;
+  D.eps = (D.d - d0_) / L_;
+  D.epsdot = D.P * D.v / L_;
+  D.f = stiffness_ * (D.eps + damping_ * D.epsdot);
+  return D;
+}
+
+void BeamElement::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
+  const Deformation D = deformation(state);
+  const Vector12 F = D.P.transpose() * D.f;
+  r.segment<3>(0) += D.R_A * F.segment<3>(0);
+  r.segment<3>(3) += R_A_ * F.segment<3>(3);
+  r.segment<3>(6) += D.R_B * F.segment<3>(6);
+  r.segment<3>(9) += R_B_ * F.segment<3>(9);
+  if (!inertia_.is_massless()) inertia_.add_force(state, r);
+}
+
+namespace {
+
+/// target += Q^T A Q with Q = diag(U_0, U_1, U_2, U_3)^T.
+void add_rotated(const Matrix12& A, const std::array<Matrix3, 4>& U, Eigen::Ref<MatrixX> target) {
+  for (std::size_t j = 0; j < 4; ++j) {
+    const auto column = static_cast<Eigen::Index>(3 * j);
+    const Eigen::Matrix<double, 12, 3> AQ = A.middleCols<3>(column) * U[j].transpose();
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto row = static_cast<Eigen::Index>(3 * i);
+      target.block<3, 3>(row, column) += U[i] * AQ.middleRows<3>(row);
+    }
+  }
+}
+
+}  // namespace
+
+// In body increments of the section frames (12x12, F = P^T f):
+//   K_b = P^T C_e P/L + [G(-d,f); G(d,f)] P + P^T C_d depsdot/dh,     C_b = P^T C_d P/L
+//   L depsdot/dh = [D(d, v_B) + D(-d, v_A)] P + P [0 (R_k^T xdot_k)~; 0 0]_k,   D(d, w) = d(T6^-1(d) w)/dd
+// and for the nodes, with dh_k = [R_Sk^T dx; R_k^T dTheta] (R_Sk section axes, R_k their constant place in the node):
+//   K = Q^T K_b Q and in the blocks (x_k, Theta_k) the turning of the force with its node, -R_Sk F_u,k~ R_k^T.
+void BeamElement::add_stiffness(const Deformation& D, Eigen::Ref<MatrixX> K) const {
+  const Vector12 F = D.P.transpose() * D.f;
+  Matrix12x6 G;
+  G << inverse_transpose_gradient_se3(-D.d, D.f), inverse_transpose_gradient_se3(D.d, D.f);
+  Matrix6x12 f_gradient = stiffness_ * D.P / L_;
+  if (damping_ > 0) {
+    const Matrix6 along_d =
+        tangent_se3_inverse_gradient(D.d, D.v.tail<6>()) + tangent_se3_inverse_gradient(-D.d, D.v.head<6>());
+    Matrix6x12 rate_gradient = along_d * D.P;
+    for (Eigen::Index k : {0, 6}) rate_gradient.middleCols<3>(k + 3) += D.P.middleCols<3>(k) * skew(D.v.segment<3>(k));
+    f_gradient += damping_ / L_ * stiffness_ * rate_gradient;
+  }
+  const Matrix12 K_b = D.P.transpose() * f_gradient + G * D.P;
+  add_rotated(K_b, {D.R_A, R_A_, D.R_B, R_B_}, K);
+  K.block<3, 3>(0, 3) -= D.R_A * skew(F.segment<3>(0)) * R_A_.transpose();
+  K.block<3, 3>(6, 9) -= D.R_B * skew(F.segment<3>(6)) * R_B_.transpose();
+}
+
+void BeamElement::add_tangent(const LocalState& state, LocalTangent& tangent) const {
+  const bool wants_damping = tangent.wants_C && damping_ > 0;
+  if (tangent.wants_K || wants_damping) {
+    const Deformation D = deformation(state);
+    if (tangent.wants_K) add_stiffness(D, tangent.K);
+    if (wants_damping) {
+      const Matrix12 C_b = damping_ / L_ * D.P.transpose() * stiffness_ * D.P;
+      add_rotated(C_b, {D.R_A, R_A_, D.R_B, R_B_}, tangent.C);
+    }
+  }
+  if (!inertia_.is_massless()) inertia_.add_tangent(state, tangent);
+}
+
+void BeamElement::add_energy(const LocalState& state, Energy& energy) const {
+  const Deformation D = deformation(state);
+  energy.elastic += 0.5 * L_ * D.eps.dot(stiffness_ * D.eps);
+  energy.dissipation += L_ * damping_ * D.epsdot.dot(stiffness_ * D.epsdot);
+  if (!inertia_.is_massless()) inertia_.add_energy(state, energy);
+}
+
+std::vector<OutputField> BeamElement::output_fields() const {
+  return {{"strain", {6}, "1, 1/m", "stretch and shears [1], twist and curvatures [1/m] in the middle, section frame"},
+          {"resultants", {6}, "N, N m", "forces [N] and moments [N m] in the middle, section frame"}};
+}
+
+void BeamElement::write_output(const LocalState& state, double* values) const {
+  const Deformation D = deformation(state);
+  Eigen::Map<Vector12> out(values);
+  out << flexibility_ * stiffness_ * D.eps, D.f;
+}
+
+}  // namespace bielle::mechanism

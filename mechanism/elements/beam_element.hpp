@@ -1,0 +1,78 @@
+// One geometrically exact beam element: two nodes, a helix between them.
+//
+// Section frames H_A, H_B ride on nodes A and B. With d = log6(H_A^-1 H_B) = [u; psi], d0 its stress-free value and L =
+// |d0_u| the interpolation H(s) = H_A exp6(s d/L) has the constant strain eps = [Gamma; Kappa] = (d - d0)/L. Then
+//     dd = P [dh_A; dh_B],   P = [-T6^-1(-d), T6^-1(d)]     (dh body increments of the section frames)
+//     V = (L/2) eps^T C_e eps,   f = C_e eps + C_d epsdot,   epsdot = P v/L,   forces P^T f
+// Objective, path-independent, free of locking, exact for constant strain. Reference: V. Sonneville, A. Cardona, O.
+// Bruls, CMAME 268 (2014) 451.
+//
+// Residual bending flexibility (default). Constant strain alone is too stiff in bending with shear (25 % in the tip
+// deflection of a cantilever of one element). The flexibility that the linear variation of the bending moment adds is
+// put into the section (R. MacNeal, Comput. Struct. 8 (1978) 175):
+//     C_e^-1 = C^-1 + L^2/12 diag(t~^T S t~, 0),   t = d0_u/L,   S the lower right 3x3 of C^-1;
+// the stiffness at the reference is then exact for a straight element and any 6x6 C. f = (n, m) are the physical
+// resultants in the middle of the element; the physical strain there is C^-1 f.
+//
+// Limits: the ends of one element turn by less than 180 degrees against each other, beyond `largest_turn` an error is
+// raised; the relative rotation may well grow over several elements. Strains are small enough for a linear law of the
+// resultants.
+#pragma once
+
+#include <string>
+
+#include "mechanism/elements/beam_inertia.hpp"
+#include "mechanism/elements/beam_section.hpp"
+#include "mechanism/math/se3.hpp"
+#include "mechanism/system/component.hpp"
+
+namespace bielle::mechanism {
+
+/// How strains vary along an element; see the head of this file.
+enum class BeamBending { residual, constant };
+
+/// Where an element stands in its beam; for messages.
+struct BeamPlace {
+  int element = 1;   ///< from 1
+  int elements = 1;  ///< of the beam
+};
+
+class BeamElement : public Component {
+ public:
+  /// Rotation [rad] between the ends above which the element refuses to work: the logarithm is unique below pi only,
+  /// and iterations must not step over that.
+  static constexpr double largest_turn = 0.9 * 3.141592653589793;
+
+  /// @param node_a,node_b  its nodes
+  /// @param R_A,R_B        section frames in the axes of the nodes (constant)
+  /// @param d0             stress-free relative frame log6(H_A^-1 H_B); |d0_u| is the element's length
+  /// @param damping        Kelvin-Voigt time [s]: C_d = damping * C_e
+  BeamElement(std::string name, BeamPlace place, int node_a, int node_b, const Matrix3& R_A, const Matrix3& R_B,
+              const Vector6& d0, const BeamSection& section, double damping, BeamBending bending);
+
+  void declare(Declaration& declaration) const override;
+  void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
+  void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
+  void add_energy(const LocalState& state, Energy& energy) const override;
+  /// `strain` (6) [Gamma; Kappa] and `resultants` (6) [n; m] in the middle of the element, section frame.
+  std::vector<OutputField> output_fields() const override;
+  void write_output(const LocalState& state, double* values) const override;
+
+ private:
+  struct Deformation;
+  /// @throws ComputationError when the ends turn too far
+  Deformation deformation(const LocalState& state) const;
+  void add_stiffness(const Deformation& D, Eigen::Ref<MatrixX> K) const;
+
+  BeamPlace place_;
+  int node_a_, node_b_;
+  Matrix3 R_A_, R_B_;
+  Vector6 d0_;
+  double L_;
+  Matrix6 stiffness_;    ///< C_e
+  Matrix6 flexibility_;  ///< C^-1 of the section
+  double damping_;
+  BeamInertia inertia_;
+};
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,75 @@
+#include "mechanism/elements/rigid_body.hpp"
+
+#include <utility>
+
+namespace bielle::mechanism {
+
+Matrix3 MassProperties::inertia_about_origin() const { return inertia - mass * skew(centre) * skew(centre); }
+
+RigidBody::RigidBody(std::string type, std::string name, int node, const MassProperties& properties)
+    : Component(std::move(type), std::move(name)),
+      node_(node),
+      m_(properties.mass),
+      c_(properties.centre),
+      J_(properties.inertia_about_origin()) {}
+
+void RigidBody::declare(Declaration& declaration) const {
+  declaration.nodes = {node_};
+  declaration.stiffness = declaration.damping = declaration.mass = true;
+}
+
+void RigidBody::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
+  const NodeState& n = state.node(0);
+  const Vector3 a = n.a - state.environment().gravity;
+  const Vector3 convected = n.Omegadot.cross(c_) + n.Omega.cross(n.Omega.cross(c_));
+  r.segment<3>(0) += m_ * (a + n.R * convected);
+  r.segment<3>(3) += J_ * n.Omegadot + n.Omega.cross(J_ * n.Omega) + m_ * c_.cross(n.R.transpose() * a);
+}
+
+// Columns dx | dTheta of node axes:
+//   M = [ m I        -m R c~ ]   C = [ 0  -m R (Omega~ c~ + (Omega~ c)~) ]   K = [ 0  -m R (Omegadot~ c + Omega~ Omega~
+//   c)~ ]
+//       [ m c~ R^T    J      ]       [ 0  Omega~ J - (J Omega)~           ]       [ 0  m c~ (R^T (xddot - g))~ ]
+void RigidBody::add_tangent(const LocalState& state, LocalTangent& tangent) const {
+  const NodeState& n = state.node(0);
+  const Matrix3 c = skew(c_);
+  if (tangent.wants_M) {
+    const Matrix3 coupling = m_ * n.R * c;
+    tangent.M.diagonal().head<3>().array() += m_;
+    tangent.M.block<3, 3>(0, 3) -= coupling;
+    tangent.M.block<3, 3>(3, 0) -= coupling.transpose();
+    tangent.M.block<3, 3>(3, 3) += J_;
+  }
+  if (tangent.wants_C) {
+    const Matrix3 W = skew(n.Omega);
+    tangent.C.block<3, 3>(0, 3) -= m_ * n.R * (W * c + skew(n.Omega.cross(c_)));
+    tangent.C.block<3, 3>(3, 3) += W * J_ - skew(J_ * n.Omega);
+  }
+  if (tangent.wants_K) {
+    const Vector3 convected = n.Omegadot.cross(c_) + n.Omega.cross(n.Omega.cross(c_));
+    tangent.K.block<3, 3>(0, 3) -= m_ * n.R * skew(convected);
+    tangent.K.block<3, 3>(3, 3) += m_ * c * skew(n.R.transpose() * (n.a - state.environment().gravity));
+  }
+}
+
+void RigidBody::add_energy(const LocalState& state, Energy& energy) const {
+  const NodeState& n = state.node(0);
+  energy.kinetic +=
+      0.5 * m_ * n.v.squaredNorm() + m_ * n.v.dot(n.R * n.Omega.cross(c_)) + 0.5 * n.Omega.dot(J_ * n.Omega);
+  energy.gravity -= m_ * state.environment().gravity.dot(n.x + n.R * c_);
+}
+
+std::vector<OutputField> RigidBody::output_fields() const {
+  return {{"centre", {3}, "m", "position of the centre of mass, inertial"},
+          {"momentum", {3}, "N s", "linear momentum, inertial"},
+          {"angular_momentum", {3}, "N m s", "angular momentum about the inertial origin, inertial"}};
+}
+
+void RigidBody::write_output(const LocalState& state, double* values) const {
+  const NodeState& n = state.node(0);
+  Eigen::Map<Eigen::Matrix<double, 9, 1>> out(values);
+  const Vector3 momentum = m_ * (n.v + n.R * n.Omega.cross(c_));
+  out << n.x + n.R * c_, momentum, n.x.cross(momentum) + n.R * (J_ * n.Omega + m_ * c_.cross(n.R.transpose() * n.v));
+}
+
+}  // namespace bielle::mechanism

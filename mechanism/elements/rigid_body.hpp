@@ -1,0 +1,53 @@
+// A rigid mass on a node: rigid bodies and point masses.
+//
+// The body has mass m, centre of mass c and inertia J about the node, c and J in the node's axes. With x the node's
+// position and R, Omega its axes and body angular velocity:
+//     force   m (xddot - g) + m R (Omegadot~ c + Omega~ Omega~ c)          (inertial)
+//     moment  J Omegadot + Omega~ J Omega + m c~ R^T (xddot - g)           (node axes)
+//     T = m |xdot|^2/2 + m xdot . R Omega~ c + Omega . J Omega/2,   gravity -m g . (x + R c)
+// Reference: M. Geradin, A. Cardona, Flexible Multibody Dynamics (Wiley, 2001), ch. 4.
+#pragma once
+
+#include <string>
+
+#include "mechanism/system/component.hpp"
+#include "mechanism/system/model.hpp"
+
+namespace bielle::mechanism {
+
+/// What a rigid body is made of.
+struct MassProperties {
+  double mass = 0;                       ///< [kg]
+  Vector3 centre = Vector3::Zero();      ///< of mass [m], in the node's axes from its origin
+  Matrix3 inertia = Matrix3::Zero();     ///< about the centre of mass [kg m^2], in the node's axes
+  Matrix3 inertia_about_origin() const;  ///< about the node's origin [kg m^2] (Steiner)
+};
+
+/// Mass, centre and inertia rigidly tied to one node; gravity acts at the centre. Exact tangents.
+class RigidBody : public Component {
+ public:
+  /// @param type  as in the input file: "rigid_body" or "point_mass"
+  RigidBody(std::string type, std::string name, int node, const MassProperties& properties);
+
+  void declare(Declaration& declaration) const override;
+  void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
+  void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
+  void add_energy(const LocalState& state, Energy& energy) const override;
+  /// `centre` of mass (3) [m], `momentum` (3) [N s], `angular_momentum` (3) [N m s] about the inertial origin:
+  /// inertial.
+  std::vector<OutputField> output_fields() const override;
+  void write_output(const LocalState& state, double* values) const override;
+
+ private:
+  int node_;
+  double m_;
+  Vector3 c_;
+  Matrix3 J_;  ///< about the node's origin
+};
+
+/// `{type: rigid_body, node, mass, centre, inertia, also}` or with `solid` in place of mass and inertia.
+void read_rigid_body(const std::string& name, const YamlValue& entry, Model& model);
+/// `{type: point_mass, node, mass}`
+void read_point_mass(const std::string& name, const YamlValue& entry, Model& model);
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,76 @@
+// A model evaluated with dense matrices and without solvers: what the laws and the tests of elements work on.
+//
+// Unknowns in the order [6 per node of the model (dx inertial, dTheta node axes) | amplitudes | first-order | multipliers];
+// nothing is held, eliminated or scaled. Independent of system/'s assembly on purpose.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "mechanism/system/model.hpp"
+
+namespace bielle::test {
+
+using mechanism::Declaration;
+using mechanism::Energy;
+using mechanism::Environment;
+using mechanism::MatrixX;
+using mechanism::Model;
+using mechanism::State;
+using mechanism::VectorX;
+
+class DenseModel {
+ public:
+  /// @param only  index of a member to look at alone; all of them otherwise
+  explicit DenseModel(const Model& model, std::optional<std::size_t> only = {});
+
+  int size() const { return multiplier_begin_ + multipliers_; }
+  int nodes() const { return nodes_; }
+  int amplitude_begin() const { return 6 * nodes_; }
+  int first_order_begin() const { return amplitude_begin() + amplitudes_; }
+  int multiplier_begin() const { return multiplier_begin_; }
+  const std::vector<Declaration>& declarations() const { return declarations_; }  ///< of the members looked at
+  mechanism::ConstraintKind constraint_kind(int multiplier) const {
+    return constraint_kinds_[static_cast<std::size_t>(multiplier)];
+  }
+
+  Environment environment;
+
+  /// Nodes as in the model, scalars at their start values, no accelerations.
+  State start() const;
+
+  // Steps of a state along the unknowns: positions (nodes by the exponential map), rates, accelerations.
+  void move(State& state, const VectorX& step) const;
+  void move_rates(State& state, const VectorX& step) const;
+  void move_accelerations(State& state, const VectorX& step) const;
+  VectorX rates(const State& state) const;          ///< xdot, Omega, amplitude and first-order rates; multipliers 0
+  VectorX accelerations(const State& state) const;  ///< likewise; first-order 0
+  /// The state a time s later on a path with the state's rates and accelerations, right up to s^2.
+  State along_motion(const State& state, double s) const;
+
+  VectorX residual(const State& state) const;
+  /// One of the three tangents.
+  enum class Part { K, C, M };
+  MatrixX tangent(const State& state, Part part) const;
+  /// First and second time derivatives of the constraint rows.
+  void constraint_rates(const State& state, VectorX& velocity, VectorX& acceleration) const;
+  Energy energy(const State& state) const;
+
+ private:
+  struct Placed {
+    const mechanism::Component* component;
+    mechanism::Slots slots;
+    std::vector<int> place;  ///< global unknown of each local one
+  };
+  std::vector<Placed> members_;
+  std::vector<Declaration> declarations_;
+  std::vector<mechanism::ConstraintKind> constraint_kinds_;
+  const Model& model_;
+  int nodes_ = 0, amplitudes_ = 0, first_orders_ = 0, multipliers_ = 0, memories_ = 0, multiplier_begin_ = 0;
+};
+
+/// Solves r = 0 at rest (rates and accelerations as in the state) by Newton's method in the `free` unknowns, full steps.
+/// @returns the number of iterations, or -1 when the largest residual did not fall below `tolerance` in `most`
+int solve_static(const DenseModel& model, State& state, const std::vector<int>& free, double tolerance, int most = 40);
+
+}  // namespace bielle::test

@@ -1,0 +1,15 @@
+// Models from a few lines of YAML, for tests of single components.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "mechanism/system/model.hpp"
+
+namespace bielle::test {
+
+/// Reads `nodes` (position, rotation_vector, velocity, angular_velocity), `gravity` and `elements` and `loads`. Only what the
+/// tests of elements need; errors name the file "model.yaml".
+std::unique_ptr<mechanism::Model> model_from_text(const std::string& text);
+
+}  // namespace bielle::test
