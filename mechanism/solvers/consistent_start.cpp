@@ -29,7 +29,8 @@ VectorX small_diagonal(const System& system, const LinearStep& linear, double fr
   return diagonal;
 }
 
-/// Factorises the mass saddle, with a floor under dofs without mass where the bare one is singular.
+}  // namespace
+
 void factor_mass_saddle(const System& system, const Environment& environment, const State& state, LinearStep& linear) {
   const TangentWeights weights{0, 0, 1, 1, 1, true};
   if (linear.try_factor(state, environment, weights, nullptr)) return;
@@ -45,8 +46,6 @@ void factor_mass_saddle(const System& system, const Environment& environment, co
   const VectorX extra = small_diagonal(system, linear, floor);
   if (!linear.try_factor(state, environment, weights, nullptr, &extra)) linear.throw_singular(state.time);
 }
-
-}  // namespace
 
 void assemble_positions(const System& system, const Environment& environment, State& state, StartReport& report) {
   if (system.multipliers() == 0) return;

@@ -44,22 +44,33 @@ TimeIntegration::TimeIntegration(const System& system, const Environment& enviro
 }
 
 VectorX TimeIntegration::acceleration_rate(double h) {
-  // Central difference of the consistent accelerations along the motion; the step only has to be small beside h.
+  // Forward differences of the consistent accelerations along the motion: functions of time may not exist before the
+  // start. The step has to be small beside h only.
   const double e = 0.05 * h;
-  VectorX rates[2];
-  for (const int side : {-1, 1}) {
+  VectorX ahead[2];
+  for (const int k : {1, 2}) {
     State shifted = state_;
-    shifted.time = state_.time + side * e;
-    const VectorX dq = side * e * v_ + 0.5 * e * e * a_;
-    const VectorX v = v_ + side * e * a_;
-    system_.displace(shifted, state_, dq);
-    system_.set_rates(shifted, v, a_);
+    shifted.time = state_.time + k * e;
+    system_.displace(shifted, state_, k * e * v_ + 0.5 * k * k * e * e * a_);
+    system_.set_rates(shifted, v_ + k * e * a_, a_);
     make_accelerations_consistent(system_, environment_, shifted);
     VectorX unused(system_.dofs());
-    rates[side < 0 ? 0 : 1].resize(system_.dofs());
-    system_.get_rates(shifted, unused, rates[side < 0 ? 0 : 1]);
+    ahead[k - 1].resize(system_.dofs());
+    system_.get_rates(shifted, unused, ahead[k - 1]);
   }
-  return (rates[1] - rates[0]) / (2 * e);
+  return (4 * ahead[0] - ahead[1] - 3 * a_) / (2 * e);
+}
+
+bool TimeIntegration::resolved(const VectorX& j, double h) const {
+  std::array<double, kind_count> acceleration{}, change{};
+  for (int i = 0; i < system_.dofs(); ++i) {
+    const auto kind = static_cast<std::size_t>(system_.kind(i));
+    acceleration[kind] = std::max(acceleration[kind], std::abs(a_[i]));
+    change[kind] = std::max(change[kind], std::abs(h * j[i]));
+  }
+  for (std::size_t kind = 0; kind < kind_count; ++kind)
+    if (change[kind] > acceleration[kind]) return false;
+  return true;
 }
 
 void TimeIntegration::perturb_velocity(const VectorX& j, double factor) {
@@ -80,14 +91,16 @@ void TimeIntegration::perturb_velocity(const VectorX& j, double factor) {
   r_.setZero();
   r_.tail(system_.multipliers()) = without - with;
   for (const int multiplier : system_.set_aside()) r_[system_.size() - system_.multipliers() + multiplier] = 0;
-  const TangentWeights weights{0, 0, 1, 1, 1, true};
-  if (!linear_.try_factor(state_, environment_, weights, nullptr)) return;
+  factor_mass_saddle(system_, environment_, state_, linear_);
   linear_.solve(r_, delta_);
   v_ += factor * delta_.head(system_.dofs());
 }
 
 void TimeIntegration::start(double h) {
   const VectorX j = acceleration_rate(h);
+  // The corrections are terms of a series in h. Where the accelerations change by their own size within a step (stiff
+  // bodies set off suddenly), they would add what the scheme then has to damp.
+  if (!resolved(j, h)) return;
   A_ = a_ + scheme_.delta() * h * j;
   perturb_velocity(j, h * h);
   system_.set_rates(state_, v_, a_);
