@@ -14,7 +14,8 @@
 
 namespace bielle::mechanism {
 
-/// Factorises [M B^T; B 0] at a state. Dofs without mass that constraints hold get a floor of 1e-12 of their kind's mean.
+/// Factorises [M B^T; B 0] at a state. Dofs without mass that constraints hold get a floor of 1e-12 of their kind's
+/// mean.
 /// @throws ComputationError naming an unknown that has no mass and that nothing holds
 void factor_mass_saddle(const System& system, const Environment& environment, const State& state, LinearStep& linear);
 

@@ -58,8 +58,8 @@ class TimeIntegration {
   const StartReport& start_report() const { return start_report_; }
 
  private:
-  VectorX acceleration_rate(double h);                  ///< j
-  bool resolved(const VectorX& j, double h) const;       ///< accelerations change little within a step
+  VectorX acceleration_rate(double h);              ///< j
+  bool resolved(const VectorX& j, double h) const;  ///< accelerations change little within a step
   void perturb_velocity(const VectorX& j, double factor);
 
   const System& system_;
