@@ -41,7 +41,7 @@ class BeamElement : public Component {
  public:
   /// Rotation [rad] between the ends above which the element refuses to work: the logarithm is unique below pi only,
   /// and iterations must not step over that.
-  static constexpr double largest_turn = 0.9 * 3.141592653589793;
+  static constexpr double largest_turn = 0.98 * 3.141592653589793;
 
   /// @param node_a,node_b  its nodes
   /// @param R_A,R_B        section frames in the axes of the nodes (constant)

@@ -15,7 +15,7 @@ constexpr Eigen::Index first_row(std::size_t node) { return 6 * static_cast<Eige
 
 BeamInertia::BeamInertia(const BeamSection& section, const Matrix3& R_A, const Matrix3& R_B, const Vector3& chord)
     : massless_(section.mass == 0 && section.inertia.isZero(0)) {
-  const double mass = section.mass * chord.norm();
+  const double L = chord.norm(), mass = section.mass * L;
   const Vector3& c = section.mass_offset;
   const double offset = 0.5 * std::sqrt(0.6);
   const std::array<double, 3> z{0.5 - offset, 0.5, 0.5 + offset}, weight{5.0 / 18, 8.0 / 18, 5.0 / 18};
@@ -24,10 +24,11 @@ BeamInertia::BeamInertia(const BeamSection& section, const Matrix3& R_A, const M
     points_[g] = {mass * weight[g], {1 - z[g], z[g]}, {R_A * ((1 - z[g]) * c + bubble), R_B * (z[g] * c - bubble)}};
   }
   points_[3] = {mass / 12, {-1, 1}, {R_A * (-c - 0.5 * chord), R_B * (c - 0.5 * chord)}};
-  const std::array<const Matrix3*, 2> R{&R_A, &R_B};
-  for (std::size_t i = 0; i < 2; ++i)
-    for (std::size_t j = 0; j < 2; ++j)
-      J_[i][j] = (i == j ? 5.0 : 1.0) / 12 * chord.norm() * *R[i] * section.inertia * R[j]->transpose();
+  const Vector3 t = chord / L;
+  const Matrix3 torsional = L / 12 * t.dot(section.inertia * t) * t * t.transpose();
+  const Matrix3 own = L / 2 * section.inertia - torsional;
+  J_[0] = {R_A * own * R_A.transpose(), R_A * torsional * R_B.transpose()};
+  J_[1] = {R_B * torsional * R_A.transpose(), R_B * own * R_B.transpose()};
 }
 
 void BeamInertia::add_force(const LocalState& state, Eigen::Ref<VectorX> r) const {
@@ -46,9 +47,8 @@ void BeamInertia::add_force(const LocalState& state, Eigen::Ref<VectorX> r) cons
     }
   }
   for (std::size_t k = 0; k < 2; ++k)
-    r.segment<3>(first_row(k) + 3) +=
-        J_[k][0] * node[0]->Omegadot + J_[k][1] * node[1]->Omegadot +
-        node[k]->Omega.cross(J_[k][0] * node[0]->Omega + J_[k][1] * node[1]->Omega);
+    r.segment<3>(first_row(k) + 3) += J_[k][0] * node[0]->Omegadot + J_[k][1] * node[1]->Omegadot +
+                                      node[k]->Omega.cross(J_[k][0] * node[0]->Omega + J_[k][1] * node[1]->Omega);
 }
 
 // Each point moves by B [dx_A; dTheta_A; dx_B; dTheta_B], B_k = [N_k I, -R_k a_k~]; with its inertia force f
@@ -86,8 +86,7 @@ void BeamInertia::add_tangent(const LocalState& state, LocalTangent& tangent) co
       if (tangent.wants_M) tangent.M.block<3, 3>(row, first_row(l) + 3) += J_[k][l];
       if (tangent.wants_C) tangent.C.block<3, 3>(row, first_row(l) + 3) += skew(node[k]->Omega) * J_[k][l];
     }
-    if (tangent.wants_C)
-      tangent.C.block<3, 3>(row, row) -= skew(J_[k][0] * node[0]->Omega + J_[k][1] * node[1]->Omega);
+    if (tangent.wants_C) tangent.C.block<3, 3>(row, row) -= skew(J_[k][0] * node[0]->Omega + J_[k][1] * node[1]->Omega);
   }
 }
 

@@ -1,17 +1,21 @@
 // Inertia of one beam element.
 //
-// Line of mass centres between nodes A and B, z in [0, 1], with the mass offset c and the reference chord d = d0_u of length L,
-// both fixed in the section frames of A and B (R_A, R_B here their axes):
+// Line of mass centres between nodes A and B, z in [0, 1], with the mass offset c and the reference chord d = d0_u of
+// length L, both fixed in the section frames of A and B (R_A, R_B here their axes):
 //     x(z) = (1-z)(x_A + R_A c) + z (x_B + R_B c) + z (1-z) (R_A d - R_B d)/2
 // so that the rotations of the ends bend the line. Kinetic energy, m and J (about the mass centre) per length:
-//     T = 1/2 m L int |xdot|^2 dz                              consistent, by three Gauss points (exact for the mass matrix)
+//     T = 1/2 m L int |xdot|^2 dz                              consistent, by three Gauss points (exact for the mass
+//     matrix)
 //       + 1/2 (m L/12) |ydot|^2,   y = (x_B + R_B c) - (x_A + R_A c) - (R_A d + R_B d)/2
-//       + 1/2 (L/12) (5 Omega_A.J Omega_A + 2 Omega_A.J Omega_B + 5 Omega_B.J Omega_B)        (section components)
-// The terms with 1/12 are the mean of consistent and lumped masses, whose errors in the frequencies of axial, shear and torsional
-// waves, +-(k L)^2/24, cancel; in bending y is of third order. Together with the residual bending flexibility of BeamElement the
-// frequencies of straight beams converge with the fourth power of L. Everything turns with the nodes and y does not see
-// translations: energy and momenta are conserved exactly, and no term depends on the deformation.
-// The idea of averaged masses: G. Goudreau, R. Taylor, Comput. Methods Appl. Mech. Eng. 2 (1973) 69.
+//       + 1/2 (L/2) (Omega_A.J Omega_A + Omega_B.J Omega_B) - 1/2 (J_t L/12) (t.(Omega_A - Omega_B))^2    (section
+//       components)
+// with J_t = t.J t about the chord's direction t. The terms with 1/12 are the mean of consistent and lumped masses,
+// whose errors in the frequencies of axial, shear and torsional waves, +-(k L)^2/24, cancel (G. Goudreau, R. Taylor,
+// Comput. Methods Appl. Mech. Eng. 2 (1973) 69); in bending y is of third order, and the lumped rotary inertia is the
+// right one. Together with the residual bending flexibility of BeamElement the frequencies of straight beams converge
+// with the fourth power of L, but for a part E/(k_s G) (k r)^2 (k L)^2/24 in bending (wave number k, radius of gyration
+// r, shear factor k_s): the line does not see how the shear varies along it. Everything turns with the nodes, and y
+// sees no translation: energy and momenta are conserved exactly. No term depends on the deformation.
 #pragma once
 
 #include <array>
@@ -21,7 +25,8 @@
 
 namespace bielle::mechanism {
 
-/// See the head of this file. Adds to the local vectors and matrices of a component whose nodes are A and B; gravity included.
+/// See the head of this file. Adds to the local vectors and matrices of a component whose nodes are A and B; gravity
+/// included.
 class BeamInertia {
  public:
   /// @param R_A,R_B  section frames in the axes of nodes A and B
@@ -36,12 +41,12 @@ class BeamInertia {
  private:
   /// A mass w at sum_k (N_k x_k + R_k a_k), k = A, B. (For y the N_k add up to zero: no weight, no momentum.)
   struct Point {
-    double w = 0;             ///< [kg]
+    double w = 0;  ///< [kg]
     std::array<double, 2> N{};
     std::array<Vector3, 2> a;  ///< [m], node axes
   };
   std::array<Point, 4> points_;
-  std::array<std::array<Matrix3, 2>, 2> J_;  ///< rotary inertia between nodes [kg m^2], node axes
+  std::array<std::array<Matrix3, 2>, 2> J_;  ///< rotary inertia of and between nodes [kg m^2], node axes
   bool massless_;
 };
 

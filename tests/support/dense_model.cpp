@@ -1,7 +1,8 @@
 #include "tests/support/dense_model.hpp"
 
-#include <Eigen/LU>
 #include <stdexcept>
+
+#include <Eigen/LU>
 
 namespace bielle::test {
 
@@ -35,7 +36,8 @@ DenseModel::DenseModel(const Model& model, std::optional<std::size_t> only)
     for (int node : m.slots.nodes)
       for (int i = 0; i < 6; ++i) m.place.push_back(6 * node + i);
     for (int i = 0; i < m.slots.amplitudes; ++i) m.place.push_back(amplitude_begin() + m.slots.amplitude_begin + i);
-    for (int i = 0; i < m.slots.first_orders; ++i) m.place.push_back(first_order_begin() + m.slots.first_order_begin + i);
+    for (int i = 0; i < m.slots.first_orders; ++i)
+      m.place.push_back(first_order_begin() + m.slots.first_order_begin + i);
     for (int i = 0; i < m.slots.multipliers; ++i) m.place.push_back(multiplier_begin_ + m.slots.multiplier_begin + i);
   }
 }

@@ -1,7 +1,7 @@
 // A model evaluated with dense matrices and without solvers: what the laws and the tests of elements work on.
 //
-// Unknowns in the order [6 per node of the model (dx inertial, dTheta node axes) | amplitudes | first-order | multipliers];
-// nothing is held, eliminated or scaled. Independent of system/'s assembly on purpose.
+// Unknowns in the order [6 per node of the model (dx inertial, dTheta node axes) | amplitudes | first-order |
+// multipliers]; nothing is held, eliminated or scaled. Independent of system/'s assembly on purpose.
 #pragma once
 
 #include <optional>
@@ -69,7 +69,8 @@ class DenseModel {
   int nodes_ = 0, amplitudes_ = 0, first_orders_ = 0, multipliers_ = 0, memories_ = 0, multiplier_begin_ = 0;
 };
 
-/// Solves r = 0 at rest (rates and accelerations as in the state) by Newton's method in the `free` unknowns, full steps.
+/// Solves r = 0 at rest (rates and accelerations as in the state) by Newton's method in the `free` unknowns, full
+/// steps.
 /// @returns the number of iterations, or -1 when the largest residual did not fall below `tolerance` in `most`
 int solve_static(const DenseModel& model, State& state, const std::vector<int>& free, double tolerance, int most = 40);
 

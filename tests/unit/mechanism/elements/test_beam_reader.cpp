@@ -1,7 +1,7 @@
 // Beams as input: geometry, attachment to nodes, messages.
-#include <catch2/catch.hpp>
-
 #include <cmath>
+
+#include <catch2/catch.hpp>
 
 #include "mechanism/elements/beam_geometry.hpp"
 #include "tests/support/dense_model.hpp"
@@ -19,7 +19,8 @@ const std::string section = "section: {EA: 1, GAy: 2, GAz: 3, GJ: 4, EIy: 5, EIz
 
 std::unique_ptr<Model> beam(const std::string& keys, const std::string& a = "{position: [0, 0, 0]}",
                             const std::string& b = "{position: [2, 0, 0]}") {
-  return model_from_text("nodes: {a: " + a + ", b: " + b + "}\nelements:\n  shaft: {type: beam, nodes: [a, b], " + keys + "}\n");
+  return model_from_text("nodes: {a: " + a + ", b: " + b + "}\nelements:\n  shaft: {type: beam, nodes: [a, b], " +
+                         keys + "}\n");
 }
 
 double error(const MatrixX& A, const MatrixX& B) { return (A - B).cwiseAbs().maxCoeff(); }
@@ -77,7 +78,8 @@ TEST_CASE("arcs by their centre or a third point pass where they should") {
     CHECK(error(model->node(3).frame.R.col(1), Vector3(std::cos(pi / 6), -std::sin(pi / 6), 0)) < 1e-14);
   }
   // Three quarters of it, from (0,0) round over (2,0) to (1,1).
-  const auto long_way = beam(section + ", elements: 3, arc_through: [2, 0, 0]", "{position: [0, 0, 0]}", "{position: [1, 1, 0]}");
+  const auto long_way =
+      beam(section + ", elements: 3, arc_through: [2, 0, 0]", "{position: [0, 0, 0]}", "{position: [1, 1, 0]}");
   CHECK(error(long_way->node(3).frame.x, Vector3(1, -1, 0)) < 1e-14);
   CHECK(error(long_way->node(4).frame.x, Vector3(2, 0, 0)) < 1e-14);
   CHECK(error(long_way->node(3).frame.R.col(0), Vector3(1, 0, 0)) < 1e-14);
@@ -103,16 +105,20 @@ TEST_CASE("inner nodes start with the velocity of the rigid motion of their ends
 
 TEST_CASE("a beam that cannot be built says why") {
   CHECK_THROWS_WITH(beam(section + ", elements: 0"), Contains("elements.shaft.elements") && Contains("at least one"));
-  CHECK_THROWS_WITH(beam(section + ", bending: resdual"), Contains("elements.shaft.bending") && Contains("did you mean 'residual'"));
+  CHECK_THROWS_WITH(beam(section + ", bending: resdual"),
+                    Contains("elements.shaft.bending") && Contains("did you mean 'residual'"));
   CHECK_THROWS_WITH(beam(section + ", orientation: [3, 0, 0]"), Contains("parallel to the beam's axis"));
   CHECK_THROWS_WITH(beam(section + ", damping: -1"), Contains("elements.shaft.damping"));
   CHECK_THROWS_WITH(beam(section + ", arc_centre: [0.5, 1, 0]"), Contains("not at one distance from the centre"));
   CHECK_THROWS_WITH(beam(section + ", arc_centre: [1, 0, 0]"), Contains("half circle") && Contains("`arc_through`"));
   CHECK_THROWS_WITH(beam(section + ", arc_through: [1, 0, 0]"), Contains("in one line"));
-  CHECK_THROWS_WITH(beam(section + ", arc_centre: [1, 1, 0], arc_through: [1, 1, 0]"), Contains("either `arc_centre` or `arc_through`"));
+  CHECK_THROWS_WITH(beam(section + ", arc_centre: [1, 1, 0], arc_through: [1, 1, 0]"),
+                    Contains("either `arc_centre` or `arc_through`"));
   CHECK_THROWS_WITH(beam(section, "{position: [2, 0, 0]}"), Contains("same place"));
-  CHECK_THROWS_WITH(beam(section + ", elements: 1, arc_through: [1, -1e2, 0]"), Contains("each of 1 elements would turn by 3"));
-  CHECK_THROWS_WITH(beam(section + ", elements: 2, twist: 7"), Contains("each of 2 elements would turn by 201 degrees"));
+  CHECK_THROWS_WITH(beam(section + ", elements: 1, arc_through: [1, -1e2, 0]"),
+                    Contains("each of 1 elements would turn by 3"));
+  CHECK_THROWS_WITH(beam(section + ", elements: 2, twist: 7"),
+                    Contains("each of 2 elements would turn by 201 degrees"));
   CHECK_THROWS_WITH(beam("elements: 2"), Contains("section"));
   CHECK_THROWS_WITH(beam(section + ", lenght: 2"), Contains("'lenght' is not a key of a beam"));
 }

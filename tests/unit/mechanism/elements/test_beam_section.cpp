@@ -1,7 +1,7 @@
 // Cross sections: closed forms and published constants.
-#include <catch2/catch.hpp>
-
 #include <cmath>
+
+#include <catch2/catch.hpp>
 
 #include "mechanism/elements/beam_section.hpp"
 #include "mechanism/math/so3.hpp"
@@ -27,8 +27,8 @@ TEST_CASE("the torsion constant of a rectangle is that of Saint-Venant's series"
   CHECK_THAT(rectangle_constants(1, 10).J / 10, Catch::WithinAbs(0.312, 5.1e-4));
   CHECK(rectangle_constants(0.3, 0.1).J == rectangle_constants(0.1, 0.3).J);
   // A narrow strip: 1/3 a c^3 (1 - 0.6302 c/a), 0.6302 = 192/pi^5 * (sum of odd n^-5).
-  CHECK_THAT(rectangle_constants(1000, 1).J * 3 / 1000, WithinRel(1 - 192 / std::pow(pi, 5) * 31.0 / 32 *
-                                                                      1.0369277551433699 / 1000, 1e-14));
+  CHECK_THAT(rectangle_constants(1000, 1).J * 3 / 1000,
+             WithinRel(1 - 192 / std::pow(pi, 5) * 31.0 / 32 * 1.0369277551433699 / 1000, 1e-14));
 }
 
 TEST_CASE("rectangles, circles and tubes have their moments about y and z") {
@@ -56,11 +56,12 @@ TEST_CASE("a shape with its material becomes stiffness and mass per length") {
   CHECK((diagonal(s) - expected).norm() < 1e-14);
   CHECK_THAT(s.mass, WithinRel(0.2, 1e-14));
   CHECK((s.inertia.diagonal() - 10 * Vector3(k.I_y + k.I_z, k.I_y, k.I_z)).norm() < 1e-16);
-  CHECK((diagonal(section("{rectangle: [0.2, 0.1], young: 200, shear: 80, density: 10}").at(0)) - expected).norm() < 1e-14);
+  CHECK((diagonal(section("{rectangle: [0.2, 0.1], young: 200, shear: 80, density: 10}").at(0)) - expected).norm() <
+        1e-14);
   CHECK(section("{rectangle: [0.2, 0.1], young: 200, shear: 80}").at(0).mass == 0);
   expected.segment<2>(1) *= 1.2;
-  CHECK((diagonal(section("{rectangle: [0.2, 0.1], young: 200, shear: 80, shear_factors: [1, 1]}").at(0)) - expected).norm() <
-        1e-14);
+  CHECK((diagonal(section("{rectangle: [0.2, 0.1], young: 200, shear: 80, shear_factors: [1, 1]}").at(0)) - expected)
+            .norm() < 1e-14);
 }
 
 TEST_CASE("an offset section couples stretch with bending and carries its mass beside the node line") {
@@ -87,7 +88,8 @@ TEST_CASE("constants and matrices are taken as given") {
   const BeamSection m = section(R"(
 stiffness: [[10, 0, 0, 0, 1, 0], [0, 9, 0, 0, 0, 0], [0, 0, 8, 0, 0, 0], [0, 0, 0, 7, 0, 0], [1, 0, 0, 0, 6, 0], [0, 0, 0, 0, 0, 5]]
 mass: [[2, 0, 0, 0, 0, -0.2], [0, 2, 0, 0, 0, 0], [0, 0, 2, 0.2, 0, 0], [0, 0, 0.2, 0.52, 0, 0], [0, 0, 0, 0, 0.2, 0], [-0.2, 0, 0, 0, 0, 0.32]]
-)").at(0);
+)")
+                            .at(0);
   CHECK(m.stiffness(0, 4) == 1);
   CHECK_THAT(m.mass, WithinRel(2.0, 1e-15));
   CHECK((m.mass_offset - Vector3(0, 0.1, 0)).norm() < 1e-15);
@@ -110,7 +112,8 @@ TEST_CASE("a section that does not exist is refused with its key") {
   CHECK_THROWS_WITH(section("{tube: [0.1, 0.2], young: 1, shear: 1}"), Contains("inner radius must be smaller"));
   CHECK_THROWS_WITH(section("{circle: 0.1, shear: 1}"), Contains("young"));
   CHECK_THROWS_WITH(section("{circle: 0.1, young: 1}"), Contains("`poisson` or `shear`"));
-  CHECK_THROWS_WITH(section("{circle: 0.1, young: 1, shear: 1, poisson: 0.3}"), Contains("either `shear` or `poisson`"));
+  CHECK_THROWS_WITH(section("{circle: 0.1, young: 1, shear: 1, poisson: 0.3}"),
+                    Contains("either `shear` or `poisson`"));
   CHECK_THROWS_WITH(section("{circle: 0.1, young: 1, poisson: 0.6}"), Contains("(-1, 0.5]") && Contains("poisson"));
   CHECK_THROWS_WITH(section("{circle: 0.1, young: 1, poisson: 0.3, denisty: 1}"), Contains("did you mean 'density'"));
   CHECK_THROWS_WITH(section("{EA: 1, GAy: 2, GAz: 3, GJ: 4, EIy: 5, EIz: 0}"), Contains("EIz"));
@@ -118,12 +121,19 @@ TEST_CASE("a section that does not exist is refused with its key") {
   CHECK_THROWS_WITH(section("{EA: 1, GAy: 2, GAz: 3, GJ: 4, EIy: 5, EIz: 6, mass_per_length: 1, Jx: 1, Jy: 1, Jz: 0}"),
                     Contains("Jz") && Contains("mass moments > 0"));
   const std::string indefinite =
-      "stiffness: [[1, 2, 0, 0, 0, 0], [2, 1, 0, 0, 0, 0], [0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0], [0, 0, 0, 0, 1, 0], [0, 0, 0, 0, 0, 1]]";
+      "stiffness: [[1, 2, 0, 0, 0, 0], [2, 1, 0, 0, 0, 0], [0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0], [0, 0, 0, 0, 1, 0], "
+      "[0, 0, 0, 0, 0, 1]]";
   CHECK_THROWS_WITH(section(indefinite), Contains("stiffness must be positive definite"));
   const std::string unsymmetric =
-      "stiffness: [[1, 0.2, 0, 0, 0, 0], [0, 1, 0, 0, 0, 0], [0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0], [0, 0, 0, 0, 1, 0], [0, 0, 0, 0, 0, 1]]";
+      "stiffness: [[1, 0.2, 0, 0, 0, 0], [0, 1, 0, 0, 0, 0], [0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0], [0, 0, 0, 0, 1, "
+      "0], [0, 0, 0, 0, 0, 1]]";
   CHECK_THROWS_WITH(section(unsymmetric), Contains("must be symmetric"));
-  const std::string unit = "[[1, 0, 0, 0, 0, 0], [0, 1, 0, 0, 0, 0], [0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0], [0, 0, 0, 0, 1, 0], [0, 0, 0, 0, 0, 1]]";
-  const std::string odd = "[[1, 0, 0, 0, 0, 0], [0, 2, 0, 0, 0, 0], [0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0], [0, 0, 0, 0, 1, 0], [0, 0, 0, 0, 0, 1]]";
-  CHECK_THROWS_WITH(section("{stiffness: " + unit + ", mass: " + odd + "}"), Contains("no section has this mass matrix"));
+  const std::string unit =
+      "[[1, 0, 0, 0, 0, 0], [0, 1, 0, 0, 0, 0], [0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0], [0, 0, 0, 0, 1, 0], [0, 0, 0, "
+      "0, 0, 1]]";
+  const std::string odd =
+      "[[1, 0, 0, 0, 0, 0], [0, 2, 0, 0, 0, 0], [0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0], [0, 0, 0, 0, 1, 0], [0, 0, 0, "
+      "0, 0, 1]]";
+  CHECK_THROWS_WITH(section("{stiffness: " + unit + ", mass: " + odd + "}"),
+                    Contains("no section has this mass matrix"));
 }

@@ -23,7 +23,9 @@ VectorX force(const std::string& load, double time, double factor = 1) {
   return -dense.residual(state).tail<6>();
 }
 
-VectorX six(double a, double b, double c, double d, double e, double f) { return (VectorX(6) << a, b, c, d, e, f).finished(); }
+VectorX six(double a, double b, double c, double d, double e, double f) {
+  return (VectorX(6) << a, b, c, d, e, f).finished();
+}
 
 }  // namespace
 
@@ -42,8 +44,9 @@ TEST_CASE("a follower load turns with its node") {
 }
 
 TEST_CASE("loads name the times at which their expressions break") {
-  const auto model = model_from_text("nodes: {a: {position: [0, 0, 0]}}\n"
-                                     "loads: {gas: {node: a, force: ['ramp(t, 0.1, 0.2)', 0, 0], moment: [0, 't', 0]}}");
+  const auto model = model_from_text(
+      "nodes: {a: {position: [0, 0, 0]}}\n"
+      "loads: {gas: {node: a, force: ['ramp(t, 0.1, 0.2)', 0, 0], moment: [0, 't', 0]}}");
   std::vector<double> times;
   model->members()[0].component->add_break_points(times);
   REQUIRE(times.size() == 2);

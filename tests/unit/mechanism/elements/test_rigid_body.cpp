@@ -1,4 +1,5 @@
-// Rigid bodies and point masses: closed forms, and the checks of their input. (Tangents, invariance and power: tests/laws.)
+// Rigid bodies and point masses: closed forms, and the checks of their input. (Tangents, invariance and power:
+// tests/laws.)
 #include <catch2/catch.hpp>
 
 #include "mechanism/elements/rigid_body.hpp"
@@ -17,8 +18,10 @@ namespace {
 double error(const MatrixX& A, const MatrixX& B) { return (A - B).cwiseAbs().maxCoeff(); }
 
 std::unique_ptr<Model> body(const std::string& keys) {
-  return model_from_text("nodes: {a: {position: [0, 0, 0]}, b: {position: [1, 0, 0]}, c: {position: [2, 0, 0]}}\n"
-                         "elements:\n  disk: {type: rigid_body, node: a, " + keys + "}\n");
+  return model_from_text(
+      "nodes: {a: {position: [0, 0, 0]}, b: {position: [1, 0, 0]}, c: {position: [2, 0, 0]}}\n"
+      "elements:\n  disk: {type: rigid_body, node: a, " +
+      keys + "}\n");
 }
 
 /// The mass matrix of a body about its node.
@@ -57,8 +60,7 @@ TEST_CASE("a rigid body is equivalent to the mass points that it is made of") {
     p.centre += masses[k] * points[k];
   }
   p.centre /= p.mass;
-  for (std::size_t k = 0; k < 4; ++k)
-    p.inertia -= masses[k] * skew(points[k] - p.centre) * skew(points[k] - p.centre);
+  for (std::size_t k = 0; k < 4; ++k) p.inertia -= masses[k] * skew(points[k] - p.centre) * skew(points[k] - p.centre);
 
   Model model;
   Node node;
@@ -88,7 +90,8 @@ TEST_CASE("inertia is given about the centre of mass as three, six or nine numbe
   MatrixX expected = MatrixX::Identity(6, 6) * 2;
   expected.bottomRightCorner<3, 3>() << 1, 0.1, -0.2, 0.1, 1.5, 0.3, -0.2, 0.3, 2;
   CHECK(error(mass_matrix(*body("mass: 2, inertia: [1, 1.5, 2, 0.1, -0.2, 0.3]")), expected) < 1e-15);
-  CHECK(error(mass_matrix(*body("mass: 2, inertia: [[1, 0.1, -0.2], [0.1, 1.5, 0.3], [-0.2, 0.3, 2]]")), expected) < 1e-15);
+  CHECK(error(mass_matrix(*body("mass: 2, inertia: [[1, 0.1, -0.2], [0.1, 1.5, 0.3], [-0.2, 0.3, 2]]")), expected) <
+        1e-15);
   expected.bottomRightCorner<3, 3>() = Vector3(1, 1.5, 2).asDiagonal();
   CHECK(error(mass_matrix(*body("mass: 2, inertia: [1, 1.5, 2]")), expected) < 1e-15);
   // Steiner: centre (0, 0, 3) adds 2 * 9 about x and y and couples force and moment.
@@ -111,7 +114,8 @@ TEST_CASE("homogeneous solids have the inertia of textbooks") {
 }
 
 TEST_CASE("a point mass has no rotary inertia") {
-  const auto model = model_from_text("nodes: {a: {position: [0, 0, 0]}}\nelements: {bob: {type: point_mass, node: a, mass: 2}}");
+  const auto model =
+      model_from_text("nodes: {a: {position: [0, 0, 0]}}\nelements: {bob: {type: point_mass, node: a, mass: 2}}");
   MatrixX expected = MatrixX::Zero(6, 6);
   expected.diagonal().head<3>().setConstant(2);
   CHECK(error(mass_matrix(*model), expected) == 0);
@@ -130,8 +134,9 @@ TEST_CASE("a rigid body carries further nodes") {
 }
 
 TEST_CASE("a mass distribution that no body has is refused") {
-  CHECK_THROWS_WITH(body("mass: 1, inertia: [1, 1, 3]"),
-                    Contains("elements.disk.inertia") && Contains("exceeds the sum of the two others") && Contains("1, 1 and 3"));
+  CHECK_THROWS_WITH(body("mass: 1, inertia: [1, 1, 3]"), Contains("elements.disk.inertia") &&
+                                                             Contains("exceeds the sum of the two others") &&
+                                                             Contains("1, 1 and 3"));
   CHECK_THROWS_WITH(body("mass: 1, inertia: [1, 1, -1]"), Contains("positive definite"));
   CHECK_THROWS_WITH(body("mass: 1, inertia: [1, 1, 1, 2, 0, 0]"), Contains("positive definite"));
   CHECK_THROWS_WITH(body("mass: 1, inertia: [1, 1]"), Contains("[xx, yy, zz, xy, xz, yz]"));

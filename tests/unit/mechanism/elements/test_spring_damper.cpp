@@ -1,7 +1,7 @@
 // Springs and dampers: closed forms. (Tangents, invariance and power: tests/laws.)
-#include <catch2/catch.hpp>
-
 #include <cmath>
+
+#include <catch2/catch.hpp>
 
 #include "mechanism/elements/spring_damper.hpp"
 #include "tests/support/dense_model.hpp"
@@ -77,7 +77,8 @@ TEST_CASE("a spring of free length zero passes through zero length") {
 }
 
 TEST_CASE("a spring whose ends meet has no direction and says so") {
-  CHECK_THROWS_WITH(spring("stiffness: 7, length: 1", "[0, 0, 0]"), Contains("elements.s.nodes") && Contains("coincide"));
+  CHECK_THROWS_WITH(spring("stiffness: 7, length: 1", "[0, 0, 0]"),
+                    Contains("elements.s.nodes") && Contains("coincide"));
   const auto model = spring("stiffness: 7, length: 1");
   const DenseModel dense(*model);
   State state = dense.start();
