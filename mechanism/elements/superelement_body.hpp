@@ -21,7 +21,7 @@
 #pragma once
 
 #include "mechanism/elements/superelement_body_motion.hpp"
-#include "mechanism/system/component.hpp"
+#include "mechanism/system/model.hpp"
 #include "reduce/common/expression.hpp"
 
 namespace bielle::mechanism {
@@ -77,5 +77,8 @@ class SuperelementBody : public Component {
   std::vector<Load> loads_;
   std::vector<std::pair<std::string, std::string>> attributes_;
 };
+
+/// Reads `name: {type: superelement, ...}` of the elements; see superelement_body_reader.cpp.
+void read_superelement_body(const std::string& name, const YamlValue& entry, Model& model);
 
 }  // namespace bielle::mechanism

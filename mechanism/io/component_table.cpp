@@ -6,6 +6,7 @@
 #include "mechanism/elements/load.hpp"
 #include "mechanism/elements/rigid_body.hpp"
 #include "mechanism/elements/spring_damper.hpp"
+#include "mechanism/elements/superelement_body.hpp"
 #include "mechanism/joints/drive.hpp"
 #include "mechanism/joints/lower_pairs.hpp"
 
@@ -16,6 +17,7 @@ const std::vector<ComponentType>& component_table() {
       {Section::elements, "rigid_body", read_rigid_body},
       {Section::elements, "point_mass", read_point_mass},
       {Section::elements, "beam", read_beam},
+      {Section::elements, "superelement", read_superelement_body},
       {Section::elements, "spring_damper", read_spring_damper},
       {Section::joints, "rigid", read_rigid},
       {Section::joints, "hinge", read_hinge},

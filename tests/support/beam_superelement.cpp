@@ -170,7 +170,8 @@ BeamSuperelement BeamChain::reduced() const {
   BeamSuperelement result;
   result.basis = turn * basis;
   const MatrixXd& T = result.basis;
-  const auto reduce = [&](const MatrixXd& X) -> MatrixXd { return T.transpose() * X * T; };
+  const auto symmetric = [](const MatrixXd& X) -> MatrixXd { return 0.5 * (X + X.transpose()); };
+  const auto reduce = [&](const MatrixXd& X) { return symmetric(T.transpose() * X * T); };
   result.full_stiffness = full.K;
   result.full_mass = full.M;
   result.points = full.points;
@@ -202,6 +203,7 @@ BeamSuperelement BeamChain::reduced() const {
     const auto [k, l] = pairs[i];
     const auto rows = [&](int c) { return result.field(Eigen::seqN(c, result.masses.size(), 3), Eigen::all); };
     body.inertia_components[i] = MatrixXd(rows(k)).transpose() * result.masses.asDiagonal() * MatrixXd(rows(l));
+    if (k == l) body.inertia_components[i] = symmetric(body.inertia_components[i]);
     if (prestress) body.spin_stiffness[i] = reduce(full.prestress(*this, full.centrifugal(k, l)));
   }
   if (prestress)
@@ -209,6 +211,11 @@ BeamSuperelement BeamChain::reduced() const {
   const Eigen::Matrix<double, 6, 6> rigid = full.rigid.transpose() * full.M * full.rigid;
   body.total_mass = rigid(0, 0);
   body.centre = Vector3d(rigid(5, 1), rigid(3, 2), rigid(4, 0)) / body.total_mass;
+  Matrix3d lever;
+  lever << 0, -body.centre.z(), body.centre.y(), body.centre.z(), 0, -body.centre.x(), -body.centre.y(),
+      body.centre.x(), 0;
+  body.inertia = symmetric(rigid.bottomRightCorner<3, 3>()) + body.total_mass * lever * lever;
+  body.effective_mass = MatrixXd::Zero(modes, 6);
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include "mechanism/elements/load.hpp"
 #include "mechanism/elements/rigid_body.hpp"
 #include "mechanism/elements/spring_damper.hpp"
+#include "mechanism/elements/superelement_body.hpp"
 
 namespace bielle::test {
 
@@ -16,6 +17,7 @@ namespace {
 const std::map<std::string, ComponentReader> element_readers = {{"rigid_body", read_rigid_body},
                                                                 {"point_mass", read_point_mass},
                                                                 {"beam", read_beam},
+                                                                {"superelement", read_superelement_body},
                                                                 {"spring_damper", read_spring_damper}};
 
 void read_node(const std::string& name, const YamlValue& entry, Model& model) {
