@@ -1,6 +1,7 @@
 #include "mechanism/io/describe_model.hpp"
 
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -43,14 +44,19 @@ std::string describe_model(const MechanismFile& file) {
   for (const Node& node : model.nodes()) internal += node.internal;
   text += fmt::format("  nodes        {}{}\n", model.nodes().size() - static_cast<std::size_t>(internal),
                       internal > 0 ? fmt::format(" and {} inside of elements", internal) : "");
-  std::map<std::string, std::map<std::string, int>> counts;  // section -> type -> number
-  for (const Member& member : model.members())
-    ++counts[member.group.substr(0, member.group.find('/'))][member.component->type()];
+  // By the names that the user gave: a beam counts once, whatever it is divided into.
+  std::map<std::string, std::map<std::string, std::set<std::string>>> counts;  // section -> type -> names
+  for (const Member& member : model.members()) {
+    const std::string& type = member.component->type();
+    const bool own_section = type == "drive" || type == "load";
+    counts[own_section ? type + "s" : member.group.substr(0, member.group.find('/'))][type].insert(
+        member.component->name());
+  }
   for (const auto& [section, types] : counts) {
-    text += fmt::format("  {:<12}", section.empty() ? "others" : section);
+    text += fmt::format("  {:<12}", section);
     const char* separator = " ";
-    for (const auto& [type, number] : types) {
-      text += fmt::format("{}{} {}", separator, number, type);
+    for (const auto& [type, names] : types) {
+      text += fmt::format("{}{} {}", separator, names.size(), type);
       separator = ", ";
     }
     text += "\n";

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/solvers/redundancy.hpp"
+
 namespace bielle::mechanism {
 namespace {
 
@@ -153,6 +155,7 @@ void make_accelerations_consistent(const System& system, const Environment& envi
 StartReport make_consistent(const System& system, const Environment& environment, State& state) {
   StartReport report;
   assemble_positions(system, environment, state, report);
+  check_set_aside(system, environment, state);
   make_velocities_consistent(system, environment, state, report);
   make_accelerations_consistent(system, environment, state);
   return report;

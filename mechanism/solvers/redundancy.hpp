@@ -15,4 +15,10 @@ namespace bielle::mechanism {
 /// Multipliers whose constraint depends on earlier ones at this state, ascending.
 std::vector<int> find_redundant(const System& system, const Environment& environment, const State& state);
 
+/// Checks that constraints set aside hold all the same.
+/// @throws ComputationError naming one that does not: it contradicts the others (a drive on a joint that cannot move),
+/// or
+///         is no longer redundant in this position
+void check_set_aside(const System& system, const Environment& environment, const State& state);
+
 }  // namespace bielle::mechanism

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/solvers/redundancy.hpp"
+
 namespace bielle::mechanism {
 namespace {
 
@@ -53,6 +55,7 @@ void solve_statics(const System& system, const Environment& environment, int ste
             increment * 2, convergence.worst()));
       continue;
     }
+    check_set_aside(system, loaded, state);
     factor = target > 1 - 1e-12 ? 1 : target;
     system.accept(state, loaded);
     if (record) record(state, factor, iterations);

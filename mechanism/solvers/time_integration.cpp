@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/solvers/redundancy.hpp"
+
 namespace bielle::mechanism {
 
 Scheme Scheme::generalized_alpha(double rho) {
@@ -149,6 +151,7 @@ StepReport TimeIntegration::step(double h) {
     next_.multiplier += delta_.tail(m);
   }
   report.worst_ratio = convergence_.worst_ratio();
+  check_set_aside(system_, environment_, next_);
 
   A_ = ((1 - alpha_f) * a_new_ + alpha_f * a_ - alpha_m * A_) / (1 - alpha_m);
   Y_ = ((1 - alpha_f) * next_.first_order_rate + alpha_f * state_.first_order_rate - alpha_m * Y_) / (1 - alpha_m);

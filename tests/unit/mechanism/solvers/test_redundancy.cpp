@@ -60,3 +60,16 @@ TEST_CASE("with the redundant constraints set aside the four-bar moves on its ci
   system.residual(integration.state(), file.model.environment, r);
   CHECK(r.tail(system.multipliers()).cwiseAbs().maxCoeff() < 1e-12);
 }
+
+TEST_CASE("a drive on what joints hold already is named when it wants to move it") {
+  const std::string text = std::string(four_bar) + R"yaml(
+drives: {motor: {joint: a, angle: "t"}, second: {joint: d, angle: "0.5*t"}}
+)yaml";
+  const MechanismFile file = read_mechanism_text(text, "four_bar.yaml");
+  System system(file.model);
+  State start = system.start(0);
+  system.set_aside(find_redundant(system, file.model.environment, start));
+  REQUIRE(system.set_aside().size() == 4);
+  TimeIntegration integration(system, file.model.environment, Scheme::generalized_alpha(0.8), start);
+  CHECK_THROWS_WITH(integration.step(0.01), Catch::Contains("drive 'second'") && Catch::Contains("contradicts"));
+}

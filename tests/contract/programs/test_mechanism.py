@@ -1,0 +1,160 @@
+"""The contract of bielle-mechanism: messages, exit statuses, and what a failed run leaves behind."""
+
+import os
+import signal
+import subprocess
+import time
+import unittest
+
+import h5py
+
+from command import PROGRAMS, CommandTest
+
+PENDULUM = """\
+mechanism: pendulum
+gravity: [0, 0, -9.81]
+parameters: {length: 0.5}
+nodes:
+  bob: {position: ["length", 0, 0]}
+elements:
+  bob: {type: rigid_body, node: bob, mass: 1, inertia: [1e-3, 1e-3, 1e-3]}
+joints:
+  pivot: {type: hinge, nodes: [ground, bob], axis: [0, 1, 0], position: [0, 0, 0]}
+analysis:
+  - {type: dynamic, duration: 0.1, step: 1e-3}
+"""
+
+
+class Mechanism(CommandTest):
+    program = "bielle-mechanism"
+
+    def refuse(self, old, new, *says, status=1):
+        self.assertIn(old, PENDULUM)
+        self.write("model.yaml", PENDULUM.replace(old, new))
+        return self.expect_refusal(status, "model.yaml", says=says)
+
+    def test_a_good_model_runs_and_is_summarised(self):
+        self.write("model.yaml", PENDULUM)
+        done = self.run_program("model.yaml")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("100 steps", done.stdout)
+        with h5py.File(os.path.join(self.folder, "model.h5")) as results:
+            self.assertEqual(results.attrs["complete"], 1)
+            self.assertEqual(results["time"].shape, (101,))
+            self.assertEqual(results["time"].attrs["units"], "s")
+            self.assertEqual(results["nodes/bob/position"].shape, (101, 3))
+            self.assertIn("mechanism: pendulum", results["input"][()].decode())
+
+    def test_quiet_says_nothing(self):
+        self.write("model.yaml", PENDULUM)
+        done = self.run_program("model.yaml", "--quiet")
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+
+    def test_help_and_version(self):
+        for option in ("--help", "--version"):
+            done = self.run_program(option)
+            self.assertEqual(done.returncode, 0)
+            self.assertTrue(done.stdout.strip())
+
+    def test_unknown_option(self):
+        self.expect_refusal(1, "model.yaml", "--quite", says=["--quite", "--quiet"])
+
+    def test_missing_file(self):
+        self.expect_refusal(1, "nowhere.yaml", says=["nowhere.yaml"])
+
+    def test_unknown_section(self):
+        self.refuse("joints:", "joint:", "model.yaml:8", "'joint'", "did you mean 'joints'")
+
+    def test_unknown_key(self):
+        self.refuse("mass: 1,", "mas: 1,", "model.yaml:7", "elements.bob", "'mas'", "did you mean 'mass'")
+
+    def test_unknown_type(self):
+        self.refuse("type: hinge", "type: hinje", "model.yaml:9", "did you mean 'hinge'")
+
+    def test_joint_on_a_node_that_does_not_exist(self):
+        self.refuse("nodes: [ground, bob]", "nodes: [ground, bop]", "model.yaml:9", "joints.pivot.nodes", "'bop'",
+                    "did you mean 'bob'")
+
+    def test_missing_key(self):
+        self.refuse("axis: [0, 1, 0], ", "", "model.yaml:9", "axis")
+
+    def test_a_number_out_of_range(self):
+        self.refuse("mass: 1,", "mass: -1,", "model.yaml:7", "mass", "-1")
+        self.refuse("step: 1e-3", "step: 0", "model.yaml:11", "step")
+        self.refuse("step: 1e-3", "step: 1e-3, rho: 1.5", "model.yaml:11", "rho", "1.5")
+
+    def test_an_inertia_that_no_body_has(self):
+        self.refuse("inertia: [1e-3, 1e-3, 1e-3]", "inertia: [1e-3, 1e-3, 5e-3]", "model.yaml:7", "inertia")
+
+    def test_broken_formula(self):
+        self.refuse('"length"', '"lenght"', "model.yaml:5", "lenght")
+
+    def test_broken_yaml(self):
+        self.refuse("nodes:\n", "nodes: {\n", "model.yaml:")
+
+    def test_duplicate_name(self):
+        self.refuse("elements:\n", "elements:\n  bob: {type: point_mass, node: bob, mass: 1}\n", "model.yaml:", "bob")
+
+    def test_settings(self):
+        self.write("model.yaml", PENDULUM)
+        self.expect_refusal(1, "model.yaml", "--set", "lenght=1", says=["lenght", "did you mean 'length'"])
+        self.expect_refusal(1, "model.yaml", "--set", "length", says=["NAME=EXPRESSION"])
+        done = self.run_program("model.yaml", "--set", "length=2*0.35", "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with h5py.File(os.path.join(self.folder, "model.h5")) as results:
+            self.assertAlmostEqual(results["nodes/bob/position"][0, 0], 0.7, places=12)
+
+    def test_an_analysis_of_a_later_version_is_refused_and_says_so(self):
+        self.refuse("type: dynamic", "type: eigen", "model.yaml:11", "eigen", "not in this version")
+
+    def test_check_describes_without_running(self):
+        self.write("model.yaml", PENDULUM)
+        done = self.run_program("model.yaml", "--check")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("1 degrees of freedom", done.stdout)
+        self.assertIn("joint 'pivot' (hinge)", done.stdout)
+        self.assertFalse(os.path.exists(os.path.join(self.folder, "model.h5")))
+
+    def test_a_node_without_mass_is_a_failed_computation(self):
+        self.refuse("nodes:\n", "nodes:\n  lonely: {position: [1, 1, 1]}\n", "lonely", "no mass", status=2)
+
+    def test_superelement_files_that_are_no_good(self):
+        rod = PENDULUM.replace("elements:\n", "elements:\n  rod: {type: superelement, file: rod.h5, nodes: {a: bob}}\n")
+        self.write("model.yaml", rod)
+        self.expect_refusal(1, "model.yaml", says=["rod.h5"])  # missing
+        self.write("rod.h5", "this is no HDF5 file")
+        self.expect_refusal(1, "model.yaml", says=["rod.h5"])
+        path = os.path.join(self.folder, "rod.h5")
+        with h5py.File(path, "w") as file:
+            file.attrs["format"] = "bielle superelement"
+            file.attrs["version"] = 99
+            file.attrs["complete"] = 1
+        self.expect_refusal(1, "model.yaml", says=["rod.h5", "99"])
+
+    def test_a_run_that_fails_leaves_its_steps_readable_and_marked(self):
+        # A force that ends the arithmetic after half of the time.
+        self.write("model.yaml", PENDULUM.replace(
+            "analysis:", 'loads:\n  burst: {node: bob, force: ["1/(0.05-t)^9", 0, 0]}\nanalysis:'))
+        self.expect_refusal(2, "model.yaml", says=["t = "])
+        with h5py.File(os.path.join(self.folder, "model.h5")) as results:
+            self.assertEqual(results.attrs["complete"], 0)
+            rows = results["analysis_1/time"].shape[0]
+            self.assertGreater(rows, 10)
+            self.assertGreaterEqual(results["analysis_1/nodes/bob/position"].shape[0], rows)
+
+    def test_interruption_ends_after_the_step_in_hand(self):
+        self.write("model.yaml", PENDULUM.replace("duration: 0.1", "duration: 1000"))
+        run = subprocess.Popen([os.path.join(PROGRAMS, self.program), "model.yaml"], cwd=self.folder,
+                               stderr=subprocess.PIPE, text=True)
+        time.sleep(1.5)
+        run.send_signal(signal.SIGINT)
+        _, errors = run.communicate(timeout=60)
+        self.assertEqual(run.returncode, 2)
+        self.assertIn("interrupted at t = ", errors)
+        with h5py.File(os.path.join(self.folder, "model.h5")) as results:
+            self.assertEqual(results.attrs["complete"], 0)
+            self.assertGreater(results["analysis_1/time"].shape[0], 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
