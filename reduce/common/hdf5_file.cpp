@@ -530,6 +530,7 @@ void Hdf5File::create_rows(const std::string& dataset, const Shape& row_shape, c
   H5Pset_chunk(creation, static_cast<int>(chunk.size()), chunk.data());
   // Without a chunk cache rows go to the file as they are written: a flush has nothing but the index to write.
   H5Pset_chunk_cache(access, 0, 0, 1);
+  H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);
   handle_->make_groups_above(dataset);
   Id made(H5Dcreate2(handle_->file, dataset.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, creation, access), H5Dclose);
   if (!made.valid()) handle_->fail(dataset, "cannot be made; is there one of that name already?");
@@ -575,6 +576,8 @@ void Hdf5File::link(const std::string& target, const std::string& name) {
   handle_->checked(H5Lcreate_soft(target.c_str(), handle_->file, name.c_str(), H5P_DEFAULT, H5P_DEFAULT), name,
                    "the link cannot be made");
 }
+
+void Hdf5File::make_group(const std::string& group) { handle_->make_groups_above(group + "/"); }
 
 void Hdf5File::remove(const std::string& object) {
   handle_->growing.erase(object);

@@ -54,7 +54,8 @@ class Hdf5File {
   void write_text(const std::string& dataset, const std::string& text);
   void write_names(const std::string& dataset, const std::vector<std::string>& names);  ///< variable-length UTF-8
 
-  void remove(const std::string& object);  ///< takes a dataset, group or link out of the file
+  void make_group(const std::string& group);  ///< and those above it; nothing happens when it exists
+  void remove(const std::string& object);     ///< takes a dataset, group or link out of the file
 
   bool has(const std::string& object) const;
   std::vector<std::string> names_in(const std::string& group) const;  ///< of its groups and datasets, in file order
@@ -69,8 +70,12 @@ class Hdf5File {
   std::vector<std::string> read_names(const std::string& dataset) const;
 
   // -- datasets that grow row by row (results)
-  /// A dataset of shape (0, row_shape...) to be extended along its first index.
-  /// @param rows_per_chunk  rows that are stored together: the file grows by so many
+  /// A dataset of shape (0, row_shape...) to be extended along its first index. Rows go to the file as they are
+  /// appended; a flush then makes them count.
+  /// @param rows_per_chunk  rows that are stored together: the file grows by so many. Growth changes several places of
+  ///        the file; a writer that is killed between them, within some 0.1 ms, leaves a dataset whose newest chunk
+  ///        cannot be read. Where rows must survive, let chunks be large: what is not filled takes no space on the
+  ///        disk.
   void create_rows(const std::string& dataset, const Shape& row_shape, const std::string& units,
                    const std::string& description = "", std::size_t rows_per_chunk = 256);
   /// Appends `rows` rows; `values` holds them one after the other.

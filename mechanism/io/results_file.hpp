@@ -1,0 +1,68 @@
+// Streams a run to its HDF5 results file. The format is described in mechanism/io/README.md.
+//
+// Rows are collected in memory and written in blocks, `/time` last: whatever happens to the program, the file is
+// readable and every row that its `/time` counts is whole. A thread writes what has been waiting for 0.2 s, so that
+// completed steps reach the file in time also while the next one is slow.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mechanism/system/component.hpp"
+#include "mechanism/system/state.hpp"
+
+namespace bielle {
+class Hdf5File;
+}
+
+namespace bielle::mechanism {
+
+class Model;
+
+/// What a step has to report beside the state.
+struct StepRecord {
+  Energy energy;              ///< stored energies now; dissipation and input are integrals over the analysis [J]
+  double balance = 0;         ///< what is missing in the balance of energy [J]
+  double step = 0;            ///< size of the step [s]
+  int newton_iterations = 0;  ///< of the step
+  double error_estimate = 0;  ///< of the step, relative to the tolerance; 0 when the step is fixed
+};
+
+class ResultsFile {
+ public:
+  /// Replaces an existing file. The model must outlive this object.
+  /// @param input_text  text of the mechanism file
+  /// @throws ComputationError when the file cannot be created
+  ResultsFile(const std::string& path, const Model& model, const std::string& input_text);
+  ~ResultsFile();  ///< writes the rows that wait; the file stays `complete = false` unless complete() was called
+  ResultsFile(const ResultsFile&) = delete;
+  ResultsFile& operator=(const ResultsFile&) = delete;
+
+  /// Opens the group /analysis_1, /analysis_2, ...
+  /// @param type  as in the input file: "dynamic"
+  /// @param expected_rows  how many rows will follow, 0 when unknown. A good guess lets each dataset be stored in one
+  ///        piece, so that no moment is a bad one to be killed in (see Hdf5File::create_rows).
+  void begin_analysis(const std::string& type, std::size_t expected_rows = 0);
+
+  /// Adds a row. No memory is allocated but for the first row of an analysis.
+  /// @param slots  of the model's members, in their order
+  /// @throws ComputationError when this or an earlier row could not be written (a full disk)
+  void record(const State& state, const std::vector<Slots>& slots, const Environment& environment,
+              const StepRecord& step);
+
+  /// Writes the rows that wait and links the analysis's groups from the root.
+  void end_analysis();
+  void complete();  ///< marks the file `complete = true` and closes it
+
+  /// For results that are no rows over time (eigenmodes): the file, free to be written between begin_analysis and
+  /// end_analysis while no row is waiting, and the path of the running analysis's group.
+  Hdf5File& file();
+  std::string analysis_group() const;
+
+ private:
+  struct Stream;
+  std::unique_ptr<Stream> stream_;
+};
+
+}  // namespace bielle::mechanism

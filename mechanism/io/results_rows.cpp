@@ -1,0 +1,170 @@
+#include "mechanism/io/results_rows.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "mechanism/math/so3.hpp"
+
+namespace bielle::mechanism {
+
+namespace {
+
+std::size_t count_of(const std::vector<std::size_t>& shape) {
+  return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
+}
+
+void copy(const double* values, std::size_t count, double* to) { std::copy(values, values + count, to); }
+
+bool alike(const std::vector<OutputField>& a, const std::vector<OutputField>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const OutputField& x, const OutputField& y) { return x.name == y.name && x.shape == y.shape; });
+}
+
+}  // namespace
+
+ResultsRows::ResultsRows(const Model& model) : model_(model) {
+  add_nodes();
+  add_chains();
+  add_members();
+  energy_ = size_;
+  for (const char* name : {"kinetic", "elastic", "gravity"}) add_column(std::string("energy/") + name, {}, "J", "");
+  add_column("energy/dissipated", {}, "J", "since the start of the analysis");
+  add_column("energy/input", {}, "J", "of drives and loads, since the start of the analysis");
+  add_column("energy/balance", {}, "J", "what is missing: stored - stored at the start - input + dissipated");
+  solver_ = size_;
+  add_column("solver/step", {}, "s", "");
+  add_column("solver/newton_iterations", {}, "-", "");
+  add_column("solver/error_estimate", {}, "-", "relative to the tolerance; 0 when the step is fixed");
+  quaternions_.resize(nodes_.size());
+}
+
+std::size_t ResultsRows::add_column(const std::string& dataset, std::vector<std::size_t> shape,
+                                    const std::string& units, const std::string& description) {
+  for (const ResultsColumn& column : columns_)
+    if (column.dataset == dataset) throw std::logic_error("two components record the results '" + dataset + "'");
+  const std::size_t begin = size_, size = count_of(shape);
+  columns_.push_back({dataset, std::move(shape), units, description, begin, size});
+  size_ += size;
+  return begin;
+}
+
+void ResultsRows::add_attributes(const std::string& group,
+                                 const std::vector<std::pair<std::string, std::string>>& attributes) {
+  auto found = std::find_if(groups_.begin(), groups_.end(), [&](const ResultsGroup& g) { return g.name == group; });
+  if (found == groups_.end()) found = groups_.insert(groups_.end(), {group, {}});
+  for (const auto& [name, value] : attributes) {
+    const auto same = [&, key = name](const auto& attribute) { return attribute.first == key; };
+    if (std::none_of(found->attributes.begin(), found->attributes.end(), same))
+      found->attributes.emplace_back(name, value);
+  }
+}
+
+void ResultsRows::add_nodes() {
+  constexpr int ground = 0;  // stands at the origin for ever
+  for (int k = ground + 1; k < static_cast<int>(model_.nodes().size()); ++k) {
+    const Node& node = model_.node(k);
+    if (node.internal) continue;
+    const std::string group = "nodes/" + node.name;
+    NodePlace place{k, 0, 0, nodes_.size(), true};
+    place.position = add_column(group + "/position", {3}, "m", "inertial");
+    place.rotation = add_column(group + "/rotation", {4}, "-", "unit quaternion w x y z: node axes -> inertial axes");
+    add_column(group + "/velocity", {6}, "m/s, rad/s", "inertial translation; rotation in the node's axes");
+    add_column(group + "/acceleration", {6}, "m/s^2, rad/s^2", "inertial translation; rotation in the node's axes");
+    nodes_.push_back(place);
+    add_attributes(group, {});
+    if (node.carrier) add_attributes(group, {{"carrier", model_.node(*node.carrier).name}});
+  }
+}
+
+void ResultsRows::add_chains() {
+  for (const Chain& chain : model_.chains()) {
+    const std::size_t count = chain.nodes.size();
+    const std::size_t positions = add_column(chain.group + "/position", {count, 3}, "m", "inertial");
+    const std::size_t rotations =
+        add_column(chain.group + "/rotation", {count, 4}, "-", "unit quaternions w x y z: node axes -> inertial axes");
+    for (std::size_t k = 0; k < count; ++k)
+      nodes_.push_back({chain.nodes[k], positions + 3 * k, rotations + 4 * k, nodes_.size(), false});
+  }
+}
+
+void ResultsRows::add_members() {
+  std::vector<bool> placed(model_.members().size(), false);
+  std::size_t largest = 0;
+  for (std::size_t first = 0; first < placed.size(); ++first) {
+    const Member& member = model_.members()[first];
+    if (placed[first] || member.group.empty()) continue;
+    // A component alone, or all the stacked ones of its group.
+    std::vector<std::size_t> alike_members = {first};
+    const std::vector<OutputField> fields = member.component->output_fields();
+    for (std::size_t k = first + 1; member.stacked && k < placed.size(); ++k) {
+      const Member& other = model_.members()[k];
+      if (!other.stacked || other.group != member.group) continue;
+      if (!alike(other.component->output_fields(), fields))
+        throw std::logic_error("the stacked components of '" + member.group + "' record different results");
+      alike_members.push_back(k);
+    }
+    std::vector<std::size_t> begins;
+    for (const OutputField& field : fields) {
+      std::vector<std::size_t> shape = field.shape;
+      if (member.stacked) shape.insert(shape.begin(), alike_members.size());
+      begins.push_back(add_column(member.group + "/" + field.name, std::move(shape), field.units, field.description));
+    }
+    for (std::size_t row = 0; row < alike_members.size(); ++row) {
+      MemberPlace place{alike_members[row], {}};
+      std::size_t total = 0;
+      for (std::size_t f = 0; f < fields.size(); ++f) {
+        place.fields.push_back({begins[f] + row * fields[f].size(), fields[f].size()});
+        total += fields[f].size();
+      }
+      largest = std::max(largest, total);
+      placed[place.member] = true;
+      members_.push_back(std::move(place));
+    }
+    add_attributes(member.group, {{"type", member.component->type()}});
+    add_attributes(member.group, member.component->attributes());
+  }
+  output_.resize(largest);
+}
+
+void ResultsRows::fill(const State& state, const std::vector<Slots>& slots, const Environment& environment,
+                       const StepRecord& step, double* values) {
+  for (const NodePlace& place : nodes_) fill_node(place, state.nodes[static_cast<std::size_t>(place.node)], values);
+  quaternions_known_ = true;
+  for (const MemberPlace& place : members_) {
+    if (place.fields.empty()) continue;
+    const LocalState local(state, slots[place.member], environment);
+    model_.members()[place.member].component->write_output(local, output_.data());
+    const double* from = output_.data();
+    for (const FieldPlace& field : place.fields) {
+      copy(from, field.size, values + field.begin);
+      from += field.size;
+    }
+  }
+  const Energy& energy = step.energy;
+  const double energies[] = {energy.kinetic,     energy.elastic, energy.gravity,
+                             energy.dissipation, energy.input,   step.balance};
+  copy(energies, 6, values + energy_);
+  const double solver[] = {step.step, static_cast<double>(step.newton_iterations), step.error_estimate};
+  copy(solver, 3, values + solver_);
+}
+
+void ResultsRows::fill_node(const NodePlace& place, const NodeState& node, double* values) {
+  Eigen::Vector4d& before = quaternions_[place.quaternion];
+  Eigen::Vector4d quaternion = quaternion_of(node.R);
+  if (quaternions_known_ && before.dot(quaternion) < 0) quaternion = -quaternion;
+  before = quaternion;
+  copy(node.x.data(), 3, values + place.position);
+  copy(quaternion.data(), 4, values + place.rotation);
+  if (!place.rates) return;
+  double* rates = values + place.rotation + 4;
+  copy(node.v.data(), 3, rates);
+  copy(node.Omega.data(), 3, rates + 3);
+  copy(node.a.data(), 3, rates + 6);
+  copy(node.Omegadot.data(), 3, rates + 9);
+}
+
+}  // namespace bielle::mechanism
