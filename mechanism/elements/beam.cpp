@@ -65,7 +65,8 @@ void read_beam(const std::string& name, const YamlValue& entry, Model& model) {
   const double turn = std::hypot(line.angle(), total_twist) / count;
   if (turn > BeamElement::largest_turn)
     entry.fail(
-        fmt::format("each of {} elements would turn by {:.0f} degrees, and none can follow 180: give more `elements`",
+        fmt::format("with its arc and twist each of {} elements would turn by {:.0f} degrees, and none can follow 180: "
+                    "give more `elements`",
                     count, turn * 180 / std::numbers::pi));
 
   const std::vector<int> nodes = make_nodes(name, ends, sections, model);

@@ -197,6 +197,7 @@ void read_spring_damper(const std::string& name, const YamlValue& entry, Model& 
   entry.check_keys({"type", "nodes", "at", "stiffness", "damping", "length", "force"}, "a spring_damper");
   const YamlValue node_names = entry.at("nodes");
   const std::vector<int> nodes = model.nodes_named_by(node_names, 2);
+  if (nodes[0] == nodes[1]) node_names.fail("a spring_damper joins two different nodes");
   Vector3 at_a = Vector3::Zero(), at_b = Vector3::Zero();
   if (const auto at = entry.find("at")) {
     if (!at->is_sequence() || at->size() != 2) at->fail("expected two points, one in the axes of each node");
@@ -210,7 +211,6 @@ void read_spring_damper(const std::string& name, const YamlValue& entry, Model& 
   TensionLaw law = read_law(entry);
   if (placed == 0 && !(law.is_linear() && free_length == 0 && law.damping() == 0))
     node_names.fail("the attachment points coincide: the spring_damper has no direction");
-  if (nodes[0] == nodes[1]) node_names.fail("a spring_damper joins two different nodes");
   model.add(std::make_unique<SpringDamper>(name, nodes[0], nodes[1], at_a, at_b, free_length, std::move(law)),
             "elements/" + name);
 }

@@ -1,0 +1,14 @@
+#include "tests/laws/sample.hpp"
+
+namespace bielle::laws {
+
+const std::vector<Sample>& samples() {
+  static const std::vector<Sample> all = [] {
+    std::vector<Sample> list = element_samples();
+    for (Sample& sample : joint_samples()) list.push_back(std::move(sample));
+    return list;
+  }();
+  return all;
+}
+
+}  // namespace bielle::laws

@@ -1,0 +1,215 @@
+// Samples of elements and loads.
+#include "tests/laws/sample.hpp"
+
+namespace bielle::laws {
+namespace {
+
+using mechanism::Section;
+
+const std::string two_nodes = R"yaml(
+gravity: [1, -2, 3]
+nodes:
+  a: {position: [0.3, 0.1, -0.2], rotation_vector: [0.3, -0.5, 0.8]}
+  b: {position: [1.1, 0.5, 0.4], rotation_vector: [-0.7, 0.2, 0.4]}
+)yaml";
+
+Sample rigid_body() {
+  return {Section::elements,
+          "rigid_body",
+          "",
+          two_nodes + R"yaml(
+elements:
+  it: {type: rigid_body, node: a, mass: 2, centre: [0.2, -0.3, 0.5], inertia: [1, 1.5, 2, 0.1, -0.2, 0.3], also: [b]}
+)yaml",
+          {{"mass", "0", "greater than 0"},
+           {"mass", "", ""},
+           {"node", "c", "no node 'c'"},
+           {"centre", "[1, 2]", ""},
+           {"inertia", "[1, 1, 3]", "exceeds the sum"},
+           {"inertia", "[-1, 1, 1]", "positive definite"},
+           {"inertia", "", ""},
+           {"also", "[a]", "own node"}}};
+}
+
+Sample solid_body() {
+  return {Section::elements,
+          "rigid_body",
+          "solid",
+          two_nodes + R"yaml(
+elements:
+  it: {type: rigid_body, node: a, solid: {box: [1, 2, 0.5], density: 2}, centre: [0.1, 0, 0]}
+)yaml",
+          {{"solid.density", "-1", "greater than 0"},
+           {"solid.box", "[1, 2, 0]", "greater than 0"},
+           {"centre", "x", ""},
+           {"node", "", ""}}};
+}
+
+Sample point_mass() {
+  return {Section::elements,
+          "point_mass",
+          "",
+          two_nodes + R"yaml(
+elements:
+  it: {type: point_mass, node: b, mass: 2}
+)yaml",
+          {{"mass", "-2", "greater than 0"}, {"node", "c", "no node 'c'"}}};
+}
+
+const std::vector<BadValue> bad_beam = {{"nodes", "[a, a]", "two different nodes"},
+                                        {"nodes", "[a]", "2 node names"},
+                                        {"elements", "0", "at least one"},
+                                        {"elements", "1.5", ""},
+                                        {"orientation", "[0.8, 0.4, 0.6]", "parallel"},
+                                        {"twist", "100", "more `elements`"},
+                                        {"damping", "-0.1", "at least 0"},
+                                        {"bending", "stiff", "'residual'"},
+                                        {"section", "", ""}};
+
+Sample beam() {
+  std::vector<BadValue> bad = bad_beam;
+  bad.insert(bad.end(), {{"section.rectangle", "[1, 0]", "greater than 0"},
+                         {"section.young", "0", "greater than 0"},
+                         {"section.poisson", "0.7", "(-1, 0.5]"},
+                         {"section.density", "-1", "at least 0"},
+                         {"section.offset", "[1, 2, 3]", "[y, z]"},
+                         {"section.shear_factors", "[0, 1]", "greater than 0"}});
+  return {Section::elements, "beam", "offset section, damped", two_nodes + R"yaml(
+elements:
+  it:
+    type: beam
+    nodes: [a, b]
+    elements: 2
+    orientation: [0, 0, 1]
+    twist: 0.3
+    damping: 0.2
+    bending: residual
+    section: {rectangle: [1.1, 0.8], young: 2, poisson: 0.2, density: 1.5, offset: [0.1, -0.2], shear_factors: [0.8, 0.7]}
+)yaml",
+          bad};
+}
+
+Sample curved_beam() {
+  return {Section::elements,
+          "beam",
+          "arc, coupled section",
+          two_nodes + R"yaml(
+elements:
+  it:
+    type: beam
+    nodes: [a, b]
+    elements: 1
+    arc_through: [0.7, 0.5, 0.3]
+    bending: constant
+    section:
+      stiffness: [[3, .1, .2, .3, -.2, .1], [.1, 2, .1, -.2, .3, .2], [.2, .1, 2, .1, .1, .4], [.3, -.2, .1, 1, .1, .2], [-.2, .3, .1, .1, 1.5, -.1], [.1, .2, .4, .2, -.1, 2]]
+      mass: [[2, 0, 0, 0, 0.4, -0.2], [0, 2, 0, -0.4, 0, 0], [0, 0, 2, 0.2, 0, 0], [0, -0.4, 0.2, 1, 0, 0], [0.4, 0, 0, 0, 0.8, 0.1], [-0.2, 0, 0, 0, 0.1, 0.6]]
+)yaml",
+          {{"nodes", "[a, c]", "no node 'c'"},
+           {"elements", "-1", "at least one"},
+           {"arc_through", "[0.7, 0.3, 0.1]", "one line"},
+           {"bending", "none", "'constant'"},
+           {"section.stiffness", "[[1, 2], [2, 1]]", ""},
+           {"section.mass", "[[1]]", ""}}};
+}
+
+Sample tapered_beam() {
+  return {Section::elements,
+          "beam",
+          "massless, tapered, about a centre",
+          R"yaml(
+nodes:
+  a: {position: [1, 0, 0], rotation_vector: [0.3, -0.5, 0.8]}
+  b: {position: [0, 0.6, 0.8], rotation_vector: [-0.7, 0.2, 0.4]}
+elements:
+  it:
+    type: beam
+    nodes: [a, b]
+    elements: 2
+    arc_centre: [0, 0, 0]
+    section:
+      - {EA: 4, GAy: 2, GAz: 3, GJ: 1, EIy: 2, EIz: 1}
+      - {EA: 3, GAy: 1, GAz: 2, GJ: 2, EIy: 1, EIz: 1}
+)yaml",
+          {{"nodes", "[a, 3]", "no node '3'"},
+           {"elements", "x", ""},
+           {"arc_centre", "[0, 0, 0.1]", "not at one distance"},
+           {"section", "[{circle: 1, young: 1, shear: 1}]", "pair"}}};
+}
+
+Sample spring() {
+  return {Section::elements,
+          "spring_damper",
+          "",
+          two_nodes + R"yaml(
+elements:
+  it: {type: spring_damper, nodes: [a, b], at: [[0.2, 0.1, -0.3], [0.1, 0.3, 0.2]], stiffness: 3, damping: 0.7, length: 0.6}
+)yaml",
+          {{"nodes", "[a, a]", "two different nodes"},
+           {"at", "[[0, 0, 0]]", "two points"},
+           {"stiffness", "-1", "at least 0"},
+           {"damping", "-1", "at least 0"},
+           {"length", "-1", "at least 0"}}};
+}
+
+Sample spring_by_formula() {
+  return {Section::elements,
+          "spring_damper",
+          "formula",
+          two_nodes + R"yaml(
+elements:
+  it: {type: spring_damper, nodes: [a, b], at: [[0.2, 0.1, -0.3], [0, 0, 0]], force: "2*e + e^3 + 0.4*v + 0.1*v^3"}
+)yaml",
+          {{"nodes", "b", ""}, {"at", "[1, 2]", ""}, {"force", "2*x", "x"}, {"force", "2*(e", ""}}};
+}
+
+Sample timed_spring() {
+  return {Section::elements,
+          "spring_damper",
+          "formula of time",
+          two_nodes + R"yaml(
+elements:
+  it: {type: spring_damper, nodes: [a, b], force: "2*e*cos(t) + 0.4*v*e + sin(3*t)"}
+)yaml",
+          {{"nodes", "[b, b]", "two different nodes"}, {"force", "sin(", ""}}};
+}
+
+Sample dead_load() {
+  Sample sample{Section::loads,
+                "load",
+                "dead",
+                two_nodes + R"yaml(
+loads:
+  it: {node: a, force: ["1 + t", 2, "cos(t)"], moment: [0.3, "t", 1], at: [0.2, 0.1, -0.3]}
+)yaml",
+                {{"node", "c", "no node 'c'"},
+                 {"force", "[1, 2]", "three components"},
+                 {"moment", "['x', 1, 2]", "x"},
+                 {"at", "[1]", ""}}};
+  sample.inertial = true;
+  return sample;
+}
+
+Sample follower_load() {
+  return {Section::loads,
+          "load",
+          "follower",
+          two_nodes + R"yaml(
+loads:
+  it: {node: a, force: ["1 + t", 2, "cos(t)"], moment: [0.3, "t", 1], at: [0.2, 0.1, -0.3], follower: true}
+)yaml",
+          {{"node", "", ""},
+           {"force", "1", "three components"},
+           {"moment", "[]", ""},
+           {"at", "a", ""},
+           {"follower", "maybe", ""}}};
+}
+
+}  // namespace
+
+std::vector<Sample> element_samples() {
+  return {rigid_body(), solid_body(),        point_mass(),   beam(),      curved_beam(),  tapered_beam(),
+          spring(),     spring_by_formula(), timed_spring(), dead_load(), follower_load()};
+}
+
+}  // namespace bielle::laws

@@ -1,0 +1,51 @@
+// A sample brought to life: its model, the component under test alone, and states to test it in.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mechanism/io/mechanism_file.hpp"
+#include "tests/laws/sample.hpp"
+#include "tests/support/dense_model.hpp"
+#include "tests/support/random.hpp"
+
+namespace bielle::laws {
+
+using mechanism::MatrixX;
+using mechanism::State;
+using mechanism::VectorX;
+using test::DenseModel;
+
+/// Reads a sample's model. @param text  in place of the sample's own
+/// @throws what the readers throw
+std::unique_ptr<mechanism::MechanismFile> read_sample(const Sample& sample, const std::string& text);
+
+/// One component named `it`, alone with a state of its own. (A beam has several.)
+struct Subject {
+  std::shared_ptr<mechanism::MechanismFile> file;
+  std::unique_ptr<DenseModel> dense;
+  Scales scales;
+
+  /// What one unit of each unknown (or of its rate) is in SI.
+  VectorX position_units() const;
+  VectorX rate_units() const;
+  /// Random states: everything moved by `size` times the scales; with size = 1 also the whole model somewhere in space.
+  State random_state(double size, unsigned seed) const;
+};
+
+std::vector<Subject> subjects(const Sample& sample);
+
+/// The states of the laws: the reference, 1e-8 around it, and anywhere.
+struct NamedState {
+  std::string name;
+  State state;
+};
+std::vector<NamedState> law_states(const Subject& subject);
+
+/// The state seen after a rotation Q and a translation of the whole model (the environment's gravity is the caller's).
+State moved_rigidly(const State& state, const mechanism::Matrix3& Q, const mechanism::Vector3& translation);
+
+std::string title(const Sample& sample);  ///< "beam (arc, coupled section)"
+
+}  // namespace bielle::laws
