@@ -1,5 +1,7 @@
 // Samples of elements and loads.
+#include "reduce/superelement/superelement.hpp"
 #include "tests/laws/sample.hpp"
+#include "tests/support/beam_superelement.hpp"
 
 namespace bielle::laws {
 namespace {
@@ -174,6 +176,51 @@ elements:
           {{"nodes", "[b, b]", "two different nodes"}, {"force", "sin(", ""}}};
 }
 
+/// A bent body with three interfaces, load patterns, damping and prestress; nodes stand as meshed. Small local
+/// displacements are its premise.
+Sample superelement(const std::string& loads) {
+  Sample sample{Section::elements,
+                "superelement",
+                "",
+                R"yaml(
+gravity: [1, -2, 3]
+nodes:
+  tip: {position: [0.3, -0.1, 0], rotation_vector: [0.3, -0.5, 0.8]}
+elements:
+  it:
+    type: superelement
+    file: body.h5
+    nodes: {a: tip}
+    damping: {rayleigh: [0.1, 0.02]}
+    loads: )yaml" + loads +
+                    "\n",
+                {{"file", "other.h5", "other.h5"},
+                 {"nodes", "{a: c}", "no node 'c'"},
+                 {"nodes", "{z: tip}", "no interface"},
+                 {"nodes.a", "ground", "m away"},
+                 {"damping", "{ratio: -1}", "at least 0"},
+                 {"damping.rayleigh", "[0.1]", "[alpha, beta]"},
+                 {"loads", "{pull: 1}", "no load pattern"},
+                 {"loads.push", "'x*t'", "x"}}};
+  sample.scales.deformation = 0.1;
+  sample.scales.amplitude = 0.1;
+  sample.files = [](const std::string& folder) {
+    write_superelement(test::bent_chain().reduced().body, folder + "/body.h5");
+  };
+  return sample;
+}
+
+Sample superelement_with_followers() {
+  return superelement(R"yaml({push: "1 + t", spread: {factor: 2, follower: true}})yaml");
+}
+
+Sample superelement_with_dead_load() {
+  Sample sample = superelement(R"yaml({push: "1 + t", spread: {factor: "cos(t)", follower: false}})yaml");
+  sample.variant = "dead load";
+  sample.inertial = true;
+  return sample;
+}
+
 Sample dead_load() {
   Sample sample{Section::loads,
                 "load",
@@ -208,8 +255,19 @@ loads:
 }  // namespace
 
 std::vector<Sample> element_samples() {
-  return {rigid_body(), solid_body(),        point_mass(),   beam(),      curved_beam(),  tapered_beam(),
-          spring(),     spring_by_formula(), timed_spring(), dead_load(), follower_load()};
+  return {rigid_body(),
+          solid_body(),
+          point_mass(),
+          beam(),
+          curved_beam(),
+          tapered_beam(),
+          spring(),
+          spring_by_formula(),
+          timed_spring(),
+          superelement_with_followers(),
+          superelement_with_dead_load(),
+          dead_load(),
+          follower_load()};
 }
 
 }  // namespace bielle::laws
