@@ -1,0 +1,74 @@
+"""mechanism/examples/slider_crank.yaml: runs, turns as a slider-crank must, and keeps its books.
+
+The rod bends and stretches by well under a tenth of a millimetre or two: rigid kinematics hold within that.
+"""
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+
+REPOSITORY = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", ".."))
+sys.path.insert(0, os.path.join(REPOSITORY, "tools"))
+from bielle_tools.results_file import Results  # noqa: E402
+
+PROGRAM, SUPERELEMENT = os.environ["BIELLE_MECHANISM"], os.environ["BIELLE_CONROD"]
+R, L, SPEED, RUN_UP = 0.05, 0.2, 2 * np.pi * 50, 0.06
+
+
+class SliderCrank(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        shutil.copy(os.path.join(REPOSITORY, "mechanism", "examples", "slider_crank.yaml"), cls.folder.name)
+        os.symlink(SUPERELEMENT, os.path.join(cls.folder.name, "conrod.h5"))
+        target = os.path.join(cls.folder.name, "run.h5")
+        done = subprocess.run([PROGRAM, os.path.join(cls.folder.name, "slider_crank.yaml"), "-o", target, "--quiet"],
+                              capture_output=True, text=True, timeout=600)
+        if done.returncode:
+            raise AssertionError(done.stderr)
+        cls.results = Results(target)
+        cls.time = cls.results.time
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.results.file.close()
+        cls.folder.cleanup()
+
+    def test_motor_reaches_its_speed_and_keeps_it(self):
+        rate = self.results.rows("joints/main/rate")[:, 0]
+        self.assertTrue(bool(self.results.file.attrs["complete"]))
+        s = np.clip(self.time / RUN_UP, 0, 1)
+        np.testing.assert_allclose(rate, SPEED * (10 * s ** 3 - 15 * s ** 4 + 6 * s ** 5), atol=1e-6 * SPEED)
+        # the integral of the smooth step over its own length is half of it
+        angle = self.results.rows("joints/main/coordinate")[-1, 0]
+        self.assertAlmostEqual(angle, SPEED * (self.time[-1] - RUN_UP / 2), delta=1e-3)
+
+    def test_piston_follows_the_slider_crank_formula(self):
+        angle = self.results.rows("joints/main/coordinate")[:, 0]
+        formula = R * np.cos(angle) + np.sqrt(L ** 2 - (R * np.sin(angle)) ** 2)
+        piston = self.results.rows("nodes/piston/position")
+        self.assertLess(np.abs(piston[:, 0] - formula).max(), 3e-4)
+        self.assertLess(np.abs(piston[:, 1:]).max(), 1e-9)
+
+    def test_gas_and_inertia_load_the_wrist_as_a_piston_on_its_own(self):
+        """Along the cylinder: m a = gas + wrist force; the guide's friction-free wall gives nothing along it."""
+        rows = self.time > RUN_UP
+        acceleration = self.results.rows("nodes/piston/acceleration")[rows, 0]
+        t = self.time[rows]
+        s = np.clip((t - RUN_UP) / 0.03, 0, 1)
+        gas = -40e5 * np.pi * 0.04 ** 2 * (10 * s ** 3 - 15 * s ** 4 + 6 * s ** 5) * np.cos(SPEED * (t - RUN_UP / 2) / 2) ** 40
+        wrist = self.results.rows("joints/wrist/reaction_inertial")[rows, 0]
+        np.testing.assert_allclose(wrist, 0.5 * acceleration - gas, atol=1e-6 * np.abs(gas).max())
+
+    def test_energy_balance_closes(self):
+        stored = self.results.rows("energy/kinetic")
+        self.assertLess(np.abs(self.results.rows("energy/balance")).max(), 5e-3 * stored.max())
+
+
+if __name__ == "__main__":
+    unittest.main()
