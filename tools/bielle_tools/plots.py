@@ -57,21 +57,25 @@ def energy(results: Results, at):
 
 
 def joint_motion(results, at, joints=None):
-    names = [j for j in joints or results.names("joints") if _columns(results, f"joints/{j}/coordinate")]
-    if not names:
+    """A line of panels per joint and kind of coordinate: those of one unit share a panel."""
+    panels = []  # joint, units, columns
+    for joint in joints or results.names("joints"):
+        kinds = {}
+        for k, units in enumerate(column_units(results, f"joints/{joint}/coordinate")):
+            kinds.setdefault(units, []).append(k)
+        panels += [(joint, units, columns) for units, columns in kinds.items()]
+    if not panels:
         return []
-    fig, axes = style.figure(len(names), f"{results.title}: joint coordinates and rates", columns=2, width=11)
-    for name, (left, right) in zip(names, axes):
-        for panel, quantity in ((left, "coordinate"), (right, "rate")):
-            place = f"joints/{name}/{quantity}"
-            if not results.has(place):
-                continue
-            labels = column_names(results, f"joints/{name}", place)
-            for column, text in zip(_columns(results, place), labels):
-                panel.plot(results.time, column, label=text if len(labels) > 1 else None)
-            panel.set_ylabel(style.label(quantity, results.units(place)))
-            panel.set_title(name if quantity == "coordinate" else "")
-            style.legend(panel)
+    fig, axes = style.figure(len(panels), f"{results.title}: joint coordinates and rates", columns=2, width=12)
+    for (joint, units, columns), line in zip(panels, axes):
+        for panel, quantity, unit in zip(line, ("coordinate", "rate"), (units, f"{units}/s")):
+            place = f"joints/{joint}/{quantity}"
+            labels, values = column_names(results, place), _columns(results, place)
+            for k in columns if values else ():
+                panel.plot(results.time, values[k], label=labels[k])
+            panel.set_ylabel(style.label(quantity, unit))
+            panel.set_title(joint)
+        style.legend(line[1])
     for panel in axes[-1]:
         panel.set_xlabel("time [s]")
     return [style.save(fig, at("joints"))]
@@ -192,7 +196,7 @@ def signals(results, at):
             for panel, (quantity, place) in zip(axes[:, 0], places.items()):
                 columns = _columns(results, place)
                 for k, column in enumerate(columns):
-                    panel.plot(results.time, column, label=column_names(results, place, place)[k] if len(columns) > 1 else None)
+                    panel.plot(results.time, column, label=column_names(results, place)[k] if len(columns) > 1 else None)
                 panel.set_ylabel(style.label(quantity, results.units(place)))
                 style.legend(panel)
             axes[-1, 0].set_xlabel("time [s]")
@@ -246,17 +250,18 @@ def frequency_response(results, at):
     return [style.save(fig, at("frequency_response"))]
 
 
-def column_names(results, group, place):
-    """Names of a dataset's columns: from the attribute `names` of the dataset or its group, or 1, 2, ..."""
+def column_names(results, place):
+    """Names of a dataset's columns: its description where it lists as many (`displacement, angle`), or 1, 2, ..."""
     count = len(_columns(results, place))
-    for holder in (results.root[place], results.root[group]):
-        names = holder.attrs.get("names", holder.attrs.get("coordinates", ""))
-        if isinstance(names, (str, bytes)):
-            names = (names.decode() if isinstance(names, bytes) else names).replace(",", " ").split()
-        names = [n.decode() if isinstance(n, bytes) else str(n) for n in names]
-        if len(names) == count:
-            return names
-    return [str(k + 1) for k in range(count)]
+    names = [name.strip() for name in results.text(place, "description").split(",")]
+    return names if len(names) == count else [str(k + 1) for k in range(count)]
+
+
+def column_units(results, place):
+    """Units of a dataset's columns: one for all, or `m, rad` one for each; empty where the dataset is missing."""
+    count = len(_columns(results, place))
+    units = [unit.strip() for unit in results.units(place).split(",")]
+    return units if len(units) == count else [results.units(place)] * count
 
 
 def _columns(results, place):

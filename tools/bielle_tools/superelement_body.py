@@ -80,17 +80,15 @@ def _node_numbers(recovery, name, count, points):
 def find_superelement(results, element, given):
     """Path of the superelement file of an element of the results.
 
-    given: {element: path} from the command line. Otherwise the attribute `file` of the element, looked for beside the
-    model, beside the results and in the current folder.
+    given: {element: path} from the command line. Otherwise the attribute `file` of the element; a file of that name beside
+    the results or in the current folder serves as well, so that results and superelements can be moved together.
     """
     if element in given:
         return given[element]
-    name = results.text(f"elements/{element}", "file")
-    model = results.text("/", "model")
-    folders = [os.path.dirname(model) or ".", os.path.dirname(results.path), "."]
-    for folder in folders:
-        path = os.path.join(folder, name)
+    written = results.text(f"elements/{element}", "file")
+    name = os.path.basename(written)
+    for path in (written, os.path.join(os.path.dirname(results.path), name), name):
         if name and os.path.isfile(path):
             return path
-    raise InputError(f"the superelement file of '{element}' ({name or 'not named in the results'}) was not found; "
+    raise InputError(f"the superelement file of '{element}' ({written or 'not named in the results'}) was not found; "
                      f"say where it is: --superelement {element}=PATH")

@@ -16,7 +16,8 @@ REPOSITORY = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..",
 sys.path.insert(0, os.path.join(REPOSITORY, "tools"))
 from bielle_tools.results_file import Results  # noqa: E402
 
-PROGRAM, SUPERELEMENT = os.environ["BIELLE_MECHANISM"], os.environ["BIELLE_CONROD"]
+PROGRAM = os.path.join(os.environ["BIELLE_PROGRAMS"], "bielle-mechanism")
+SUPERELEMENT = os.environ["BIELLE_CONROD"]
 R, L, SPEED, RUN_UP = 0.05, 0.2, 2 * np.pi * 50, 0.06
 
 

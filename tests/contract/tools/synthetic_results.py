@@ -56,8 +56,10 @@ def write_results(path, superelement, rows=41, complete=True, extra_rows=0):
         put(file, "nodes/hub/position", origin, "m")
         put(file, "nodes/hub/rotation", turn, "")
         put(file, "nodes/hub/velocity", np.column_stack([zero + SPEED, zero, zero, zero, zero, zero + OMEGA]), "")
-        put(file, "joints/main/coordinate", (OMEGA * more)[:, None], "rad")
-        put(file, "joints/main/rate", (OMEGA + zero)[:, None], "rad/s")
+        put(file, "joints/main/coordinate", np.column_stack([SPEED * more, OMEGA * more]), "m, rad")
+        put(file, "joints/main/rate", np.column_stack([zero + SPEED, zero + OMEGA]), "m/s, rad/s")
+        for name in ("coordinate", "rate"):
+            file[f"joints/main/{name}"].attrs["description"] = "displacement, angle"
         put(file, "joints/main/reaction", np.column_stack([zero + 3, zero + 4, zero, zero, zero, np.sin(more)]), "N, N m")
         put(file, "joints/main/reaction_inertial", np.column_stack([zero + 3, zero + 4, zero, zero, zero, zero]), "N, N m")
         file["joints/main"].attrs.update({"first_node": "ground", "second_node": "hub"})
