@@ -11,6 +11,7 @@ from . import plot_style as style
 from .results_file import Results
 from .superelement_body import SuperelementBody, find_superelement
 
+ENERGY_COLOURS = dict(zip(("kinetic", "elastic", "gravity", "dissipated", "input"), style.COLOURS))
 MOST_CURVES = 14  # per panel; more cannot be told apart
 
 
@@ -37,33 +38,49 @@ def draw_all(results, folder, extension="png", nodes=None, joints=None, superele
 
 
 def energy(results: Results, at):
-    if not results.has("energy"):
+    """Stored energies and input; those that the large ones hide, on a scale of their own; what the balance misses."""
+    values = {name: results.rows(f"energy/{name}") for name in ("kinetic", "elastic", "gravity", "dissipated", "input")
+              if results.has(f"energy/{name}")}
+    reach = {name: np.ptp(v) for name, v in values.items()}
+    values = {name: v for name, v in values.items() if np.any(v != 0)}
+    if not values:
         return []
-    fig, axes = style.figure(2, f"{results.title}: energy", gridspec_kw={"height_ratios": [2, 1]})
-    top, bottom = axes[:, 0]
-    for name in ("kinetic", "elastic", "gravity", "dissipated", "input"):
-        if results.has(f"energy/{name}"):
-            values = results.rows(f"energy/{name}")
-            if np.any(values != 0):
-                top.plot(results.time, values, label=name)
-    top.set_ylabel("energy [J]")
-    style.legend(top)
-    if results.has("energy/balance"):
-        bottom.plot(results.time, results.rows("energy/balance"), color="black")
-        bottom.set_ylabel("missing [J]")
-        bottom.set_title("balance: kinetic + elastic + gravity + dissipated - input - start")
-    bottom.set_xlabel("time [s]")
+    small = [name for name in values if reach[name] < 0.03 * max(reach.values())]
+    shown = [("energy [J]", [name for name in values if name not in small]), ("small ones [J]", small)]
+    shown = [(text, names) for text, names in shown if names]
+    balance = results.has("energy/balance")
+    fig, axes = style.figure(len(shown) + balance, f"{results.title}: energy")
+    for panel, (text, names) in zip(axes[:, 0], shown):
+        for name in names:
+            panel.plot(results.time, values[name], label=name, color=ENERGY_COLOURS[name],
+                       linestyle="--" if name == "input" else "-")
+        panel.set_ylabel(text)
+        style.legend(panel)
+    if balance:
+        panel = axes[-1, 0]
+        panel.plot(results.time, results.rows("energy/balance"), color="black")
+        panel.set_ylabel("missing [J]")
+        panel.set_title("balance: stored - stored at the start - input + dissipated (negative: taken by the time integration)")
+    axes[-1, 0].set_xlabel("time [s]")
     return [style.save(fig, at("energy"))]
 
 
 def joint_motion(results, at, joints=None):
-    """A line of panels per joint and kind of coordinate: those of one unit share a panel."""
-    panels = []  # joint, units, columns
+    """A line of panels per joint and kind of coordinate: those of one unit share a panel.
+
+    Unless joints are named, kinds that move less than a millionth of others of that unit are left out.
+    """
+    panels, reach = [], {}  # (joint, units, columns); units -> largest range
     for joint in joints or results.names("joints"):
         kinds = {}
+        values = _columns(results, f"joints/{joint}/coordinate")
         for k, units in enumerate(column_units(results, f"joints/{joint}/coordinate")):
             kinds.setdefault(units, []).append(k)
-        panels += [(joint, units, columns) for units, columns in kinds.items()]
+        for units, columns in kinds.items():
+            moved = max(np.ptp(values[k]) for k in columns)
+            reach[units] = max(reach.get(units, 0), moved)
+            panels.append((joint, units, columns, moved))
+    panels = [(joint, units, columns) for joint, units, columns, moved in panels if joints or moved > 1e-6 * reach[units]]
     if not panels:
         return []
     fig, axes = style.figure(len(panels), f"{results.title}: joint coordinates and rates", columns=2, width=12)
@@ -158,14 +175,14 @@ def beams(results, at):
     written = []
     for name in results.elements_with("position", "rotation", "resultants"):
         values = results.rows(f"elements/{name}/resultants")  # (nt,ne,6): N Qy Qz T My Mz
-        bending = np.linalg.norm(values[:, :, 4:], axis=2)
-        shear = np.linalg.norm(values[:, :, 1:3], axis=2)
+        quantities = {"axial force": values[:, :, 0], "|shear force|": np.linalg.norm(values[:, :, 1:3], axis=2),
+                      "torque": values[:, :, 3], "|bending moment|": np.linalg.norm(values[:, :, 4:], axis=2)}
         fig, axes = style.figure(2, f"{results.title}: beam {name}")
-        for k, text in ((0, "first element"), (-1, "last element")):
-            axes[0, 0].plot(results.time, values[:, k, 0], label=f"axial force, {text}")
-            axes[0, 0].plot(results.time, shear[:, k], label=f"|shear force|, {text}")
-            axes[1, 0].plot(results.time, bending[:, k], label=f"|bending moment|, {text}")
-            axes[1, 0].plot(results.time, values[:, k, 3], label=f"torque, {text}")
+        axes[0, 0].set_title("in the first element; dashed: in the last one")
+        for index, (text, value) in enumerate(quantities.items()):
+            panel = axes[index // 2, 0]
+            panel.plot(results.time, value[:, 0], label=text, color=style.COLOURS[index])
+            panel.plot(results.time, value[:, -1], linestyle="--", color=style.COLOURS[index])
         axes[0, 0].set_ylabel("force [N]")
         axes[1, 0].set_ylabel("moment [N m]")
         axes[1, 0].set_xlabel("time [s]")
@@ -205,7 +222,8 @@ def signals(results, at):
 
 
 def solver(results, at):
-    names = [n for n in ("step", "newton_iterations", "error_estimate") if results.has(f"solver/{n}")]
+    names = [n for n in ("step", "newton_iterations", "error_estimate")
+             if results.has(f"solver/{n}") and np.ptp(results.rows(f"solver/{n}")) > 0]
     if not names:
         return []
     fig, axes = style.figure(len(names), f"{results.title}: solver")

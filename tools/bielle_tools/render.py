@@ -106,7 +106,7 @@ def _view_axes(results, view):
     reach = np.zeros(3)
     paths = [results.rows(f"nodes/{n}/position") for n in results.names("nodes")]
     if paths:
-        reach = np.ptp(np.concatenate(paths), axis=0)
+        reach = np.max([np.ptp(path, axis=0) for path in paths], axis=0)
     towards = np.zeros(3)
     normal = int(np.argmin(reach))
     towards[normal] = -1 if normal == 1 else 1
