@@ -23,7 +23,7 @@ constexpr std::chrono::milliseconds longest_wait{200};
 // Rows are written in blocks of at most so many bytes and rows.
 constexpr std::size_t block_bytes = std::size_t{4} << 20, most_block_rows = 512;
 // The file grows by so many bytes of results, or by less when the number of rows is known.
-constexpr std::size_t known_growth_bytes = std::size_t{64} << 20, unknown_growth_bytes = std::size_t{4} << 20;
+constexpr std::size_t known_growth_bytes = std::size_t{1} << 30, unknown_growth_bytes = std::size_t{4} << 20;
 constexpr std::size_t most_growth_rows = std::size_t{1} << 20, unknown_growth_rows = 8192;
 
 /// Rows of `row_bytes` that fit, at least one.
