@@ -56,7 +56,7 @@ class Run {
     std::vector<AnalysisSummary> summaries;
     for (const Analysis& analysis : file_.analyses) {
       progress_.start(analysis.name);
-      results_.begin_analysis(analysis.name);
+      results_.begin_analysis(analysis.name, expected_rows(analysis));
       switch (analysis.type) {
         case Analysis::Type::assembly:
           summaries.push_back(assemble(analysis));
@@ -84,6 +84,16 @@ class Run {
     row.step = step;
     row.newton_iterations = iterations;
     results_.record(state_, system_.slots(), environment, row);
+  }
+
+  static long steps_of(const Analysis& dynamics) {
+    return std::max(1L, std::lround(std::ceil(dynamics.duration / dynamics.step * (1 - 1e-12))));
+  }
+
+  std::size_t expected_rows(const Analysis& analysis) const {
+    if (analysis.type == Analysis::Type::assembly) return 1;
+    if (analysis.type == Analysis::Type::statics) return static_cast<std::size_t>(analysis.steps) + 1;
+    return static_cast<std::size_t>(steps_of(analysis) / file_.output.every) + 2;  // and the first, and the last
   }
 
   AnalysisSummary assemble(const Analysis& analysis) {
@@ -132,7 +142,7 @@ class Run {
     AnalysisSummary summary;
     summary.name = fmt::format("dynamic, {}", analysis.scheme_name);
     const double begin = state_.time, end = begin + analysis.duration;
-    const long steps = std::max(1L, std::lround(std::ceil(analysis.duration / analysis.step * (1 - 1e-12))));
+    const long steps = steps_of(analysis);
     const double h = analysis.duration / static_cast<double>(steps);
     if (std::abs(h - analysis.step) > 1e-9 * h)
       progress_.note(fmt::format("step {:.6g} s in place of {:.6g} s, so that {} steps fill the duration", h,
