@@ -7,6 +7,7 @@
 #include <mutex>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -18,7 +19,7 @@ namespace bielle::mechanism {
 namespace {
 
 constexpr std::int64_t results_version = 1;
-// Rows wait in memory at most so long [s]: shorter flushes cost more than they save.
+// Rows wait in memory at most so long.
 constexpr std::chrono::milliseconds longest_wait{200};
 // Rows are written in blocks of at most so many bytes and rows.
 constexpr std::size_t block_bytes = std::size_t{4} << 20, most_block_rows = 512;
@@ -31,48 +32,61 @@ std::size_t rows_in(std::size_t bytes, std::size_t row_bytes, std::size_t most) 
   return std::clamp<std::size_t>(bytes / row_bytes, 1, most);
 }
 
+/// Rows on their way to the file.
+struct Block {
+  std::vector<double> times;
+  std::vector<double> values;  ///< each column's rows one after the other: what a dataset takes in one piece
+  std::size_t rows = 0;
+};
+
 }  // namespace
 
+/// Two blocks take turns: the run fills one while the writing thread, alone, writes the other. Members below `guard`
+/// are guarded by it; `file` and `writing` belong to the writing thread while it is busy and to the run otherwise.
 struct ResultsFile::Stream {
   Stream(const std::string& path, const Model& model)
       : rows(model),
         row_bytes(sizeof(double) * (rows.size() + 1)),
         block_rows(rows_in(block_bytes, row_bytes, most_block_rows)),
+        row(rows.size()),
         file(Hdf5File::create(path)) {}
 
   void create_datasets();
-  void write_block();
+  void write(const Block& block);
   void link_from_root();
-  void write_waiting_until_told_to_stop();
-  void rethrow_failure() {
+
+  void write_until_told_to_stop();
+  void wait_until_all_is_written();
+  void check() const {
     if (failure) std::rethrow_exception(failure);
   }
 
-  // Everything below but `writer` is guarded by `guard`.
   ResultsRows rows;
   const std::size_t row_bytes, block_rows;
+  std::vector<double> row;
   Hdf5File file;
-  int analysis = 0;
+  Block writing;
+  int analysis = 0;  // the running one, and its
+  std::string group;
   std::size_t expected_rows = 0;
-  std::string group;                  ///< of the running analysis
-  std::vector<std::string> datasets;  ///< of the columns; empty before the first row of the running analysis
+  std::vector<std::string> datasets;  ///< of the columns; empty before the first row
   std::string time_dataset;
-  bool linked = false;         ///< the running analysis from the root
-  std::vector<double> times;   ///< (block_rows)
-  std::vector<double> block;   ///< each column's rows one after the other: what a dataset takes in one piece
-  std::vector<double> row;     ///< one row
-  std::size_t waiting = 0;     ///< rows in the block
-  std::exception_ptr failure;  ///< of the writing thread, told at the next call
-  bool stopping = false;
+  bool linked = false;
+
   std::mutex guard;
-  std::condition_variable woken;
+  std::condition_variable changed;
+  Block filling;
+  bool busy = false, wanted_now = false, stopping = false;
+  std::exception_ptr failure;  ///< of the writing thread
   std::thread writer;
 };
 
+// -- the datasets of an analysis
+
 void ResultsFile::Stream::create_datasets() {
-  const std::size_t chunk_rows = expected_rows > 0
-                                     ? rows_in(known_growth_bytes, row_bytes, std::min(expected_rows, most_growth_rows))
-                                     : rows_in(unknown_growth_bytes, row_bytes, unknown_growth_rows);
+  const std::size_t known = std::min(expected_rows, most_growth_rows);
+  const std::size_t chunk_rows = known > 0 ? rows_in(known_growth_bytes, row_bytes, known)
+                                           : rows_in(unknown_growth_bytes, row_bytes, unknown_growth_rows);
   const auto units_or_number = [](const std::string& units) { return units.empty() ? std::string("-") : units; };
   for (const ResultsColumn& column : rows.columns()) {
     datasets.push_back(group + "/" + column.dataset);
@@ -85,22 +99,23 @@ void ResultsFile::Stream::create_datasets() {
   }
   time_dataset = group + "/time";
   file.create_rows(time_dataset, {}, "s", "row 0 is the start; rows of other datasets beyond these do not count",
-                   expected_rows > 0 ? std::min(expected_rows, most_growth_rows) : unknown_growth_rows);
-  times.resize(block_rows);
-  block.resize(block_rows * rows.size());
-  row.resize(rows.size());
+                   known > 0 ? known : unknown_growth_rows);
+  for (Block* block : {&filling, &writing}) {
+    block->times.resize(block_rows);
+    block->values.resize(block_rows * rows.size());
+  }
   rows.restart();
 }
 
-void ResultsFile::Stream::write_block() {
-  if (waiting == 0) return;
-  const std::size_t count = std::exchange(waiting, 0);
+/// The file never counts a row that is not whole: first the data, then the times.
+void ResultsFile::Stream::write(const Block& block) {
   for (std::size_t k = 0; k < datasets.size(); ++k) {
     const ResultsColumn& column = rows.columns()[k];
-    file.append_rows(datasets[k], {block.data() + block_rows * column.begin, count * column.size}, count);
+    file.append_rows(datasets[k], {block.values.data() + block_rows * column.begin, block.rows * column.size},
+                     block.rows);
   }
   file.flush();
-  file.append_rows(time_dataset, {times.data(), count}, count);
+  file.append_rows(time_dataset, {block.times.data(), block.rows}, block.rows);
   file.flush();
   if (!linked) link_from_root();
 }
@@ -111,17 +126,45 @@ void ResultsFile::Stream::link_from_root() {
   linked = true;
 }
 
-void ResultsFile::Stream::write_waiting_until_told_to_stop() {
+// -- the writing thread
+
+void ResultsFile::Stream::write_until_told_to_stop() {
   std::unique_lock lock(guard);
-  while (!stopping) {
-    woken.wait_for(lock, longest_wait);
-    try {
-      if (!failure) write_block();
-    } catch (...) {
-      failure = std::current_exception();
+  while (true) {
+    changed.wait_for(lock, longest_wait,
+                     [&] { return stopping || (!failure && filling.rows >= (wanted_now ? 1 : block_rows)); });
+    if (filling.rows > 0 && !failure) {
+      std::swap(filling, writing);
+      busy = true;
+      changed.notify_all();
+      lock.unlock();
+      std::exception_ptr failed;
+      try {
+        write(writing);
+      } catch (...) {
+        failed = std::current_exception();
+      }
+      lock.lock();
+      writing.rows = 0;
+      busy = false;
+      failure = failed;
+      changed.notify_all();
+    } else if (stopping) {
+      return;
     }
   }
 }
+
+void ResultsFile::Stream::wait_until_all_is_written() {
+  std::unique_lock lock(guard);
+  wanted_now = true;
+  changed.notify_all();
+  changed.wait(lock, [&] { return failure || (filling.rows == 0 && !busy); });
+  wanted_now = false;
+  check();
+}
+
+// -- the run's side
 
 ResultsFile::ResultsFile(const std::string& path, const Model& model, const std::string& input_text)
     : stream_(std::make_unique<Stream>(path, model)) {
@@ -133,7 +176,7 @@ ResultsFile::ResultsFile(const std::string& path, const Model& model, const std:
   file.write_attribute("/", "complete", std::int64_t{0});
   file.write_text("/input", input_text);
   file.flush();
-  stream_->writer = std::thread([stream = stream_.get()] { stream->write_waiting_until_told_to_stop(); });
+  stream_->writer = std::thread([stream = stream_.get()] { stream->write_until_told_to_stop(); });
 }
 
 ResultsFile::~ResultsFile() {
@@ -141,23 +184,16 @@ ResultsFile::~ResultsFile() {
     const std::lock_guard lock(stream_->guard);
     stream_->stopping = true;
   }
-  stream_->woken.notify_one();
-  stream_->writer.join();
-  try {
-    if (!stream_->failure) stream_->write_block();
-  } catch (const std::exception&) {
-    // Whoever ends a run in this way has an error of his own to tell.
-  }
+  stream_->changed.notify_all();
+  stream_->writer.join();  // which writes what waits
 }
 
 void ResultsFile::begin_analysis(const std::string& type, std::size_t expected_rows) {
-  const std::lock_guard lock(stream_->guard);
-  stream_->rethrow_failure();
-  stream_->write_block();
+  stream_->wait_until_all_is_written();
   stream_->group = fmt::format("/analysis_{}", ++stream_->analysis);
+  stream_->expected_rows = expected_rows;
   stream_->datasets.clear();
   stream_->linked = false;
-  stream_->expected_rows = expected_rows;
   stream_->file.make_group(stream_->group);
   stream_->file.write_attribute(stream_->group, "type", type);
 }
@@ -165,29 +201,28 @@ void ResultsFile::begin_analysis(const std::string& type, std::size_t expected_r
 void ResultsFile::record(const State& state, const std::vector<Slots>& slots, const Environment& environment,
                          const StepRecord& step) {
   Stream& stream = *stream_;
-  const std::lock_guard lock(stream.guard);
-  stream.rethrow_failure();
   if (stream.group.empty()) throw std::logic_error("a row of results outside of an analysis");
   if (stream.datasets.empty()) stream.create_datasets();
   stream.rows.fill(state, slots, environment, step, stream.row.data());
+
+  std::unique_lock lock(stream.guard);
+  stream.changed.wait(lock, [&] { return stream.failure || stream.filling.rows < stream.block_rows; });
+  stream.check();
+  Block& block = stream.filling;
   for (const ResultsColumn& column : stream.rows.columns())
     std::copy_n(stream.row.data() + column.begin, column.size,
-                stream.block.data() + stream.block_rows * column.begin + stream.waiting * column.size);
-  stream.times[stream.waiting++] = state.time;
-  if (stream.waiting == stream.block_rows) stream.write_block();
+                block.values.data() + stream.block_rows * column.begin + block.rows * column.size);
+  block.times[block.rows++] = state.time;
+  if (block.rows == stream.block_rows) stream.changed.notify_all();
 }
 
 void ResultsFile::end_analysis() {
-  const std::lock_guard lock(stream_->guard);
-  stream_->rethrow_failure();
-  stream_->write_block();
+  stream_->wait_until_all_is_written();
   stream_->link_from_root();  // also what was written beside the rows
 }
 
 void ResultsFile::complete() {
-  const std::lock_guard lock(stream_->guard);
-  stream_->rethrow_failure();
-  stream_->write_block();
+  stream_->wait_until_all_is_written();
   stream_->file.write_attribute("/", "complete", std::int64_t{1});
   stream_->file.close();
 }

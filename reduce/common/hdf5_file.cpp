@@ -96,8 +96,11 @@ Id group_properties(hid_t kind) {
   return properties;
 }
 
-/// HDF5 prints its own errors on standard error unless told not to.
-void silence_hdf5() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+/// HDF5 prints its own errors on standard error unless told not to, by each thread.
+void silence_hdf5() {
+  thread_local const herr_t silenced = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  static_cast<void>(silenced);
+}
 
 }  // namespace
 
@@ -312,6 +315,7 @@ Hdf5File Hdf5File::open_to_extend(const std::string& path) {
 const std::string& Hdf5File::path() const { return handle_->path; }
 
 void Hdf5File::flush() {
+  silence_hdf5();
   handle_->checked(H5Fflush(handle_->file, H5F_SCOPE_LOCAL), "", "writing failed; is the disk full?");
 }
 
@@ -550,6 +554,7 @@ GrowingDataset Hdf5File::Handle::growing_from(Id dataset, const std::string& nam
 }
 
 void Hdf5File::append_rows(const std::string& dataset, std::span<const double> values, std::size_t rows) {
+  silence_hdf5();
   auto found = handle_->growing.find(dataset);
   if (found == handle_->growing.end())
     found = handle_->growing.emplace(dataset, handle_->growing_from(handle_->open_dataset(dataset), dataset)).first;
