@@ -89,7 +89,7 @@ void write_coordinates(Hdf5File& file, const Superelement& body) {
       }
   for (Eigen::Index k = 0; k < body.modes(); ++k) {
     names.push_back(fmt::format("mode {}", k + 1));
-    units.emplace_back("m kg^(1/2)");
+    units.emplace_back("m kg^0.5");
   }
   file.write_names("/reduced/coordinates", names);
   file.write_names("/reduced/coordinate_units", units);
