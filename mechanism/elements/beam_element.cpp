@@ -50,6 +50,8 @@ void BeamElement::declare(Declaration& declaration) const {
   declaration.stiffness = true;
   declaration.mass = !inertia_.is_massless();
   declaration.damping = declaration.mass || damping_ > 0;
+  const Vector3 psi = d0_.tail<3>();
+  declaration.memory.assign(psi.begin(), psi.end());
 }
 
 /// Section frames, relative frame, and what follows from them.
@@ -62,18 +64,35 @@ struct BeamElement::Deformation {
   Vector6 f;  ///< resultants
 };
 
+Vector6 BeamElement::relative_motion(const LocalState& state, const Matrix3& R_A, const Matrix3& R_B) const {
+  const Vector6 d = log_se3({R_A.transpose() * (state.node(1).x - state.node(0).x), R_A.transpose() * R_B});
+  // Past 180 degrees the logarithm takes the other way round.
+  if ((d.tail<3>() - state.memory()).norm() > std::numbers::pi)
+    throw ComputationError(
+        fmt::format("t = {:.6g} s: beam '{}', element {} of {}: its ends have turned past 180 degrees against each "
+                    "other, which one "
+                    "element cannot follow; give the beam more `elements`, or take smaller steps",
+                    state.time(), name(), place_.element, place_.elements));
+  return d;
+}
+
+void BeamElement::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {
+  const NodeState &A = state.node(0), &B = state.node(1);
+  const Vector3 psi = relative_motion(state, A.R * R_A_, B.R * R_B_).tail<3>();
+  if (psi.norm() > largest_turn)
+    throw ComputationError(fmt::format(
+        "t = {:.6g} s: beam '{}', element {} of {}: its ends are turned by {:.0f} degrees against each other, and one "
+        "element cannot follow 180; give the beam more `elements`",
+        state.time(), name(), place_.element, place_.elements, psi.norm() * 180 / std::numbers::pi));
+  memory = psi;
+}
+
 BeamElement::Deformation BeamElement::deformation(const LocalState& state) const {
   const NodeState &A = state.node(0), &B = state.node(1);
   Deformation D;
   D.R_A = A.R * R_A_;
   D.R_B = B.R * R_B_;
-  D.d = log_se3({D.R_A.transpose() * (B.x - A.x), D.R_A.transpose() * D.R_B});
-  const double turn = D.d.tail<3>().norm();
-  if (turn > largest_turn)
-    throw ComputationError(fmt::format(
-        "t = {:.6g} s: beam '{}', element {} of {}: its ends are turned by {:.0f} degrees against each other, and one "
-        "element cannot follow 180; give the beam more `elements`",
-        state.time(), name(), place_.element, place_.elements, turn * 180 / std::numbers::pi));
+  D.d = relative_motion(state, D.R_A, D.R_B);
   const Matrix6 inverse = tangent_se3_inverse(D.d);
   // T6^-1(-d) has the transposed blocks of T6^-1(d).
   D.P << -inverse.topLeftCorner<3, 3>().transpose(), -inverse.topRightCorner<3, 3>().transpose(), inverse.topRows<3>(),
@@ -140,7 +159,8 @@ void BeamElement::add_tangent(const LocalState& state, LocalTangent& tangent) co
     const Deformation D = deformation(state);
     if (tangent.wants_K) add_stiffness(D, tangent.K);
     if (wants_damping) {
-      const Matrix12 C_b = damping_ / L_ * D.P.transpose() * stiffness_ * D.P;
+      const Matrix6x12 f_gradient = damping_ / L_ * stiffness_ * D.P;
+      const Matrix12 C_b = D.P.transpose() * f_gradient;
       add_rotated(C_b, {D.R_A, R_A_, D.R_B, R_B_}, tangent.C);
     }
   }

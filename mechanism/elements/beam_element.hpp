@@ -14,11 +14,12 @@
 // the stiffness at the reference is then exact for a straight element and any 6x6 C. f = (n, m) are the physical
 // resultants in the middle of the element; the physical strain there is C^-1 f.
 //
-// Limits: the ends of one element turn by less than 180 degrees against each other, beyond `largest_turn` an error is
-// raised; the relative rotation may well grow over several elements. Strains are small enough for a linear law of the
-// resultants.
+// Limits: the ends of one element turn by less than 180 degrees against each other (`largest_turn` at the end of a
+// step); an error advises to refine. The relative rotation may well grow over several elements. Strains are small
+// enough for a linear law of the resultants.
 #pragma once
 
+#include <numbers>
 #include <string>
 
 #include "mechanism/elements/beam_inertia.hpp"
@@ -39,9 +40,8 @@ struct BeamPlace {
 
 class BeamElement : public Component {
  public:
-  /// Rotation [rad] between the ends above which the element refuses to work: the logarithm is unique below pi only,
-  /// and iterations must not step over that.
-  static constexpr double largest_turn = 0.98 * 3.141592653589793;
+  /// Rotation [rad] between the ends above which a converged step is refused: the logarithm is unique below pi only.
+  static constexpr double largest_turn = 0.95 * std::numbers::pi;
 
   /// @param node_a,node_b  its nodes
   /// @param R_A,R_B        section frames in the axes of the nodes (constant)
@@ -57,10 +57,14 @@ class BeamElement : public Component {
   /// `strain` (6) [Gamma; Kappa] and `resultants` (6) [n; m] in the middle of the element, section frame.
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
+  /// Remembers psi, from which the next step must not leap over 180 degrees. @throws ComputationError beyond
+  /// `largest_turn`
+  void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
 
  private:
   struct Deformation;
-  /// @throws ComputationError when the ends turn too far
+  /// d at a state. @throws ComputationError when the ends have turned past 180 degrees since the last accepted step
+  Vector6 relative_motion(const LocalState& state, const Matrix3& R_A, const Matrix3& R_B) const;
   Deformation deformation(const LocalState& state) const;
   void add_stiffness(const Deformation& D, Eigen::Ref<MatrixX> K) const;
 

@@ -51,34 +51,50 @@ void BeamInertia::add_force(const LocalState& state, Eigen::Ref<VectorX> r) cons
                                       node[k]->Omega.cross(J_[k][0] * node[0]->Omega + J_[k][1] * node[1]->Omega);
 }
 
-// Each point moves by B [dx_A; dTheta_A; dx_B; dTheta_B], B_k = [N_k I, -R_k a_k~]; with its inertia force f
-//   M = w B^T B,   C = w B^T [0, -R_k ((Omega_k~ a_k)~ + Omega_k~ a_k~)],
-//   K = w B^T [0, -R_k (Omegadot_k~ a_k + Omega_k~ Omega_k~ a_k)~] + diag(0, a_k~ (R_k^T f)~);
+// Each point moves by sum_k (N_k dx_k + A_k dTheta_k), A_k = -R_k a_k~; with its inertia force f the blocks (i,j) are
+//        dx_j          dTheta_j
+//   M = w [ N_i N_j I   N_i A_j   ]    C = w [ 0  N_i V_j   ]    K = w [ 0  N_i W_j   ]  and a_i~ (R_i^T f)~ in
+//   (Theta_i, Theta_i)
+//         [ N_j A_i^T   A_i^T A_j ]          [ 0  A_i^T V_j ]          [ 0  A_i^T W_j ]
+//   V_k = -R_k ((Omega_k~ a_k)~ + Omega_k~ a_k~),   W_k = -R_k (Omegadot_k~ a_k + Omega_k~ Omega_k~ a_k)~;
 // rotary inertia, with p_k = sum_l J_kl Omega_l:   M = J_kl,   C = Omega_k~ J_kl - delta_kl p_k~.
 void BeamInertia::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   const auto node = ends(state);
-  using Rows = Eigen::Matrix<double, 3, 12>;
   for (const Point& p : points_) {
-    Rows B = Rows::Zero(), V = Rows::Zero(), W = Rows::Zero();
+    std::array<Matrix3, 2> A, V, W;
     Vector3 f = Vector3::Zero();
     for (std::size_t k = 0; k < 2; ++k) {
       const NodeState& n = *node[k];
-      const Eigen::Index column = first_row(k);
       const Matrix3 a_k = skew(p.a[k]);
       const Vector3 turning = n.Omega.cross(p.a[k]);
       const Vector3 convected = n.Omegadot.cross(p.a[k]) + n.Omega.cross(turning);
-      B.middleCols<3>(column).diagonal().setConstant(p.N[k]);
-      B.middleCols<3>(column + 3) = -n.R * a_k;
-      V.middleCols<3>(column + 3) = -n.R * (skew(turning) + skew(n.Omega) * a_k);
-      W.middleCols<3>(column + 3) = -n.R * skew(convected);
+      A[k] = -n.R * a_k;
+      V[k] = -n.R * (skew(turning) + skew(n.Omega) * a_k);
+      W[k] = -n.R * skew(convected);
       f += p.w * (p.N[k] * (n.a - state.environment().gravity) + n.R * convected);
     }
-    if (tangent.wants_M) tangent.M.topLeftCorner<12, 12>() += p.w * B.transpose() * B;
-    if (tangent.wants_C) tangent.C.topLeftCorner<12, 12>() += p.w * B.transpose() * V;
-    if (!tangent.wants_K) continue;
-    tangent.K.topLeftCorner<12, 12>() += p.w * B.transpose() * W;
-    for (std::size_t k = 0; k < 2; ++k)
-      tangent.K.block<3, 3>(first_row(k) + 3, first_row(k) + 3) += skew(p.a[k]) * skew(node[k]->R.transpose() * f);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Eigen::Index x_i = first_row(i), Theta_i = x_i + 3;
+      const Matrix3 wA_i = p.w * A[i].transpose();
+      for (std::size_t j = 0; j < 2; ++j) {
+        const Eigen::Index x_j = first_row(j), Theta_j = x_j + 3;
+        if (tangent.wants_M) {
+          tangent.M.block<3, 3>(x_i, x_j).diagonal().array() += p.w * p.N[i] * p.N[j];
+          tangent.M.block<3, 3>(x_i, Theta_j) += p.w * p.N[i] * A[j];
+          tangent.M.block<3, 3>(Theta_i, x_j) += p.N[j] * wA_i;
+          tangent.M.block<3, 3>(Theta_i, Theta_j) += wA_i * A[j];
+        }
+        if (tangent.wants_C) {
+          tangent.C.block<3, 3>(x_i, Theta_j) += p.w * p.N[i] * V[j];
+          tangent.C.block<3, 3>(Theta_i, Theta_j) += wA_i * V[j];
+        }
+        if (tangent.wants_K) {
+          tangent.K.block<3, 3>(x_i, Theta_j) += p.w * p.N[i] * W[j];
+          tangent.K.block<3, 3>(Theta_i, Theta_j) += wA_i * W[j];
+        }
+      }
+      if (tangent.wants_K) tangent.K.block<3, 3>(Theta_i, Theta_i) += skew(p.a[i]) * skew(node[i]->R.transpose() * f);
+    }
   }
   for (std::size_t k = 0; k < 2; ++k) {
     const Eigen::Index row = first_row(k) + 3;

@@ -157,6 +157,7 @@ TEST_CASE("strain and resultants are recorded in the section frame, the physical
     Vector12 out;
     Slots slots;
     slots.nodes = {1, 2};
+    slots.memories = 3;
     element.model.members()[0].component->write_output({element.state, slots, element.model.environment}, out.data());
     // Constant strain is the element's own; the residual flexibility takes its part out of the shears.
     if (bending == BeamBending::constant) CHECK(error(out.head<6>(), eps) < 1e-14);
@@ -165,12 +166,29 @@ TEST_CASE("strain and resultants are recorded in the section frame, the physical
 }
 
 TEST_CASE("an element whose ends turn too far refuses with the advice to refine") {
-  Frame B{{0.1, 0.2, 0}, exp_so3(Vector3(0, 0, 3.1))};
-  OneElement element({}, B, straight, section_of(one_to_six), BeamBending::residual);
+  const auto turned = [](double degrees) { return exp_so3(Vector3(0, 0, degrees * 3.141592653589793 / 180)); };
+  OneElement element({}, {{0.1, 0.2, 0}, turned(170)}, straight, section_of(one_to_six), BeamBending::residual);
+  Slots slots;
+  slots.nodes = {1, 2};
+  slots.memories = 3;
+  VectorX memory(3);
+  const auto accept = [&](double degrees) {
+    element.state.nodes[2].R = turned(degrees);
+    element.model.members()[0].component->accept({element.state, slots, element.model.environment}, memory);
+  };
   element.state.time = 0.25;
+  CHECK_NOTHROW(element.force());  // an iteration may come near
+  CHECK_NOTHROW(accept(170));
+  CHECK_THROWS_WITH(
+      accept(175),
+      "t = 0.25 s: beam 'shaft', element 2 of 5: its ends are turned by 175 degrees against each other, and "
+      "one element cannot follow 180; give the beam more `elements`");
+  // From 170 over 180 to 190: the logarithm is -170.
+  element.state.memory = memory;
+  element.state.nodes[2].R = turned(190);
   CHECK_THROWS_AS(element.force(), bielle::ComputationError);
   CHECK_THROWS_WITH(
       element.stiffness(),
-      "t = 0.25 s: beam 'shaft', element 2 of 5: its ends are turned by 178 degrees against each other, and one "
-      "element cannot follow 180; give the beam more `elements`");
+      "t = 0.25 s: beam 'shaft', element 2 of 5: its ends have turned past 180 degrees against each other, "
+      "which one element cannot follow; give the beam more `elements`, or take smaller steps");
 }
