@@ -22,13 +22,14 @@ void set_start_velocity(Node& inner, const Node& a, const Node& b, double s) {
 }
 
 /// Nodes of the beam from start to end, the inner ones made here.
-std::vector<int> make_nodes(const std::string& name, const std::vector<int>& ends, const std::vector<Frame>& sections,
-                            Model& model) {
+std::vector<int> make_nodes(const std::string& name, const YamlValue& entry, const std::vector<int>& ends,
+                            const std::vector<Frame>& sections, Model& model) {
   std::vector<int> nodes{ends[0]};
   const std::size_t count = sections.size() - 1;
   for (std::size_t k = 1; k < count; ++k) {
     Node inner;
     inner.name = fmt::format("{}.{}", name, k);
+    if (model.find_node(inner.name)) entry.fail(fmt::format("there is already a node '{}'", inner.name));
     inner.frame = sections[k];
     inner.internal = true;
     set_start_velocity(inner, model.node(ends[0]), model.node(ends[1]),
@@ -69,7 +70,7 @@ void read_beam(const std::string& name, const YamlValue& entry, Model& model) {
                     "give more `elements`",
                     count, turn * 180 / std::numbers::pi));
 
-  const std::vector<int> nodes = make_nodes(name, ends, sections, model);
+  const std::vector<int> nodes = make_nodes(name, entry, ends, sections, model);
   for (int k = 0; k < count; ++k) {
     const auto i = static_cast<std::size_t>(k);
     const Vector6 d0 = log_se3(inverse(sections[i]) * sections[i + 1]);

@@ -8,8 +8,7 @@
 
 namespace bielle::test {
 
-/// Reads `nodes` (position, rotation_vector, velocity, angular_velocity), `gravity` and `elements` and `loads`. Only
-/// what the tests of elements need; errors name the file "model.yaml".
+/// The model of a mechanism file's text; errors name the file "model.yaml".
 std::unique_ptr<mechanism::Model> model_from_text(const std::string& text);
 
 }  // namespace bielle::test

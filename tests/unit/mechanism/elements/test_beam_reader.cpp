@@ -120,5 +120,10 @@ TEST_CASE("a beam that cannot be built says why") {
   CHECK_THROWS_WITH(beam(section + ", elements: 2, twist: 7"),
                     Contains("each of 2 elements would turn by 201 degrees"));
   CHECK_THROWS_WITH(beam("elements: 2"), Contains("section"));
+  CHECK_THROWS_WITH(
+      model_from_text("nodes: {a: {position: [0, 0, 0]}, b: {position: [1, 0, 0]}, shaft.1: {position: [2, 0, 0]}}\n"
+                      "elements: {shaft: {type: beam, nodes: [a, b], " +
+                      section + "}}"),
+      Contains("model.yaml:2") && Contains("already a node 'shaft.1'"));
   CHECK_THROWS_WITH(beam(section + ", lenght: 2"), Contains("'lenght' is not a key of a beam"));
 }
