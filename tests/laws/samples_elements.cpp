@@ -221,6 +221,35 @@ Sample superelement_with_dead_load() {
   return sample;
 }
 
+/// Interfaces that turn about an axis of their own, transmit one moment, or slide along an axis of their own.
+Sample superelement_with_free_directions() {
+  Sample sample{Section::elements,
+                "superelement",
+                "free directions",
+                R"yaml(
+gravity: [1, -2, 3]
+nodes:
+  root: {position: [0.3, -0.1, 0], rotation_vector: [0.3, -0.5, 0.8]}
+  tip: {position: [1.3, 0.3, 0.035280002], rotation_vector: [-0.7, 0.2, 0.4]}
+  middle: {position: [0.7166666667, -0.0305555556, 0.2372461549]}
+elements:
+  it: {type: superelement, file: body.h5, nodes: {a: root, b: tip, c: middle}}
+)yaml",
+                {{"file", "", ""},
+                 {"nodes", "{a: root, b: tip}", "leaves some directions of its node free"},
+                 {"nodes.c", "tip", "m away"}}};
+  sample.scales.length = 0.5;  // held this loosely, the body turns about its slender axis when the middle moves by less
+  sample.scales.deformation = 0.1;
+  sample.scales.amplitude = 0.1;
+  sample.files = [](const std::string& folder) {
+    test::BeamChain chain = test::bent_chain();
+    chain.interfaces[1].kept = {true, true, true, true, true, false};
+    chain.interfaces[2].kept = {true, false, true, false, true, false};
+    write_superelement(chain.reduced().body, folder + "/body.h5");
+  };
+  return sample;
+}
+
 Sample dead_load() {
   Sample sample{Section::loads,
                 "load",
@@ -266,6 +295,7 @@ std::vector<Sample> element_samples() {
           timed_spring(),
           superelement_with_followers(),
           superelement_with_dead_load(),
+          superelement_with_free_directions(),
           dead_load(),
           follower_load()};
 }
