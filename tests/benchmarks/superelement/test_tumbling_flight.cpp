@@ -102,7 +102,7 @@ Flight beam_flight(double amplitude, double h) {
   std::string text = "nodes:\n", elements = "elements:\n";
   for (int k = 0; k <= 20; ++k) {
     const Vector3 x(k / 20.0, 0, 0);
-    text += node_text("n" + std::to_string(k), x, V + Om.cross(x) + field.segment<3>(6 * k),
+    text += node_text(fmt::format("n{}", k), x, V + Om.cross(x) + field.segment<3>(6 * k),
                       Om + field.segment<3>(6 * k + 3));
     if (k > 0)
       elements += fmt::format(
