@@ -1,5 +1,7 @@
 #include "mechanism/solvers/statics.hpp"
 
+#include <string>
+
 #include <fmt/format.h>
 
 #include "mechanism/solvers/redundancy.hpp"
@@ -8,6 +10,7 @@ namespace bielle::mechanism {
 namespace {
 
 /// Newton's method at a fixed load. Returns the iterations, or -1 with the state as it was.
+/// @throws ComputationError from components and from a singular tangent
 int equilibrate(const System& system, const Environment& environment, const NewtonOptions& options, LinearStep& linear,
                 Convergence& convergence, State& state) {
   const State start = state;
@@ -46,9 +49,20 @@ void solve_statics(const System& system, const Environment& environment, int ste
     Environment loaded = environment;
     loaded.load_factor = target;
     loaded.gravity = target * environment.gravity;
-    const int iterations = equilibrate(system, loaded, options, linear, convergence, state);
+    // A component that refuses a wild iterate (a beam whose ends turn too far) makes the attempt fail, not the
+    // analysis.
+    std::string refusal;
+    int iterations = -1;
+    const State before = state;
+    try {
+      iterations = equilibrate(system, loaded, options, linear, convergence, state);
+    } catch (const ComputationError& error) {
+      refusal = error.what();
+      state = before;
+    }
     if (iterations < 0) {
       increment /= 2;
+      if (increment < least_increment && !refusal.empty()) throw ComputationError(refusal);
       if (increment < least_increment)
         throw ComputationError(fmt::format(
             "statics: Newton did not converge at load factor {:.6g} (increment {:.3g}); largest residual: {}", target,

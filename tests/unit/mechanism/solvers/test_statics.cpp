@@ -1,3 +1,6 @@
+#include <cmath>
+#include <string>
+
 #include <catch2/catch.hpp>
 
 #include "mechanism/io/mechanism_file.hpp"
@@ -27,4 +30,36 @@ joints: {axle: {type: hinge, nodes: [ground, arm], axis: [0, 1, 0], position: [0
   double low = 0, high = 1;
   for (int k = 0; k < 60; ++k) (moment(0.5 * (low + high)) > 0 ? low : high) = 0.5 * (low + high);
   CHECK(std::atan2(-state.nodes[1].x.z(), state.nodes[1].x.x()) == Approx(low).epsilon(1e-9));
+}
+
+namespace {
+
+/// A beam under an end moment that bends it by `turns`, in three elements and two load steps.
+State rolled_up(double turns) {
+  const MechanismFile file = read_mechanism_text(
+      R"yaml(
+nodes: {root: {position: [0, 0, 0], fixed: true}, tip: {position: [3, 0, 0]}}
+elements:
+  strip: {type: beam, nodes: [root, tip], elements: 3, section: {EA: 1e4, GAy: 3e3, GAz: 3e3, GJ: 20, EIy: 20, EIz: 2}}
+loads: {roll: {node: tip, moment: [0, 0, "4*pi/3*turns"]}}
+parameters: {turns: )yaml" +
+          std::to_string(turns) + "}\n",
+      "strip.yaml");
+  System system(file.model);
+  State state = system.start(0);
+  solve_statics(system, file.model.environment, 2, NewtonOptions{}, state);
+  return state;
+}
+
+}  // namespace
+
+TEST_CASE("load steps in which a beam's iterates turn too far are made smaller") {
+  // A full circle: the tip is back at the root. Newton's method from the straight beam leaps over half a turn per
+  // element.
+  CHECK(rolled_up(1).nodes[2].x.norm() < 1e-8);
+}
+
+TEST_CASE("what a component refuses at every load step is the error of the analysis") {
+  CHECK_THROWS_WITH(rolled_up(1.49),
+                    Catch::Contains("beam 'strip', element") && Catch::Contains("give the beam more `elements`"));
 }
