@@ -1,7 +1,6 @@
 #include "reduce/fe/solid.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 #include <fmt/format.h>
 
@@ -137,31 +136,6 @@ std::vector<bool> points_of_solid(const Solid& solid) {
     result[a] = true;
   }
   return result;
-}
-
-Pieces connected_pieces(const Solid& solid) {
-  std::vector<int> parent(solid.points());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int a) {
-    while (parent[a] != a) {
-      a = parent[a] = parent[parent[a]];
-    }
-    return a;
-  };
-  for (const auto& cell : solid.nodes.colwise()) {
-    for (const int a : cell) {
-      const int first = root(cell(0)), other = root(a);
-      parent[std::max(first, other)] = std::min(first, other);
-    }
-  }
-  const std::vector<bool> inside = points_of_solid(solid);
-  Pieces pieces{std::vector<int>(solid.points(), -1), 0};
-  for (int a = 0; a < solid.points(); ++a) {  // roots are the lowest numbers of their pieces, so they come first
-    if (inside[a]) {
-      pieces.of_point[a] = root(a) == a ? pieces.count++ : pieces.of_point[root(a)];
-    }
-  }
-  return pieces;
 }
 
 }  // namespace bielle::reduce

@@ -44,13 +44,4 @@ MassProperties mass_properties(const Solid& solid);
 /// Points that belong to solid cells, by point.
 std::vector<bool> points_of_solid(const Solid& solid);
 
-/// For each point the number of the connected piece of the body that it belongs to (cells that share a point are one
-/// piece), -1 for points outside the solid; and the number of pieces.
-struct Pieces {
-  std::vector<int> of_point;
-  int count = 0;
-};
-
-Pieces connected_pieces(const Solid& solid);
-
 }  // namespace bielle::reduce

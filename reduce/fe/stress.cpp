@@ -8,6 +8,7 @@
 #include "reduce/fe/cell_geometry.hpp"
 #include "reduce/fe/elasticity.hpp"
 #include "reduce/fe/node_graph.hpp"
+#include "reduce/mesh/faces.hpp"
 
 namespace bielle::reduce {
 
@@ -126,39 +127,11 @@ RowMatrix nodal_stress(const Solid& solid, const RowMatrix& fields, const std::v
 }
 
 std::vector<int> surface_nodes(const Solid& solid) {
-  constexpr int faces[4][3] = {{0, 1, 2}, {0, 1, 3}, {1, 2, 3}, {0, 2, 3}};
-  // tet10: mid-side nodes of the edges of each face, same order of faces
-  constexpr int middles[4][3] = {{4, 5, 6}, {4, 9, 7}, {5, 8, 9}, {6, 8, 7}};
-  struct Face {
-    std::array<int, 3> key;
-    Eigen::Index cell;
-    int side;
-  };
-  std::vector<Face> all;
-  all.reserve(4 * solid.cells());
-  for (Eigen::Index e = 0; e < solid.cells(); ++e) {
-    for (int side = 0; side < 4; ++side) {
-      std::array<int, 3> key;
-      for (int v = 0; v < 3; ++v) {
-        key[v] = solid.nodes(faces[side][v], e);
-      }
-      std::sort(key.begin(), key.end());
-      all.push_back({key, e, side});
-    }
-  }
-  std::sort(all.begin(), all.end(), [](const Face& a, const Face& b) { return a.key < b.key; });
+  const FaceTable faces(solid.mesh);
   std::vector<int> result;
-  for (std::size_t f = 0; f < all.size(); ++f) {
-    const bool shared = (f > 0 && all[f - 1].key == all[f].key) || (f + 1 < all.size() && all[f + 1].key == all[f].key);
-    if (shared) {
-      continue;
-    }
-    result.insert(result.end(), all[f].key.begin(), all[f].key.end());
-    if (solid.type == CellType::tet10) {
-      for (const int m : middles[all[f].side]) {
-        result.push_back(solid.nodes(m, all[f].cell));
-      }
-    }
+  for (const int face : faces.boundary()) {
+    const Eigen::VectorXi nodes = faces.nodes(face);
+    result.insert(result.end(), nodes.begin(), nodes.end());
   }
   std::sort(result.begin(), result.end());
   result.erase(std::unique(result.begin(), result.end()), result.end());

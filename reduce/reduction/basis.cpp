@@ -1,0 +1,131 @@
+#include "reduce/reduction/basis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "reduce/common/error.hpp"
+#include "reduce/reduction/rigid_motions.hpp"
+#include "reduce/spectral/eigenpairs.hpp"
+
+namespace bielle::reduce {
+
+namespace {
+
+/// M times the linear fields.
+RowMatrix linear_inertia(const Solid& solid, const NodeMatrix& mass, const Eigen::Vector3d& centre, int threads) {
+  RowMatrix functions(solid.points(), 4);
+  functions << Eigen::VectorXd::Ones(solid.points()), (solid.mesh.points.colwise() - centre).transpose();
+  const RowMatrix products = mass.multiply(functions, 1, threads);
+  RowMatrix result = RowMatrix::Zero(3 * solid.points(), LinearFields::count);
+  for (Eigen::Index a = 0; a < solid.points(); ++a) {
+    for (int i = 0; i < 3; ++i) {
+      result.block<1, 4>(3 * a + i, 4 * i) = products.row(a);
+    }
+  }
+  return result;
+}
+
+Eigenpairs fixed_boundary_modes(const NodeMatrix& mass, const HeldBody& held, const ModeRequest& modes,
+                                Progress& progress, int threads) {
+  if (!modes.count && !modes.below) {
+    return {};
+  }
+  if (modes.count.value_or(0) > held.size()) {
+    throw InputError(
+        fmt::format("modes.count: {} fixed-boundary modes are asked for, but the mesh has only {} freedoms "
+                    "inside; refine it or ask for fewer",
+                    *modes.count, held.size()));
+  }
+  if (modes.count == 0 || held.size() == 0) {
+    return {};
+  }
+  const ShiftInvertProblem problem{
+      held.size(), 0, [&](const Eigen::MatrixXd& b) { return held.solve(b); },
+      [&](const Eigen::MatrixXd& z) { return held.restrict(mass.multiply(held.expand(z), 3, threads)); }};
+  EigenpairOptions options;
+  const double expected = 2.0 * modes.count.value_or(20) + 10;
+  options.on_solve = [&](int solves) {
+    progress.update(std::min(0.99, solves / (1.5 * expected)), fmt::format("{} solutions", solves));
+  };
+  if (!modes.below) {
+    return shift_invert_eigenpairs(problem, *modes.count, options);
+  }
+  const double limit = std::pow(2 * std::numbers::pi * *modes.below, 2);
+  if (!modes.count) {
+    return shift_invert_eigenpairs_below(problem, limit, 20, options);
+  }
+  Eigenpairs pairs = shift_invert_eigenpairs(problem, *modes.count, options);
+  const Eigen::Index below = (pairs.values.array() <= limit).count();
+  if (below == *modes.count) {
+    progress.note(fmt::format("modes: the count of {} is reached at {:.6g} Hz; there may be more below {:.6g} Hz",
+                              *modes.count, std::sqrt(pairs.values(below - 1)) / (2 * std::numbers::pi), *modes.below));
+  }
+  pairs.values.conservativeResize(below);
+  pairs.vectors.conservativeResize(Eigen::NoChange, below);
+  pairs.residuals.conservativeResize(below);
+  return pairs;
+}
+
+/// Psi <- Psi (I - U A) + U_points A
+void put_rigid_motions_in(const Solid& solid, const Ties& ties, const MassProperties& body, Basis& basis) {
+  const Eigen::MatrixXd nearest = nearest_rigid_motion(ties.interfaces, body.centre, radius_of_gyration(body));
+  const Eigen::MatrixXd rest = Eigen::MatrixXd::Identity(basis.kept(), basis.kept()) -
+                               interface_rigid_motions(ties.interfaces, body.centre) * nearest;
+  const std::vector<bool> inside = points_of_solid(solid);
+  const RowMatrix motions = rigid_motions(solid.mesh.points, body.centre);
+  for (Eigen::Index a = 0; a < solid.points(); ++a) {
+    if (inside[a]) {
+      auto rows = basis.shapes.block(3 * a, 0, 3, basis.kept());
+      rows = Eigen::MatrixXd(rows * rest + motions.middleRows<3>(3 * a) * nearest);
+    }
+  }
+  for (Eigen::Index c = 0; c < basis.released.rows(); ++c) {
+    const Direction direction = ties.released[c];
+    auto row = basis.released.row(c).head(basis.kept());
+    row = Eigen::RowVectorXd(row * rest +
+                             interface_rigid_motion(ties.interfaces[direction.interface], direction.axis, body.centre) *
+                                 nearest);
+  }
+}
+
+}  // namespace
+
+double radius_of_gyration(const MassProperties& body) { return std::sqrt(body.inertia.trace() / (2 * body.mass)); }
+
+Basis make_basis(const Solid& solid, const SymmetricMatrix& stiffness, const NodeMatrix& mass, const Ties& ties,
+                 const HeldBody& held, const MassProperties& body, const ModeRequest& modes, Progress& progress,
+                 int threads) {
+  progress.start("constraint modes");
+  Basis basis;
+  const auto kept = static_cast<Eigen::Index>(ties.kept.size());
+  const Eigen::Index released = ties.carry_released.cols();
+  basis.linear.inertia = linear_inertia(solid, mass, body.centre, threads);
+  // One block of right-hand sides: solutions are bound by memory, not by their number.
+  Eigen::MatrixXd loads(held.size(), kept + LinearFields::count);
+  const RowMatrix carried(ties.carry_kept);
+  loads << -held.restrict(stiffness.multiply(carried, threads)), held.restrict(basis.linear.inertia);
+  Eigen::MatrixXd averages = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(ties.averages.size()), loads.cols());
+  for (Eigen::Index k = 0; k < averages.rows(); ++k) {
+    averages(k, ties.averages[k]) = 1;
+  }
+  const Eigen::MatrixXd solutions = held.solve(loads, averages);
+  basis.linear.held = held.expand(solutions.rightCols(LinearFields::count));
+
+  progress.start("fixed-boundary modes");
+  const Eigenpairs pairs = fixed_boundary_modes(mass, held, modes, progress, threads);
+  basis.eigenvalues = pairs.values;
+  basis.residuals = pairs.residuals;
+  basis.solves = pairs.solves;
+  Eigen::MatrixXd inside(held.size(), kept + pairs.values.size());
+  inside << solutions.leftCols(kept), pairs.vectors;
+  basis.released = inside.bottomRows(released);
+  basis.shapes = held.expand(inside);
+  basis.shapes.leftCols(kept) += carried;
+  put_rigid_motions_in(solid, ties, body, basis);
+  return basis;
+}
+
+}  // namespace bielle::reduce

@@ -1,0 +1,54 @@
+// The basis of Craig and Bampton, and the held body's answer to inertia loads, from the one factorisation.
+//
+// u = T q, T = [Psi Phi]: constraint modes Psi (one kept direction of an interface moved by one, the others held) and
+// fixed-boundary modes Phi, K_ii phi = omega^2 M_ii phi with every kept direction held, Phi^T M Phi = I.
+// Rigid motions are put into Psi exactly: with A the rigid motion nearest to interface coordinates q_b, Psi q_b is the
+// rigid motion A q_b plus the solution for the rest q_b - U A q_b. (The factor of a slender body would leave errors of
+// 1e-9.) Reference: R. R. Craig, M. C. C. Bampton, AIAA J. 6 (1968) 1313.
+#pragma once
+
+#include <optional>
+
+#include "reduce/common/progress.hpp"
+#include "reduce/fe/node_graph.hpp"
+#include "reduce/reduction/held_body.hpp"
+
+namespace bielle::reduce {
+
+/// Loads and fields that are linear in space: column 4 i + j is direction i times 1, x, y, z (j = 0..3), coordinates
+/// taken from the centre of mass. Every rigid acceleration and every centrifugal field is a combination.
+struct LinearFields {
+  static constexpr int count = 12;
+  RowMatrix inertia;  ///< (3 points, 12) M times the field [kg, kg m]
+  RowMatrix held;     ///< (3 points, 12) displacement of the held body under these loads
+};
+
+struct Basis {
+  RowMatrix shapes;             ///< T (3 points, n)
+  Eigen::MatrixXd released;     ///< (released directions, n): their values in T
+  Eigen::VectorXd eigenvalues;  ///< omega^2 of Phi [rad^2/s^2]
+  Eigen::VectorXd residuals;    ///< of the eigenpairs, relative
+  LinearFields linear;
+  int solves = 0;  ///< single solutions of the eigenvalue iteration
+
+  Eigen::Index modes() const { return eigenvalues.size(); }
+  Eigen::Index kept() const { return shapes.cols() - modes(); }
+};
+
+/// Which fixed-boundary modes are wanted: the lowest `count`, those below `below` [Hz], or the lowest `count` of those
+/// below; neither: none.
+struct ModeRequest {
+  std::optional<int> count;
+  std::optional<double> below;
+};
+
+/// Radius of gyration of the body [m]: turns rotations into comparable displacements.
+double radius_of_gyration(const MassProperties& body);
+
+/// @throws InputError when more modes are wanted than the inside has freedoms; ComputationError when they do not
+/// converge
+Basis make_basis(const Solid& solid, const SymmetricMatrix& stiffness, const NodeMatrix& mass, const Ties& ties,
+                 const HeldBody& held, const MassProperties& body, const ModeRequest& modes, Progress& progress,
+                 int threads);
+
+}  // namespace bielle::reduce

@@ -1,0 +1,161 @@
+#include "reduce/reduction/checks.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include "reduce/reduction/free_body.hpp"
+#include "reduce/reduction/reduced_matrices.hpp"
+#include "reduce/reduction/rigid_motions.hpp"
+
+namespace bielle::reduce {
+
+namespace {
+
+/// U in all n coordinates: rigid motions move no fixed-boundary mode.
+Eigen::MatrixXd rigid_coordinates(const Superelement& body, const Eigen::Vector3d& about) {
+  Eigen::MatrixXd u = Eigen::MatrixXd::Zero(body.size(), 6);
+  u.topRows(body.interface_directions()) = interface_rigid_motions(body.interfaces, about);
+  return u;
+}
+
+MassProperties properties_of(const Superelement& body) {
+  MassProperties result;
+  result.mass = body.total_mass;
+  result.centre = body.centre;
+  result.inertia = body.inertia;
+  return result;
+}
+
+void add_stiffness_checks(const Superelement& body, std::vector<Check>& checks) {
+  const Eigen::MatrixXd u = rigid_coordinates(body, body.centre);
+  checks.push_back({"rigid_motion_force", relative_force(body.stiffness, u), 1e-12,
+                    "rigid motions meet no force: |K~ U| in units of its terms"});
+  // In coordinates of unit mass, so that amplitudes and displacements compare.
+  const Eigen::VectorXd scale = body.mass.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::VectorXd values =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scale.asDiagonal() * body.stiffness * scale.asDiagonal())
+          .eigenvalues();
+  checks.push_back({"negative_energy", std::max(0.0, -values.minCoeff()) / std::max(values.maxCoeff(), 1e-300), 1e-9,
+                    "no deformation releases energy: least eigenvalue of K~ over the largest"});
+}
+
+void add_mass_checks(const Superelement& body, std::vector<Check>& checks) {
+  const ReducedMassProperties reduced = reduced_mass_properties(body);
+  checks.push_back({"mass_error", std::abs(reduced.mass / body.total_mass - 1), 1e-10, "mass of M~ against the mesh"});
+  checks.push_back({"centre_error", (reduced.centre - body.centre).norm() / radius_of_gyration(properties_of(body)),
+                    1e-10, "centre of mass of M~ against the mesh, in radii of gyration"});
+  checks.push_back({"inertia_error", (reduced.inertia - body.inertia).norm() / body.inertia.norm(), 1e-10,
+                    "inertia of M~ against the mesh"});
+  const Eigen::MatrixXd sum = body.inertia_components[0] + body.inertia_components[1] + body.inertia_components[2];
+  const Eigen::VectorXd scale = body.mass.diagonal().cwiseSqrt().cwiseInverse();
+  checks.push_back({"inertia_components_error",
+                    (scale.asDiagonal() * (sum - body.mass) * scale.asDiagonal()).cwiseAbs().maxCoeff(), 1e-9,
+                    "S_11 + S_22 + S_33 against M~"});
+  const Eigen::Index m = body.modes();
+  if (m > 0) {
+    const Eigen::MatrixXd modal = body.mass.bottomRightCorner(m, m);
+    checks.push_back({"mode_orthogonality", (modal - Eigen::MatrixXd::Identity(m, m)).cwiseAbs().maxCoeff(), 1e-7,
+                      "fixed-boundary modes are orthonormal in the mass"});
+  }
+}
+
+void add_recovery_checks(const Superelement& body, std::vector<Check>& checks) {
+  const Eigen::MatrixXd u = rigid_coordinates(body, body.centre);
+  if (body.displacement_recovery.size() > 0) {
+    const double length = radius_of_gyration(properties_of(body));
+    const Eigen::VectorXd scale = (Eigen::VectorXd(6) << 1, 1, 1, 1 / length, 1 / length, 1 / length).finished();
+    const Eigen::MatrixXd error =
+        body.displacement_recovery * u - Eigen::MatrixXd(rigid_motions(body.mesh.points, body.centre));
+    checks.push_back({"rigid_motion_recovery", (error * scale.asDiagonal()).cwiseAbs().maxCoeff(), 1e-10,
+                      "displacements recovered from rigid motions"});
+  }
+  const Eigen::Index m = body.modes(), directions = body.interface_directions();
+  if (body.stress_recovery.size() > 0 && body.size() > 6) {
+    // Against the stress of unit displacements: those of the interfaces, and of modes with an amplitude of sqrt(mass).
+    double largest =
+        (body.stress_recovery.leftCols(directions).cwiseAbs() * u.topRows(directions).cwiseAbs()).maxCoeff();
+    if (m > 0) {
+      largest = std::max(largest, std::sqrt(body.total_mass) * body.stress_recovery.rightCols(m).cwiseAbs().maxCoeff());
+    }
+    checks.push_back({"rigid_motion_stress", (body.stress_recovery * u).cwiseAbs().maxCoeff() / largest, 1e-8,
+                      "rigid motions recover no stress"});
+  }
+}
+
+/// Energy of the geometric stiffness in rigid translations (none) and rotations: tr(Q) I - sym(Q).
+void add_geometric_checks(const Superelement& body, std::vector<Check>& checks) {
+  if (body.spin_stiffness[0].size() == 0) {
+    return;
+  }
+  const Eigen::MatrixXd u = rigid_coordinates(body, body.centre);
+  const std::vector<Eigen::Matrix3d> virial = virials(body.interfaces, properties_of(body));
+  const double length = radius_of_gyration(properties_of(body));
+  double spin = 0, load = 0;
+  for (std::size_t field = 0; field < 6 + body.load_stiffness.size(); ++field) {
+    const bool is_spin = field < 6;
+    const Eigen::MatrixXd& k = is_spin ? body.spin_stiffness[field] : body.load_stiffness[field - 6];
+    const Eigen::Matrix3d& q = virial[field];
+    Eigen::Matrix<double, 6, 6> expected = Eigen::Matrix<double, 6, 6>::Zero();
+    expected.bottomRightCorner<3, 3>() = q.trace() * Eigen::Matrix3d::Identity() - (q + q.transpose()) / 2;
+    Eigen::Matrix<double, 6, 6> error = u.transpose() * k * u - expected;
+    error.topRows<3>() *= length;
+    error.leftCols<3>() *= length;
+    // In units of what such a load does to a body of this size: m l^2 for spins, l for forces, 1 for moments.
+    const double unit = is_spin ? body.total_mass * length * length : std::max(1.0, length);
+    (is_spin ? spin : load) = std::max(is_spin ? spin : load, error.cwiseAbs().maxCoeff() / unit);
+  }
+  checks.push_back({"spin_stiffness_virial", spin, 1e-6, "geometric stiffness of spins under rigid rotations"});
+  if (!body.load_stiffness.empty()) {
+    checks.push_back({"load_stiffness_virial", load, 1e-6, "geometric stiffness of loads under rigid rotations"});
+  }
+}
+
+}  // namespace
+
+double relative_force(const Eigen::MatrixXd& k, const Eigen::MatrixXd& u) {
+  const Eigen::VectorXd root = k.diagonal().cwiseMax(0).cwiseSqrt();
+  const double largest = root.maxCoeff();
+  const Eigen::VectorXd row_scale = root.cwiseMax(1e-8 * largest);
+  const Eigen::RowVectorXd scale = root.transpose() * u.cwiseAbs();
+  const Eigen::MatrixXd forces = row_scale.cwiseInverse().asDiagonal() * (k * u);
+  double worst = 0;
+  for (Eigen::Index c = 0; c < u.cols(); ++c) {
+    if (scale(c) > 0) {
+      worst = std::max(worst, forces.col(c).cwiseAbs().maxCoeff() / scale(c));
+    }
+  }
+  return worst;
+}
+
+ReducedMassProperties reduced_mass_properties(const Superelement& body) {
+  const Eigen::MatrixXd u = rigid_coordinates(body, body.centre);
+  const Eigen::Matrix<double, 6, 6> m = u.transpose() * body.mass * u;
+  ReducedMassProperties result;
+  result.mass = m.topLeftCorner<3, 3>().trace() / 3;
+  // The coupling block is -m d~, d from the reference to the centre.
+  const Eigen::Matrix3d coupling = m.topRightCorner<3, 3>();
+  const Eigen::Vector3d offset = Eigen::Vector3d(coupling(1, 2) - coupling(2, 1), coupling(2, 0) - coupling(0, 2),
+                                                 coupling(0, 1) - coupling(1, 0)) /
+                                 (2 * result.mass);
+  result.centre = body.centre + offset;
+  result.inertia = m.bottomRightCorner<3, 3>() + result.mass * skew(offset) * skew(offset);
+  return result;
+}
+
+Eigen::VectorXd free_frequencies(const Superelement& body) {
+  return free_modes(body.stiffness, body.mass, rigid_coordinates(body, body.centre)).omega / (2 * std::numbers::pi);
+}
+
+std::vector<Check> check_superelement(const Superelement& body) {
+  std::vector<Check> checks;
+  add_stiffness_checks(body, checks);
+  add_mass_checks(body, checks);
+  add_recovery_checks(body, checks);
+  add_geometric_checks(body, checks);
+  return checks;
+}
+
+}  // namespace bielle::reduce

@@ -1,0 +1,41 @@
+// Physical checks of a reduced body that need nothing but its superelement, so that they can be run again on a file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reduce/superelement/superelement.hpp"
+
+namespace bielle::reduce {
+
+/// One number and what it should be.
+struct Check {
+  std::string name;     ///< as stored, e.g. "rigid_motion_force"
+  double value = 0;     ///< dimensionless error unless the meaning says otherwise
+  double limit = 0;     ///< passed when value <= limit
+  std::string meaning;  ///< one sentence for the summary
+
+  bool passed() const { return value <= limit; }
+};
+
+/// All checks of a superelement: rigid motions in the kernel of K~, positive energy, mass properties of M~ against
+/// those of the mesh, the inertia components, normalised modes, recovery of rigid motions without stress, and the
+/// geometric stiffness under rigid rotations against the virial of loads and inertia.
+std::vector<Check> check_superelement(const Superelement& body);
+
+/// Largest force (K u)_i of some motions u in units of sqrt(K_ii) sum_j sqrt(K_jj) |u_j|, what it would be without
+/// cancellation.
+double relative_force(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& motions);
+
+/// Mass, centre and inertia that M~ gives to rigid motions U: entries of U^T M~ U.
+struct ReducedMassProperties {
+  double mass = 0;
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the centre
+};
+ReducedMassProperties reduced_mass_properties(const Superelement& body);
+
+/// Natural frequencies of the free reduced body, rigid motions split off, ascending [Hz].
+Eigen::VectorXd free_frequencies(const Superelement& body);
+
+}  // namespace bielle::reduce

@@ -1,0 +1,44 @@
+// The free body under loads that its own inertia balances, and the geometric stiffness of the stress they cause.
+//
+// Spin: the acceleration field per unit Om_k Om_l, symmetric in k and l, of a body that turns freely about its centre
+// c,
+//     a_kl = [e_k x (e_l x r) + e_l x (e_k x r)] / 2 + w_kl x r,   J w_kl = -[e_k x J e_l + e_l x J e_k] / 2,
+// r = x - c, so that the load -rho a_kl is self-equilibrated (Euler's equations; sum over k, l of Om_k Om_l a_kl is the
+// acceleration at the angular velocity Om).
+// Load: a unit force or moment on a direction of an interface, with -rho a, a = F / m + w x r, J w = M + (X - c) x F.
+// The displacement u0 of the free body follows from the held one: u0 = Psi q + u_held with K~_bb q = f + Psi^T f_i,
+// solved in the complement of the rigid motions. Clamped interfaces instead would count reactions twice.
+//
+// The geometric stiffness of the stress sigma of u0 is T^T (g (x) I3) T, g_ab = int grad N_a . sigma grad N_b dV, plus
+// the second-order displacements of tied surfaces. With theta the interface's rotation (body axes), per interface:
+//     rigid     sym(N) - tr(N) I,  N = sum over nodes f_s (X_s - X)^T,  f_s the force of the tie on node s
+//     average   tr(F a^T) I - sym(F a^T) + sym(w~ S),  a = X - X_c,  w = J_A^-1 (M + a x F),  S = int r r^T dA
+// With these terms the energy is that of an interface that turns through finite angles: for a rigid rotation theta
+// about c it is (theta^T [tr(Q) I - sym(Q)] theta) / 2, Q = sum F (X - c)^T - int rho a r^T dV, without any reference
+// to stresses; this identity is one of the stored checks. (At second order only; in the moment's work theta is the
+// rotation vector.)
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "reduce/reduction/basis.hpp"
+
+namespace bielle::reduce {
+
+struct GeometricStiffness {
+  std::array<Eigen::MatrixXd, 6> spin;  ///< per unit Om_k Om_l: 11 22 33 23 13 12 [K~ s^2]
+  std::vector<Eigen::MatrixXd> load;    ///< per unit load of each kept direction [K~/N, K~/(N m)]
+};
+
+/// Q of the head comment for each spin field, then each kept direction: what `theta^T [tr(Q) I - sym(Q)] theta` needs.
+std::vector<Eigen::Matrix3d> virials(const std::vector<Interface>& interfaces, const MassProperties& body);
+
+/// @param reduced_stiffness  K~ (n,n)
+/// @param with_loads         false: spins only
+GeometricStiffness geometric_stiffness(const Solid& solid, const NodeGraph& graph, const SymmetricMatrix& stiffness,
+                                       const Ties& ties, const Basis& basis, const MassProperties& body,
+                                       const Eigen::MatrixXd& reduced_stiffness, bool with_loads, Progress& progress,
+                                       int threads);
+
+}  // namespace bielle::reduce

@@ -1,0 +1,253 @@
+#include "reduce/reduction/held_body.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <fmt/format.h>
+
+#include "reduce/common/error.hpp"
+#include "reduce/reduction/rigid_motions.hpp"
+
+namespace bielle::reduce {
+
+namespace {
+
+/// Singular values below this, relative to the largest, belong to motions that nothing resists. Geometry decides here,
+/// not stiffness: a hold that is 1e-8 of the body's size wide holds nothing.
+constexpr double free_motion = 1e-8;
+
+std::string words(const Eigen::Vector3d& x) { return fmt::format("({:.4g}, {:.4g}, {:.4g})", x.x(), x.y(), x.z()); }
+
+/// "turn about the axis (0, 0, 1) through (0.1, 0, 0) m" for a velocity v of `centre` and an angular velocity omega.
+std::string describe_motion(Eigen::Vector3d v, Eigen::Vector3d omega, const Eigen::Vector3d& centre, double length) {
+  if (omega.norm() * length < 1e-6 * v.norm()) {
+    return fmt::format("move along {}", words(v.normalized()));
+  }
+  const Eigen::Vector3d through = centre + omega.cross(v) / omega.squaredNorm();
+  const auto cleaned = [&](const Eigen::Vector3d& x, double scale) {
+    return Eigen::Vector3d((x.array().abs() < 1e-9 * scale).select(0.0, x.array()));
+  };
+  return fmt::format("turn about the axis {} through {} m", words(cleaned(omega.normalized(), 1)),
+                     words(cleaned(through, length)));
+}
+
+/// Basis of the vectors x with A x = 0, columns of A being of comparable size.
+Eigen::MatrixXd null_space(const Eigen::MatrixXd& a) {
+  if (a.rows() == 0) {
+    return Eigen::MatrixXd::Identity(a.cols(), a.cols());
+  }
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeFullV);
+  const double scale = std::sqrt(static_cast<double>(a.rows()));  // a column of ones has this norm
+  const Eigen::Index rank = (svd.singularValues().array() > free_motion * scale).count();
+  return svd.matrixV().rightCols(a.cols() - rank);
+}
+
+}  // namespace
+
+HeldBody::~HeldBody() = default;
+
+const FactorStatistics& HeldBody::statistics() const { return factor_ ? factor_->statistics() : no_statistics_; }
+
+HeldBody::HeldBody(const Solid& solid, const SymmetricMatrix& stiffness, const Ties& ties, int threads)
+    : points_(solid.mesh.points), carry_released_(ties.carry_released) {
+  const std::vector<bool> inside = points_of_solid(solid);
+  for (std::int64_t a = 0; a < solid.points(); ++a) {
+    if (inside[a] && !ties.tied[a]) {
+      free_.insert(free_.end(), {3 * a, 3 * a + 1, 3 * a + 2});
+    }
+  }
+  size_ = static_cast<Eigen::Index>(free_.size()) + carry_released_.cols();
+  conditions_ = restrict(RowMatrix(ties.spread));
+  find_rigid_motions(solid, ties);
+  choose_supports();
+  factorise(stiffness, ties, threads);
+  close_conditions(ties);
+}
+
+RowMatrix HeldBody::expand(const Eigen::MatrixXd& z) const {
+  const auto count = static_cast<Eigen::Index>(free_.size());
+  RowMatrix u = carry_released_ * z.bottomRows(carry_released_.cols());
+  for (Eigen::Index k = 0; k < count; ++k) {
+    u.row(free_[k]) = z.row(k);
+  }
+  return u;
+}
+
+Eigen::MatrixXd HeldBody::restrict(const RowMatrix& forces) const {
+  const auto count = static_cast<Eigen::Index>(free_.size());
+  Eigen::MatrixXd f(size_, forces.cols());
+  for (Eigen::Index k = 0; k < count; ++k) {
+    f.row(k) = forces.row(free_[k]);
+  }
+  f.bottomRows(carry_released_.cols()) = carry_released_.transpose() * forces;
+  return f;
+}
+
+void HeldBody::find_rigid_motions(const Solid& solid, const Ties& ties) {
+  const std::vector<bool> inside = points_of_solid(solid);
+  Eigen::AlignedBox3d box;
+  for (Eigen::Index a = 0; a < solid.points(); ++a) {
+    if (inside[a]) {
+      box.extend(Eigen::Vector3d(points_.col(a)));
+    }
+  }
+  // Unknowns: six amplitudes of the body, rotations by displacements at its size, and the released directions likewise.
+  // A motion is free when every tied point moves with the body and as its interface says.
+  const double length = box.diagonal().norm() / 2;
+  const Eigen::Index released = carry_released_.cols();
+  Eigen::VectorXd scale = Eigen::VectorXd::Ones(6 + released);
+  scale.segment<3>(3).setConstant(1 / length);
+  for (Eigen::Index c = 0; c < released; ++c) {
+    scale(6 + c) = ties.released[c].axis < 3 ? 1 : 1 / length;
+  }
+  const RowMatrix motions = rigid_motions(points_, box.center());
+  std::vector<Eigen::Index> tied_rows;
+  for (Eigen::Index a = 0; a < solid.points(); ++a) {
+    if (ties.tied[a]) {
+      tied_rows.insert(tied_rows.end(), {3 * a, 3 * a + 1, 3 * a + 2});
+    }
+  }
+  Eigen::MatrixXd mismatch(tied_rows.size(), 6 + released);
+  mismatch << motions(tied_rows, Eigen::all), -RowMatrix(carry_released_)(tied_rows, Eigen::all);
+  const Eigen::MatrixXd amplitudes = scale.asDiagonal() * null_space(mismatch * scale.asDiagonal());
+
+  rigid_.resize(size_, amplitudes.cols());
+  for (std::size_t k = 0; k < free_.size(); ++k) {
+    rigid_.row(static_cast<Eigen::Index>(k)) = motions.row(free_[k]) * amplitudes.topRows<6>();
+  }
+  rigid_.bottomRows(released) = amplitudes.bottomRows(released);
+  if (rigid_.cols() == 0) {
+    return;
+  }
+  // Do the averages hold what the missing freedoms do not?
+  Eigen::MatrixXd held = conditions_.transpose() * rigid_;
+  for (Eigen::Index k = 0; k < held.rows(); ++k) {
+    held.row(k) *= ties.kept[ties.averages[k]].axis < 3 ? 1 : length;
+  }
+  if (const Eigen::MatrixXd loose = null_space(held); loose.cols() > 0) {
+    const Eigen::VectorXd motion = amplitudes * loose.col(0);
+    throw InputError(fmt::format(
+        "{}: with every kept direction of the interfaces held, the body can still {}; keep more directions or add an "
+        "interface that holds it",
+        ties.surfaces.front().located, describe_motion(motion.head<3>(), motion.segment<3>(3), box.center(), length)));
+  }
+}
+
+void HeldBody::choose_supports() {
+  const Eigen::Index r = rigid_.cols();
+  if (r > 0) {
+    // Pivoted columns of N^T: freedoms of points far apart, in which the motions differ most.
+    const Eigen::Index count = static_cast<Eigen::Index>(free_.size());
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rigid_.topRows(count).transpose());
+    supports_.assign(qr.colsPermutation().indices().data(), qr.colsPermutation().indices().data() + r);
+    std::sort(supports_.begin(), supports_.end());
+  }
+  std::vector<Eigen::Index> all(size_);
+  std::iota(all.begin(), all.end(), 0);
+  std::set_difference(all.begin(), all.end(), supports_.begin(), supports_.end(), std::back_inserter(not_supports_));
+}
+
+void HeldBody::factorise(const SymmetricMatrix& stiffness, const Ties& ties, int threads) {
+  const auto count = static_cast<Eigen::Index>(free_.size());
+  std::vector<std::int64_t> kept, block_starts;
+  std::int64_t last_point = -1;
+  for (const Eigen::Index k : not_supports_) {
+    if (k >= count) {
+      break;
+    }
+    if (free_[k] / 3 != last_point) {
+      last_point = free_[k] / 3;
+      block_starts.push_back(static_cast<std::int64_t>(kept.size()));
+    }
+    kept.push_back(free_[k]);
+  }
+  SymmetricMatrix matrix = principal_submatrix(stiffness, kept);
+  if (const Eigen::Index released = carry_released_.cols(); released > 0) {
+    const RowMatrix forces = stiffness.multiply(RowMatrix(ties.carry_released), threads);
+    Eigen::MatrixXd border(matrix.size, released);
+    for (std::int64_t k = 0; k < matrix.size; ++k) {
+      border.row(k) = forces.row(kept[k]);
+    }
+    matrix = bordered(matrix, border, Eigen::MatrixXd(carry_released_.transpose() * forces));
+    for (Eigen::Index c = 0; c < released; ++c) {
+      block_starts.push_back(static_cast<std::int64_t>(kept.size()) + c);
+    }
+  }
+  block_starts.push_back(matrix.size);
+  if (matrix.size == 0) {
+    return;
+  }
+  try {
+    factor_.emplace(matrix, block_starts, threads);
+  } catch (const NotPositiveDefinite& error) {
+    if (error.unknown() < static_cast<std::int64_t>(kept.size())) {
+      throw ComputationError(
+          fmt::format("the stiffness of the body is singular at the point {} m: a part of the mesh hangs on there by a "
+                      "point or an edge only, or its cells are degenerate",
+                      words(points_.col(kept[error.unknown()] / 3))));
+    }
+    throw ComputationError("the stiffness of the body is singular in a released direction of an interface");
+  }
+}
+
+Eigen::MatrixXd HeldBody::pseudo_solve(const Eigen::MatrixXd& f) const {
+  Eigen::MatrixXd z = Eigen::MatrixXd::Zero(size_, f.cols());
+  if (!factor_) {
+    return z;
+  }
+  if (supports_.empty()) {
+    return factor_->solve(f);
+  }
+  z(not_supports_, Eigen::all) = factor_->solve(f(not_supports_, Eigen::all));
+  return z;
+}
+
+void HeldBody::close_conditions(const Ties& ties) {
+  const Eigen::Index a = conditions_.cols(), r = rigid_.cols();
+  if (a == 0) {
+    return;
+  }
+  flexibility_ = pseudo_solve(conditions_);
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(a + r, a + r);
+  matrix.topLeftCorner(a, a) = conditions_.transpose() * flexibility_;
+  matrix.topRightCorner(a, r) = -conditions_.transpose() * rigid_;
+  matrix.bottomLeftCorner(r, a) = rigid_.transpose() * conditions_;
+  // Scaled to comparable entries before it is inverted: multipliers are forces and moments.
+  Eigen::VectorXd scale = Eigen::VectorXd::Ones(a + r);
+  for (Eigen::Index k = 0; k < a; ++k) {
+    scale(k) = 1 / std::sqrt(std::max(matrix(k, k), std::numeric_limits<double>::min()));
+  }
+  for (Eigen::Index k = 0; k < r; ++k) {
+    scale(a + k) = 1 / (scale.head(a).asDiagonal() * matrix.col(a + k).head(a)).norm();
+  }
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(scale.asDiagonal() * matrix * scale.asDiagonal());
+  if (!lu.isInvertible()) {
+    throw ComputationError(fmt::format("{}: the average ties of the body depend on each other",
+                                       ties.surfaces[ties.kept[ties.averages.front()].interface].located));
+  }
+  small_ = scale.asDiagonal() * lu.inverse() * scale.asDiagonal();
+}
+
+Eigen::MatrixXd HeldBody::solve(const Eigen::MatrixXd& f, const Eigen::MatrixXd& averages) const {
+  Eigen::MatrixXd z = pseudo_solve(f);
+  const Eigen::Index a = conditions_.cols(), r = rigid_.cols();
+  if (a == 0) {
+    return z;
+  }
+  Eigen::MatrixXd right(a + r, f.cols());
+  right.topRows(a) = conditions_.transpose() * z;
+  if (averages.size() > 0) {
+    right.topRows(a) -= averages;
+  }
+  right.bottomRows(r) = rigid_.transpose() * f;
+  const Eigen::MatrixXd unknowns = small_ * right;
+  z -= flexibility_ * unknowns.topRows(a);
+  z += rigid_ * unknowns.bottomRows(r);
+  return z;
+}
+
+}  // namespace bielle::reduce

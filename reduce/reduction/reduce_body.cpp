@@ -1,0 +1,170 @@
+#include "reduce/reduction/reduce_body.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "reduce/common/error.hpp"
+#include "reduce/fe/assembly.hpp"
+#include "reduce/mesh/checks.hpp"
+#include "reduce/reduction/basis.hpp"
+#include "reduce/reduction/free_body.hpp"
+#include "reduce/reduction/recovery.hpp"
+#include "reduce/reduction/reduced_matrices.hpp"
+#include "reduce/reduction/rigid_motions.hpp"
+#include "reduce/spectral/blas.hpp"
+
+namespace bielle::reduce {
+
+namespace {
+
+constexpr Eigen::Index most_load_stiffnesses = 60;  // they grow with the cube of the directions
+
+/// K~ = T^T K T: Psi^T K Psi and omega^2. Psi^T K Phi = 0 and Psi^T K U = 0 by construction, and how well is returned.
+struct ReducedStiffness {
+  Eigen::MatrixXd matrix;
+  double rigid_force = 0;     ///< largest entry of Psi^T K U before it was set to zero, over the root of the diagonals
+  double coupling = 0;        ///< largest entry of Psi^T K Phi over omega^2 and the root of the diagonal of M~
+  double mode_stiffness = 0;  ///< largest relative difference between phi^T K phi and omega^2
+};
+
+ReducedStiffness reduce_stiffness(const SymmetricMatrix& stiffness, const Basis& basis,
+                                  const std::vector<Interface>& interfaces, const MassProperties& body,
+                                  const Eigen::MatrixXd& mass, int threads) {
+  const Eigen::Index n = basis.shapes.cols(), kept = basis.kept(), modes = basis.modes();
+  const Eigen::MatrixXd full = inner_products(basis.shapes, stiffness.multiply(basis.shapes, threads));
+  ReducedStiffness result{Eigen::MatrixXd::Zero(n, n)};
+  const Eigen::MatrixXd boundary = full.topLeftCorner(kept, kept);
+  const Eigen::MatrixXd rigid = interface_rigid_motions(interfaces, body.centre);
+  const Eigen::MatrixXd rest = Eigen::MatrixXd::Identity(kept, kept) -
+                               rigid * nearest_rigid_motion(interfaces, body.centre, radius_of_gyration(body));
+  const Eigen::MatrixXd elastic = rest.transpose() * boundary * rest;
+  result.matrix.topLeftCorner(kept, kept) = (elastic + elastic.transpose()) / 2;
+  result.rigid_force = kept > 6 ? relative_force(boundary, rigid) : 0;  // six directions have nothing to compare with
+  result.matrix.bottomRightCorner(modes, modes) = basis.eigenvalues.asDiagonal();
+  for (Eigen::Index k = 0; k < modes; ++k) {
+    const double omega2 = basis.eigenvalues(k);
+    result.mode_stiffness = std::max(result.mode_stiffness, std::abs(full(kept + k, kept + k) / omega2 - 1));
+    for (Eigen::Index b = 0; b < kept; ++b) {
+      result.coupling = std::max(result.coupling, std::abs(full(b, kept + k)) / (omega2 * std::sqrt(mass(b, b))));
+    }
+  }
+  return result;
+}
+
+/// (phi^T M U)^2, U rigid motions about the centre.
+Eigen::MatrixXd effective_masses(const Superelement& body) {
+  const Eigen::Index kept = body.interface_directions(), modes = body.modes();
+  const Eigen::MatrixXd participation =
+      body.mass.bottomLeftCorner(modes, kept) * interface_rigid_motions(body.interfaces, body.centre);
+  return participation.cwiseAbs2();
+}
+
+void warn_about_rigid_ties(const Ties& ties, Progress& progress) {
+  std::string names;
+  for (std::size_t i = 0; i < ties.interfaces.size(); ++i) {
+    if (ties.surfaces[i].tie == Tie::rigid) {
+      names += (names.empty() ? "" : ", ") + ties.interfaces[i].name;
+    }
+  }
+  if (!names.empty()) {
+    progress.note(
+        fmt::format("rigid ties ({}) stiffen the body, and its free-free frequencies come out too high; where the "
+                    "surface is not backed by something stiff, 'tie: average' leaves it flexible",
+                    names));
+  }
+}
+
+void fail_when_a_check_does(const std::vector<Check>& checks) {
+  for (const Check& check : checks) {
+    if (!check.passed()) {
+      throw ComputationError(
+          fmt::format("the reduced body fails a check: {} is {:.2e}, at most {:.0e} is right; a very slender "
+                      "or distorted mesh may be the cause",
+                      check.meaning, check.value, check.limit));
+    }
+  }
+}
+
+}  // namespace
+
+Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Progress& progress, int threads,
+                         ReductionReport* report) {
+  progress.start("stiffness and mass");
+  check_connected(mesh);
+  if (const std::string warning = blas_warning(); !warning.empty()) {
+    progress.warn(warning);
+  }
+  const Solid solid = make_solid(mesh, options.materials, options.regions);
+  const MassProperties properties = mass_properties(solid);
+  const Ties ties = make_ties(solid, options.interfaces);
+  warn_about_rigid_ties(ties, progress);
+  const NodeGraph graph = node_graph(solid.nodes, solid.points(), threads);
+  const SymmetricMatrix stiffness = assemble_stiffness(solid, graph, threads);
+  const NodeMatrix mass = assemble_mass(solid, graph, threads);
+
+  progress.start("factorisation");
+  const HeldBody held(solid, stiffness, ties, threads);
+  const Basis basis = make_basis(solid, stiffness, mass, ties, held, properties,
+                                 {options.mode_count, options.modes_below}, progress, threads);
+
+  progress.start("reduced matrices");
+  Superelement body;
+  body.name = options.name;
+  body.created_by = "bielle-reduce " BIELLE_VERSION;
+  body.input = options.input_text;
+  body.interfaces = ties.interfaces;
+  body.frequencies = basis.eigenvalues.cwiseSqrt() / (2 * std::numbers::pi);
+  body.total_mass = properties.mass;
+  body.centre = properties.centre;
+  body.inertia = properties.inertia;
+  body.inertia_components = inertia_components(basis.shapes, mass, threads);
+  body.mass = body.inertia_components[0] + body.inertia_components[1] + body.inertia_components[2];
+  const ReducedStiffness reduced = reduce_stiffness(stiffness, basis, ties.interfaces, properties, body.mass, threads);
+  body.stiffness = reduced.matrix;
+  body.effective_mass = effective_masses(body);
+  Eigen::MatrixXd rigid = Eigen::MatrixXd::Zero(body.size(), 6);
+  rigid.topRows(basis.kept()) = interface_rigid_motions(body.interfaces, body.centre);
+  body.damping = options.rayleigh
+                     ? Eigen::MatrixXd((*options.rayleigh)[0] * body.mass + (*options.rayleigh)[1] * body.stiffness)
+                     : modal_damping(free_modes(body.stiffness, body.mass, rigid), body.mass, options.damping_ratios);
+
+  progress.start("geometric stiffness");
+  GeometricStiffness geometric = geometric_stiffness(solid, graph, stiffness, ties, basis, properties, body.stiffness,
+                                                     basis.kept() <= most_load_stiffnesses, progress, threads);
+  body.spin_stiffness = std::move(geometric.spin);
+  body.load_stiffness = std::move(geometric.load);
+  if (body.load_stiffness.empty()) {
+    progress.note(
+        fmt::format("{} kept directions are more than {}: the geometric stiffness of interface loads is left out, "
+                    "that of spins is not",
+                    basis.kept(), most_load_stiffnesses));
+  }
+
+  progress.start("loads and recovery");
+  body.loads = reduce_loads(solid, options.loads, basis.shapes);
+  add_recovery(solid, options, basis.shapes, threads, body);
+
+  progress.start("checks");
+  std::vector<Check> checks = check_superelement(body);
+  checks.push_back({"rigid_motion_force_on_mesh", reduced.rigid_force, 1e-4,
+                    "rigid motions meet no force: Psi^T K U as the mesh gives it"});
+  checks.push_back(
+      {"stiffness_coupling", reduced.coupling, 1e-4, "constraint modes and fixed-boundary modes do not couple"});
+  if (basis.modes() > 0) {
+    checks.push_back({"mode_stiffness", reduced.mode_stiffness, 1e-4, "energy of the modes against their frequencies"});
+    checks.push_back({"mode_residual", basis.residuals.maxCoeff(), 1e-6, "residual of the fixed-boundary modes"});
+  }
+  for (const Check& check : checks) {
+    body.checks[check.name] = check.value;
+  }
+  progress.finish();
+  fail_when_a_check_does(checks);
+  if (report) {
+    *report = {mesh.point_count(), solid.cells(), held.statistics(), basis.solves, checks};
+  }
+  return body;
+}
+
+}  // namespace bielle::reduce

@@ -1,0 +1,37 @@
+// The reduction: from a mesh and the user's wishes to a superelement.
+#pragma once
+
+#include <vector>
+
+#include "reduce/common/progress.hpp"
+#include "reduce/mesh/mesh.hpp"
+#include "reduce/reduction/checks.hpp"
+#include "reduce/reduction/options.hpp"
+#include "reduce/spectral/symmetric_factor.hpp"
+#include "reduce/superelement/superelement.hpp"
+
+namespace bielle::reduce {
+
+/// What a reduction did beside its result.
+struct ReductionReport {
+  Eigen::Index points = 0, cells = 0;
+  FactorStatistics factor;
+  int solves = 0;             ///< single solutions of the eigenvalue iteration
+  std::vector<Check> checks;  ///< those of the superelement and those that only the mesh could answer
+};
+
+/// Reduces a solid body.
+///
+/// Without `mode_count` and `modes_below` the body keeps its constraint modes only. Geometric stiffness of interface
+/// loads is left out, with a note, for bodies with more than 60 kept directions. The mesh that goes into the
+/// superelement is the whole mesh, or its skin when displacements are to be recovered on the surface only.
+/// @param mesh      in one piece, of one type of solid cells, surface cells oriented outward
+/// @param progress  shows the phases; gets warnings
+/// @param threads   >= 1
+/// @param report    filled when given
+/// @throws InputError for wishes that do not fit the mesh (with the place in the input file), ComputationError when the
+///         computation fails or a check does
+Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Progress& progress, int threads = 1,
+                         ReductionReport* report = nullptr);
+
+}  // namespace bielle::reduce

@@ -1,0 +1,98 @@
+#include "reduce/reduction/reduced_matrices.hpp"
+
+#include <cblas.h>
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+
+#include "reduce/common/error.hpp"
+
+namespace bielle::reduce {
+
+namespace {
+
+/// a_k^T b_l, a_k being every `stride`-th row of a from row k.
+Eigen::MatrixXd strided_product(const RowMatrix& a, int k, const RowMatrix& b, int l, int stride) {
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(a.cols(), b.cols());
+  if (result.size() > 0 && a.rows() > 0) {
+    // A row-major block is its transpose stored by columns.
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, static_cast<int>(a.cols()), static_cast<int>(b.cols()),
+                static_cast<int>(a.rows() / stride), 1, a.data() + k * a.cols(), static_cast<int>(stride * a.cols()),
+                b.data() + l * b.cols(), static_cast<int>(stride * b.cols()), 0, result.data(),
+                static_cast<int>(a.cols()));
+  }
+  return result;
+}
+
+}  // namespace
+
+Eigen::MatrixXd inner_products(const RowMatrix& a, const RowMatrix& b) { return strided_product(a, 0, b, 0, 1); }
+
+std::array<Eigen::MatrixXd, 6> inertia_components(const RowMatrix& shapes, const NodeMatrix& mass, int threads) {
+  const RowMatrix products = mass.multiply(shapes, 3, threads);
+  constexpr std::array<std::array<int, 2>, 6> order{{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
+  std::array<Eigen::MatrixXd, 6> result;
+  for (std::size_t s = 0; s < 6; ++s) {
+    const auto [k, l] = order[s];
+    result[s] = strided_product(shapes, k, products, l, 3);
+    if (k == l) {
+      result[s] = Eigen::MatrixXd(result[s] + result[s].transpose()) / 2;
+    }
+  }
+  return result;
+}
+
+FreeModes free_modes(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass, const Eigen::MatrixXd& rigid) {
+  const Eigen::Index n = mass.rows(), r = rigid.cols();
+  // Coordinates scaled to unit masses: amplitudes, displacements and angles become comparable.
+  const Eigen::VectorXd scale = mass.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd m = scale.asDiagonal() * mass * scale.asDiagonal();
+  const Eigen::MatrixXd k = scale.asDiagonal() * stiffness * scale.asDiagonal();
+  const Eigen::MatrixXd u = scale.cwiseInverse().asDiagonal() * rigid;
+  // Elastic modes are M~-orthogonal to U: they lie in the complement of M~ U.
+  Eigen::MatrixXd complement = Eigen::MatrixXd::Identity(n, n);
+  if (r > 0) {
+    const Eigen::MatrixXd momenta = m * u;
+    complement = Eigen::HouseholderQR<Eigen::MatrixXd>(momenta).householderQ();
+    complement = Eigen::MatrixXd(complement.rightCols(n - r));
+  }
+  FreeModes result;
+  if (complement.cols() == 0) {
+    result.omega.resize(0);
+    result.vectors.resize(n, 0);
+    return result;
+  }
+  const Eigen::MatrixXd reduced_mass = complement.transpose() * m * complement;
+  const Eigen::MatrixXd reduced_stiffness = complement.transpose() * k * complement;
+  const Eigen::LLT<Eigen::MatrixXd> cholesky((reduced_mass + reduced_mass.transpose()) / 2);
+  if (!scale.allFinite() || cholesky.info() != Eigen::Success) {
+    throw ComputationError("the mass matrix of the reduced body is not positive definite");
+  }
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
+      (reduced_stiffness + reduced_stiffness.transpose()) / 2, (reduced_mass + reduced_mass.transpose()) / 2);
+  result.omega = eigen.eigenvalues().cwiseMax(0).cwiseSqrt();
+  result.vectors = scale.asDiagonal() * complement * eigen.eigenvectors();
+  return result;
+}
+
+Eigen::MatrixXd modal_damping(const FreeModes& modes, const Eigen::MatrixXd& mass, const std::vector<double>& ratios) {
+  if (ratios.empty()) {
+    return Eigen::MatrixXd::Zero(mass.rows(), mass.cols());
+  }
+  const Eigen::Index elastic = modes.omega.size();
+  if (static_cast<Eigen::Index>(ratios.size()) > std::max<Eigen::Index>(elastic, 1)) {
+    throw InputError(fmt::format("damping.ratio: {} values for a reduced body with {} elastic modes", ratios.size(), elastic));
+  }
+  Eigen::VectorXd coefficients(elastic);
+  for (Eigen::Index k = 0; k < elastic; ++k) {
+    const double ratio = k < static_cast<Eigen::Index>(ratios.size()) ? ratios[k] : ratios.back();
+    coefficients(k) = 2 * ratio * modes.omega(k);
+  }
+  const Eigen::MatrixXd momenta = mass * modes.vectors;
+  const Eigen::MatrixXd damping = momenta * coefficients.asDiagonal() * momenta.transpose();
+  return (damping + damping.transpose()) / 2;
+}
+
+}  // namespace bielle::reduce

@@ -1,0 +1,47 @@
+// Bodies and requests that the tests of the reduction share.
+#pragma once
+
+#include "reduce/reduction/reduce_body.hpp"
+#include "tests/support/box_mesh.hpp"
+
+namespace bielle::test {
+
+inline reduce::Material steel() { return reduce::Material::isotropic(210e9, 0.3, 7800); }
+
+inline reduce::InterfaceRequest interface(const std::string& name, const std::string& group, reduce::Tie tie) {
+  reduce::InterfaceRequest request;
+  request.name = name;
+  request.group = group;
+  request.tie = tie;
+  request.located = "body.yaml:7: interfaces." + name;
+  return request;
+}
+
+/// A steel body with interfaces "a" on x0 and "b" on x1.
+inline reduce::ReductionOptions steel_body(reduce::Tie a, reduce::Tie b, int modes = 0) {
+  reduce::ReductionOptions options;
+  options.name = "box";
+  options.materials = {{"steel", steel()}};
+  options.regions = {{"all", "steel"}};
+  options.interfaces = {interface("a", "x0", a), interface("b", "x1", b)};
+  options.mode_count = modes;
+  return options;
+}
+
+/// A short twisted block: no symmetry hides an error, and the numbers are well conditioned.
+inline reduce::Mesh twisted_block() {
+  return box_mesh({{0.4, 0.1, 0.15}, {5, 2, 2}}, [](const Eigen::Vector3d& x) {
+    const double angle = 1.5 * x.x();
+    const Eigen::Vector3d r(0, x.y() - 0.05, x.z() - 0.03);
+    return Eigen::Vector3d(x.x() + 0.1 * x.y(), std::cos(angle) * r.y() - std::sin(angle) * r.z(),
+                           std::sin(angle) * r.y() + std::cos(angle) * r.z() + 0.2 * x.x() * x.x());
+  });
+}
+
+inline Superelement reduced(const reduce::Mesh& mesh, const reduce::ReductionOptions& options,
+                            reduce::ReductionReport* report = nullptr) {
+  Progress quiet(true);
+  return reduce::reduce_body(mesh, options, quiet, 2, report);
+}
+
+}  // namespace bielle::test
