@@ -139,10 +139,21 @@ void open_model(GmshSession& session, const std::string& path, const std::string
     throw InputError(fmt::format("'{}' cannot be read: gmsh finds nothing in it", name));
 }
 
-bool model_has_solid_cells() {
+bool model_has_cells(int dimension) {
   bool found = false;
-  visit_elements(3, [&](int, int, const Tags& elements, const Tags&) { found |= !elements.empty(); });
+  visit_elements(dimension, [&](int, int, const Tags& elements, const Tags&) { found |= !elements.empty(); });
   return found;
+}
+
+std::vector<std::pair<std::string, std::size_t>> cell_counts() {
+  std::vector<std::pair<std::string, std::size_t>> counts;
+  for (int dimension : {3, 2}) {
+    std::map<int, std::size_t> of_type;
+    visit_elements(dimension,
+                   [&](int, int type, const Tags& elements, const Tags&) { of_type[type] += elements.size(); });
+    for (const auto& [type, count] : of_type) counts.emplace_back(gmsh_cell_name(type), count);
+  }
+  return counts;
 }
 
 bool model_has_volumes() { return !entities(3).empty(); }

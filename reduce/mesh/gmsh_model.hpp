@@ -46,8 +46,11 @@ struct EntitySize {
 /// @throws InputError "<path>: ..." when gmsh cannot read it, or nothing is in it
 void open_model(GmshSession& session, const std::string& path, const std::string& name);
 
-bool model_has_solid_cells();
+bool model_has_cells(int dimension);  ///< whether there are meshed cells: 2 surface, 3 solid
 bool model_has_volumes();
+
+/// Name and number of the cells of each type, solids first.
+std::vector<std::pair<std::string, std::size_t>> cell_counts();
 
 /// Physical groups of surfaces and volumes. A surface group with the name of a volume group gets `_surface` behind it.
 std::vector<PhysicalGroup> physical_groups();

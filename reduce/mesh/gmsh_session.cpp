@@ -66,10 +66,10 @@ struct GmshSession::State {
   SilentStandardOutput silence;
 };
 
-GmshSession::GmshSession(int threads) : state_(std::make_unique<State>()) {
+GmshSession::GmshSession() : state_(std::make_unique<State>()) {
   gmsh::initialize(0, nullptr, false);
   gmsh::option::setNumber("General.Terminal", 0);
-  gmsh::option::setNumber("General.NumThreads", threads);
+  gmsh::option::setNumber("General.NumThreads", 1);  // with more, the same geometry gives another mesh each time
   gmsh::logger::start();
 }
 

@@ -15,7 +15,7 @@ namespace bielle::reduce {
 /// configuration file of the user is read.
 class GmshSession {
  public:
-  explicit GmshSession(int threads = 1);
+  GmshSession();
   ~GmshSession();
   GmshSession(const GmshSession&) = delete;
   GmshSession& operator=(const GmshSession&) = delete;

@@ -79,22 +79,7 @@ std::map<std::string, std::vector<int>> surface_groups(const MeshRequest& reques
         for (int face : faces_of(found->second, faces, group.name)) of_group.push_back(face);
   }
 
-  // What shapes select from: the surface of the body, with the surfaces of the geometry where there is one.
-  BodySurface surface;
-  std::vector<int> face_of;
-  for (int face : faces.boundary()) {
-    surface.triangles.push_back(faces.corners(face));
-    face_of.push_back(face);
-  }
-  if (geometry) {
-    surface.entities.assign(face_of.size(), 0);
-    std::map<int, int> position;
-    for (std::size_t i = 0; i < face_of.size(); ++i) position[face_of[i]] = static_cast<int>(i);
-    for (const auto& [entity, triangles] : model.surfaces)
-      for (const Triangle& triangle : triangles)
-        if (const std::optional<int> face = faces.find(triangle); face && position.contains(*face))
-          surface.entities[position[*face]] = entity;
-  }
+  const BodySurface surface = body_surface(model, faces, geometry);
   for (const SurfaceSelection& selection : request.surfaces) {
     std::vector<int> selected;
     for (const SurfaceSelector& selector : selection.selectors) {
@@ -106,7 +91,8 @@ std::map<std::string, std::vector<int>> surface_groups(const MeshRequest& reques
         continue;
       }
       try {
-        for (int triangle : select_triangles(selector, mesh.points, surface)) selected.push_back(face_of[triangle]);
+        for (int triangle : select_triangles(selector, mesh.points, surface))
+          selected.push_back(surface.faces[triangle]);
       } catch (const InputError& error) {
         throw InputError(at_place(selection.located, error.what()));
       }

@@ -58,11 +58,7 @@ std::vector<EntitySize> entity_sizes(GmshSession& session, const MeshRequest& re
     }
     if (surface.triangles.empty()) {
       mesh_model(session, source.name, 2, in_unit(request.size, source.metres), {});
-      for (const auto& [entity, triangles] : extract_surfaces(session, source.name, source.metres, points))
-        for (const Triangle& triangle : triangles) {
-          surface.triangles.push_back(triangle);
-          surface.entities.push_back(entity);
-        }
+      surface = body_surface(extract_surfaces(session, source.name, source.metres, points));
     }
     std::set<int> entities;
     for (const SurfaceSelector& selector : selection->selectors) {
@@ -122,12 +118,12 @@ Mesh import_mesh(const MeshRequest& request, Progress& progress) {
   const SourceFile source = placed(request.located, [&] {
     return prepare_source(request.path, request.length_unit, request.length_unit_located, progress);
   });
-  GmshSession session(request.threads);
+  GmshSession session;
   placed(request.located, [&] { open_model(session, source.path, source.name); });
   const std::vector<PhysicalGroup> groups = physical_groups();
   check_groups(request, groups);
 
-  const bool geometry = !model_has_solid_cells();
+  const bool geometry = source.geometry && !model_has_cells(3);
   if (geometry) {
     mesh_geometry(session, request, source, groups, progress);
   } else if (request.size || request.order || !request.sizes.empty()) {

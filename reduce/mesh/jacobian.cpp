@@ -46,12 +46,12 @@ double straight_determinant(const Eigen::Ref<const Eigen::Matrix3Xd>& x) {
   return triple(x.col(1) - x.col(0), x.col(2) - x.col(0), x.col(3) - x.col(0));
 }
 
-double least_determinant(const Eigen::Ref<const Eigen::Matrix3Xd>& x) {
+Eigen::Matrix<double, 20, 1> determinant_coefficients(const Eigen::Ref<const Eigen::Matrix3Xd>& x) {
   const std::array<Eigen::Matrix3d, 4> g = corner_gradients(x);
-  // det = sum over corners p, q, r of L_p L_q L_r det(g1_p, g2_q, g3_r): collect by monomial, then divide by the
-  // multinomial coefficient 3!/(i! j! k! l!) of the Bernstein polynomial.
+  // det = sum over corners p, q, r of L_p L_q L_r det(g1_p, g2_q, g3_r). The products that give one monomial are as many
+  // as its multinomial coefficient 3!/(i! j! k! l!), which belongs to the Bernstein polynomial: their mean is wanted.
   std::array<double, 64> sum{};
-  std::array<double, 64> multiplicity{};
+  std::array<int, 64> products{};
   for (int p = 0; p < 4; ++p)
     for (int q = 0; q < 4; ++q) {
       const Eigen::Vector3d normal = g[p].col(0).cross(g[q].col(1));
@@ -59,13 +59,14 @@ double least_determinant(const Eigen::Ref<const Eigen::Matrix3Xd>& x) {
         Exponents e{};
         ++e[p], ++e[q], ++e[r];
         sum[index_of(e)] += normal.dot(g[r].col(2));
-        multiplicity[index_of(e)] += 1;
+        ++products[index_of(e)];
       }
     }
-  double least = std::numeric_limits<double>::infinity();
+  Eigen::Matrix<double, 20, 1> coefficients;
+  int next = 0;
   for (std::size_t i = 0; i < sum.size(); ++i)
-    if (multiplicity[i] > 0) least = std::min(least, sum[i] / multiplicity[i]);
-  return least;
+    if (products[i] > 0) coefficients[next++] = sum[i] / products[i];
+  return coefficients;
 }
 
 double scaled_jacobian(const Eigen::Ref<const Eigen::Matrix3Xd>& x) {

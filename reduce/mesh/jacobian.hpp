@@ -12,14 +12,15 @@ inline constexpr int tet_edges[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {2, 3}, 
 /// @param nodes  (3, 4 or more), corners first
 double straight_determinant(const Eigen::Ref<const Eigen::Matrix3Xd>& nodes);
 
-/// A lower bound of det(dx/dxi) over a tet10 [m^3], exact when the element is straight: the least coefficient of the
-/// determinant, a cubic polynomial, in the Bernstein basis, whose functions are non-negative and add up to one. The
-/// element is the right way round everywhere when it is positive. It takes the four corner values for what they are, so
-/// that it is also no more than the least value at a corner.
+/// Bernstein coefficients of det(dx/dxi) of a tet10, a cubic polynomial [m^3].
+///
+/// The Bernstein polynomials are non-negative, add up to one and have equal integrals. So the least coefficient is a lower
+/// bound of the determinant (the element is the right way round everywhere when it is positive), and the mean one is six
+/// times the volume of the curved element. All are equal when the element is straight.
 /// Reference: A. Johnen, J.-F. Remacle, C. Geuzaine, Geometrical validity of curvilinear finite elements, J. Comput.
 /// Phys. 233 (2013) 359-372.
 /// @param nodes  (3,10) in gmsh's order
-double least_determinant(const Eigen::Ref<const Eigen::Matrix3Xd>& nodes);
+Eigen::Matrix<double, 20, 1> determinant_coefficients(const Eigen::Ref<const Eigen::Matrix3Xd>& nodes);
 
 /// Scaled Jacobian of a straight tetrahedron: the least over its corners of sqrt(2) det / (product of the three edges
 /// that meet there); 1 for the regular one, 0 for a flat one.

@@ -62,7 +62,6 @@ struct MeshRequest {
   std::string mesh_located;                ///< "rod.yaml:8: mesh"
   std::vector<SurfaceSelection> surfaces;
   std::vector<VolumeSelection> volumes;
-  int threads = 1;  ///< for gmsh's meshers; the mesh does not depend on it
 };
 
 /// `located: message`, or the message alone when there is no place to name.

@@ -84,13 +84,13 @@ std::vector<int> select_triangles(const SurfaceSelector& shape, const Eigen::Mat
   std::map<int, bool> whole;  // surface of the geometry -> all its triangles lie on the shape
   for (int i = 0; i < count; ++i) {
     inside[i] = lies_on(shape, points, surface.triangles[i], tolerance);
-    if (surface.entities.empty()) continue;
+    if (!surface.geometry) continue;
     const auto entry = whole.emplace(surface.entities[i], true).first;
     entry->second = entry->second && inside[i];
   }
   std::vector<int> selected;
   for (int i = 0; i < count; ++i)
-    if (inside[i] && (surface.entities.empty() || whole.at(surface.entities[i]))) selected.push_back(i);
+    if (inside[i] && (!surface.geometry || whole.at(surface.entities[i]))) selected.push_back(i);
   if (selected.empty())
     throw InputError(fmt::format("no surface of the body lies {} {} (within {:.2g} m){}",
                                  std::holds_alternative<BoxSelector>(shape) ? "in" : "on", selector_name(shape),

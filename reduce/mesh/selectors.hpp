@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "reduce/mesh/gmsh_model.hpp"
+#include "reduce/mesh/body_surface.hpp"
 #include "reduce/mesh/mesh_request.hpp"
 
 namespace bielle::reduce {
@@ -22,12 +22,6 @@ bool lies_on(const SurfaceSelector& shape, const Eigen::Matrix3Xd& points, const
 
 /// "the cylinder with radius 0.011 m about (..) along (..)", "the plane ...", "the box ..."
 std::string selector_name(const SurfaceSelector& shape);
-
-/// Triangles of the surface of a body, and to which surface of the geometry they belong.
-struct BodySurface {
-  std::vector<Triangle> triangles;
-  std::vector<int> entities;  ///< of each triangle; empty for a mesh without geometry
-};
 
 /// Numbers of the triangles that a shape selects, ascending. On a geometry a shape takes whole surfaces: those all of
 /// whose triangles lie on it. On a mesh it takes triangles.

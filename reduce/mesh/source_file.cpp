@@ -58,14 +58,20 @@ SourceFile prepare_source(const std::string& path, const std::optional<std::stri
   }
 
   const std::string ending = ending_of(path);
-  if (!carries_unit(ending)) {
+  source.geometry = gmsh_reads(path) && ending != ".msh" && ending != ".unv";
+  if (carries_unit(ending)) {
+    const std::optional<double> carried = ending.starts_with(".st") ? step_length_unit(path) : std::nullopt;
+    source.unit_note =
+        carried ? fmt::format("it says that its unit is {}", unit_name(*carried)) : "it carries its unit";
+    if (length_unit && carried && std::abs(*carried - said) > 1e-6 * said)
+      progress.warn(
+          at_place(length_unit_located, fmt::format("'{}' is not the unit of '{}', which carries its own, {}: that one "
+                                                    "holds",
+                                                    *length_unit, path, unit_name(*carried))));
+  } else {
     source.metres = said;
-  } else if (length_unit && ending.starts_with(".st")) {
-    const std::optional<double> carried = step_length_unit(path);
-    if (carried && std::abs(*carried - said) > 1e-6 * said)
-      progress.warn(at_place(length_unit_located,
-                             fmt::format("length_unit is '{}', but '{}' carries its own unit, {}: that one holds",
-                                         *length_unit, path, unit_name(*carried))));
+    source.unit_note = length_unit ? fmt::format("read in {} as length_unit says", *length_unit)
+                                   : "it carries no unit: read in m (length_unit changes that)";
   }
   if (!gmsh_reads(path)) {
     source.folder = std::make_unique<TemporaryFolder>();

@@ -15,9 +15,11 @@ namespace bielle::reduce {
 
 /// A geometry or mesh, ready for gmsh.
 struct SourceFile {
-  std::string name;   ///< as the user wrote it, for messages
-  std::string path;   ///< what gmsh opens: the file, or the MSH file to which it was converted
-  double metres = 1;  ///< per unit of what gmsh then holds (1 for STEP and IGES: gmsh converts these)
+  std::string name;       ///< as the user wrote it, for messages
+  std::string path;       ///< what gmsh opens: the file, or the MSH file to which it was converted
+  bool geometry = false;  ///< to be meshed, by the ending of its name
+  std::string unit_note;  ///< "lengths in the file are in mm": what is known of its unit, for people
+  double metres = 1;      ///< per unit of what gmsh then holds (1 for STEP and IGES: gmsh converts these)
   std::unique_ptr<TemporaryFolder> folder;  ///< of the converted file; lives as long as this
 };
 

@@ -24,7 +24,7 @@ Straightening straighten_elements(Mesh& mesh) {
     for (Eigen::Index e = 0; e < block->nodes.cols(); ++e) {
       const auto nodes = block->nodes.col(e);
       const Eigen::Matrix3Xd x = mesh.points(Eigen::all, nodes);
-      if (least_determinant(x) > least_ratio * straight_determinant(x)) continue;
+      if (determinant_coefficients(x).minCoeff() > least_ratio * straight_determinant(x)) continue;
       offended[e] = 1;
       for (int k = 0; k < 6; ++k) {
         if (moved[nodes[4 + k]]) continue;

@@ -1,0 +1,37 @@
+#include "reduce/mesh/body_surface.hpp"
+
+#include <algorithm>
+
+namespace bielle::reduce {
+
+BodySurface body_surface(const ExtractedModel& model, const FaceTable& faces, bool geometry) {
+  std::vector<int> entity_of(faces.size(), 0);
+  for (const auto& [entity, triangles] : model.surfaces)
+    for (const Triangle& triangle : triangles)
+      if (const std::optional<int> face = faces.find(triangle)) entity_of[*face] = entity;
+  BodySurface surface;
+  surface.geometry = geometry;
+  surface.faces = faces.boundary();
+  for (int face : surface.faces) {
+    surface.triangles.push_back(faces.corners(face));
+    surface.entities.push_back(entity_of[face]);
+  }
+  if (std::find(surface.entities.begin(), surface.entities.end(), 0) != surface.entities.end()) {
+    surface.entities.clear();
+    surface.geometry = false;
+  }
+  return surface;
+}
+
+BodySurface body_surface(const std::map<int, std::vector<Triangle>>& surfaces) {
+  BodySurface surface;
+  surface.geometry = true;
+  for (const auto& [entity, triangles] : surfaces)
+    for (const Triangle& triangle : triangles) {
+      surface.triangles.push_back(triangle);
+      surface.entities.push_back(entity);
+    }
+  return surface;
+}
+
+}  // namespace bielle::reduce

@@ -1,0 +1,24 @@
+// The surface of a body as triangles, and the named surfaces of the file to which they belong.
+#pragma once
+
+#include <vector>
+
+#include "reduce/mesh/faces.hpp"
+#include "reduce/mesh/gmsh_model.hpp"
+
+namespace bielle::reduce {
+
+struct BodySurface {
+  std::vector<Triangle> triangles;  ///< outward
+  std::vector<int> faces;           ///< of the FaceTable, one per triangle; empty before there are solid cells
+  std::vector<int> entities;        ///< surface of the geometry or file, one per triangle; empty unless all have one
+  bool geometry = false;            ///< whether these are surfaces of a geometry, which shapes select as wholes
+};
+
+/// The boundary faces of a mesh.
+BodySurface body_surface(const ExtractedModel& model, const FaceTable& faces, bool geometry);
+
+/// The surfaces of a geometry that is meshed in two dimensions only; triangles in no particular sense.
+BodySurface body_surface(const std::map<int, std::vector<Triangle>>& surfaces);
+
+}  // namespace bielle::reduce

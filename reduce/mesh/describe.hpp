@@ -1,0 +1,24 @@
+// What a geometry or mesh offers: `bielle-reduce --list`.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace bielle {
+class Progress;
+}
+
+namespace bielle::reduce {
+
+/// Volumes, surfaces with their shapes, physical groups and units of a file, as text for the terminal, with lines that
+/// can be copied into a body file to select each surface.
+///
+/// A geometry is not meshed: its shapes come from points on its surfaces, areas and volumes from OpenCASCADE
+/// (geometries of gmsh's own kernel have none). The boundary of a mesh is divided at edges where it turns by more than
+/// 40 degrees.
+/// @param length_unit  of a file that carries none; absent: m
+/// @throws InputError when the file cannot be read
+std::string describe_geometry(const std::string& path, const std::optional<std::string>& length_unit,
+                              Progress& progress);
+
+}  // namespace bielle::reduce

@@ -1,0 +1,18 @@
+// Volumes of meshes and of the geometries from which they come.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "reduce/mesh/mesh.hpp"
+
+namespace bielle::reduce {
+
+/// Volume of the solid cells as they are, curved or straight; exact up to rounding [m^3].
+double mesh_volume(const Mesh& mesh);
+
+/// Volume of a geometry of the OpenCASCADE kernel, without meshing it [m^3].
+/// @throws InputError when the file cannot be read or its volumes are not OpenCASCADE's
+double geometry_volume(const std::string& path, const std::optional<std::string>& length_unit = {});
+
+}  // namespace bielle::reduce
