@@ -9,6 +9,7 @@
 #include "reduce/body_axes.hpp"
 #include "reduce/body_materials.hpp"
 #include "reduce/common/yaml_file.hpp"
+#include "reduce/mesh/place.hpp"
 
 namespace bielle::reduce {
 
@@ -17,6 +18,11 @@ namespace {
 // "rod.yaml:17: interfaces.big_end"
 std::string place_of(const YamlValue& value) {
   return fmt::format("{}:{}: {}", value.file(), value.line(), value.path());
+}
+
+// Names become paths in the superelement file.
+void check_name(const std::string& name, const YamlValue& value) {
+  if (name.empty() || name.find('/') != std::string::npos) value.fail("expected a name without '/'");
 }
 
 SurfaceSelector read_selector(const YamlValue& value) {
@@ -73,6 +79,7 @@ std::array<bool, 6> read_directions(const YamlValue& value, Tie tie) {
 
 InterfaceRequest read_interface(const std::string& name, const YamlValue& value, MeshRequest& request) {
   value.check_keys({"surface", "tie", "position", "axes", "rotation_vector", "directions"}, "an interface");
+  check_name(name, value);
   InterfaceRequest interface;
   interface.name = name;
   interface.located = place_of(value);
@@ -101,6 +108,7 @@ InterfaceRequest read_interface(const std::string& name, const YamlValue& value,
 
 LoadRequest read_load(const std::string& name, const YamlValue& value, MeshRequest& request) {
   value.check_keys({"surface", "pressure", "traction", "force"}, "a load");
+  check_name(name, value);
   LoadRequest load;
   load.name = name;
   load.located = place_of(value);

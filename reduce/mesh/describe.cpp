@@ -258,9 +258,12 @@ std::string groups_text() {
 
 std::string describe_geometry(const std::string& path, const std::optional<std::string>& length_unit,
                               Progress& progress) {
-  const SourceFile source = prepare_source(path, length_unit, "", progress);
+  MeshRequest request;
+  request.path = path;
+  request.length_unit = length_unit;
+  const SourceFile source = prepare_source(request, progress);
   GmshSession session;
-  open_model(session, source.path, source.name);
+  open_model(session, source);
   std::string text;
   session.run(fmt::format("'{}' cannot be listed", path), [&] {
     const bool mesh = !source.geometry || model_has_cells(3);

@@ -79,7 +79,7 @@ std::string without_label(const std::string& line) {
 
 }  // namespace
 
-TemporaryFolder::TemporaryFolder() {
+ScratchFolder::ScratchFolder() {
   std::error_code failed;
   const auto base = std::filesystem::temp_directory_path(failed);
   std::string name = ((failed ? std::filesystem::path("/tmp") : base) / "bielle-XXXXXX").string();
@@ -88,7 +88,7 @@ TemporaryFolder::TemporaryFolder() {
   path_ = name;
 }
 
-TemporaryFolder::~TemporaryFolder() {
+ScratchFolder::~ScratchFolder() {
   std::error_code ignored;
   std::filesystem::remove_all(path_, ignored);
 }

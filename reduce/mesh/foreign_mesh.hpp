@@ -11,12 +11,12 @@ class Progress;
 namespace bielle::reduce {
 
 /// A folder for temporary files that disappears with the object.
-class TemporaryFolder {
+class ScratchFolder {
  public:
-  TemporaryFolder();  ///< @throws ComputationError when none can be made
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  ScratchFolder();  ///< @throws ComputationError when none can be made
+  ~ScratchFolder();
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
   const std::filesystem::path& path() const { return path_; }
 
  private:

@@ -1,6 +1,7 @@
 #include "reduce/mesh/gmsh_model.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <set>
 #include <unordered_map>
 
@@ -83,11 +84,14 @@ void read_solids(const Nodes& nodes, const std::string& name, ExtractedModel& mo
           fmt::format("'{}' holds {} cells of type '{}'; supported are tetrahedra with 4 or 10 nodes: remesh "
                       "the body with tetrahedra",
                       name, count, gmsh_cell_name(type)));
-  if (counts.size() > 1)
+  // Of the tetrahedra of one volume gmsh delivers those of the first one's type only, silently: its own count tells.
+  double all = 0;
+  gmsh::option::getNumber("Mesh.NbTetrahedra", all);
+  if (counts.size() > 1 || (counts.size() == 1 && static_cast<double>(counts.begin()->second) != all))
     throw InputError(
-        fmt::format("'{}' mixes {} tetrahedra with 4 nodes and {} with 10: their common faces do not fit "
-                    "together; use one kind",
-                    name, counts[static_cast<int>(CellType::tet4)], counts[static_cast<int>(CellType::tet10)]));
+        fmt::format("'{}' mixes tetrahedra with 4 and with 10 nodes: their common faces do not fit together; "
+                    "use one kind",
+                    name));
   if (counts.empty()) {
     std::size_t flat = 0;
     visit_elements(2, [&](int, int, const Tags& elements, const Tags&) { flat += elements.size(); });
@@ -128,15 +132,31 @@ void drop_unused_nodes(const Eigen::Matrix3Xd& points, ExtractedModel& model) {
       for (int& node : triangle) node = number[node];
 }
 
+// Edge lengths by place, until the end of a scope: gmsh would keep them beyond its own finalisation.
+struct SizeCallback {
+  explicit SizeCallback(std::function<double(int, int, double, double, double)> size) {
+    gmsh::model::mesh::setSizeCallback(std::move(size));
+  }
+  ~SizeCallback() {
+    try {
+      gmsh::model::mesh::removeSizeCallback();
+    } catch (...) {  // never without a session
+    }
+  }
+  SizeCallback(const SizeCallback&) = delete;
+  SizeCallback& operator=(const SizeCallback&) = delete;
+};
+
 }  // namespace
 
-void open_model(GmshSession& session, const std::string& path, const std::string& name) {
-  session.run(fmt::format("'{}' cannot be read", name), [&] {
-    gmsh::option::setString("Geometry.OCCTargetUnit", "M");
-    gmsh::open(path);
+void open_model(GmshSession& session, const SourceFile& source) {
+  session.run(fmt::format("'{}' cannot be read", source.name), [&] {
+    // OpenCASCADE's unit outlives a session. What a .geo reads by itself comes in mm, as gmsh has it by default.
+    gmsh::option::setString("Geometry.OCCTargetUnit", source.carries_unit ? "M" : "MM");
+    gmsh::open(source.path);
   });
   if (entities(0).empty() && entities(2).empty() && entities(3).empty())
-    throw InputError(fmt::format("'{}' cannot be read: gmsh finds nothing in it", name));
+    throw InputError(fmt::format("'{}' cannot be read: gmsh finds nothing in it", source.name));
 }
 
 bool model_has_cells(int dimension) {
@@ -199,8 +219,9 @@ void mesh_model(GmshSession& session, const std::string& name, int dimension, st
   session.run(fmt::format("'{}' cannot be meshed", name), [&] {
     gmsh::model::mesh::clear();
     if (size) gmsh::option::setNumber("Mesh.MeshSizeMax", *size);
+    std::optional<SizeCallback> callback;
     if (!size_of.empty())
-      gmsh::model::mesh::setSizeCallback([size_of, size](int dim, int tag, double, double, double) {
+      callback.emplace([size_of, size](int dim, int tag, double, double, double) {
         const auto found = size_of.find({dim, tag});
         return found != size_of.end() ? found->second : size.value_or(1e22);
       });

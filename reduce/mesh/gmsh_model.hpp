@@ -11,6 +11,7 @@
 
 #include "reduce/mesh/gmsh_session.hpp"
 #include "reduce/mesh/mesh.hpp"
+#include "reduce/mesh/source_file.hpp"
 
 namespace bielle::reduce {
 
@@ -41,10 +42,9 @@ struct EntitySize {
   double size;  ///< in the geometry's own unit
 };
 
-/// Opens a geometry or mesh that gmsh reads.
-/// @param name  of the file in messages, here and below. STEP and IGES come in metres, whatever their unit.
-/// @throws InputError "<path>: ..." when gmsh cannot read it, or nothing is in it
-void open_model(GmshSession& session, const std::string& path, const std::string& name);
+/// Opens a geometry or mesh that gmsh reads. STEP and IGES come in metres, whatever their unit.
+/// @throws InputError "<name>: ..." when gmsh cannot read it, or nothing is in it
+void open_model(GmshSession& session, const SourceFile& source);
 
 bool model_has_cells(int dimension);  ///< whether there are meshed cells: 2 surface, 3 solid
 bool model_has_volumes();
@@ -57,6 +57,7 @@ std::vector<PhysicalGroup> physical_groups();
 
 /// Meshes the geometry with straight cells, in surfaces (dimension 2) or also in volumes (3), instead of an earlier
 /// mesh.
+/// @param name   of the file in messages, here and below
 /// @param size   largest edge in the geometry's own unit; absent: as the geometry says
 /// @param sizes  on some entities; fades into `size` away from them
 void mesh_model(GmshSession& session, const std::string& name, int dimension, std::optional<double> size,

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "reduce/common/error.hpp"
+#include "reduce/mesh/place.hpp"
 #include "reduce/mesh/selectors.hpp"
 
 namespace bielle::reduce {
@@ -33,7 +34,9 @@ namespace {
   const std::string kind = dimension == 2 ? "surface" : "volume";
   const PhysicalGroup* other = find_group(groups, name);
   const std::vector<std::string> names = group_names(groups, dimension);
-  std::string advice = names.empty() ? fmt::format("; it has no physical {}s", kind) : did_you_mean(name, names);
+  std::string advice = names.empty()
+                           ? fmt::format("; it has no physical {}s{}", kind, dimension == 3 ? ": use all" : "")
+                           : did_you_mean(name, names);
   if (other != nullptr)
     throw InputError(at_place(located, fmt::format("'{}' is a physical {} of the geometry, but a {} is needed{}", name,
                                                    other->dimension == 2 ? "surface" : "volume", kind, advice)));
@@ -90,12 +93,9 @@ std::map<std::string, std::vector<int>> surface_groups(const MeshRequest& reques
         selected.insert(selected.end(), of_group.begin(), of_group.end());
         continue;
       }
-      try {
-        for (int triangle : select_triangles(selector, mesh.points, surface))
-          selected.push_back(surface.faces[triangle]);
-      } catch (const InputError& error) {
-        throw InputError(at_place(selection.located, error.what()));
-      }
+      const std::vector<int> triangles =
+          placed(selection.located, [&] { return select_triangles(selector, mesh.points, surface); });
+      for (int triangle : triangles) selected.push_back(surface.faces[triangle]);
     }
     result[selection.group] = selected;
   }

@@ -21,16 +21,6 @@ namespace bielle::reduce {
 
 namespace {
 
-// Puts the place of the geometry in the input file before messages about the geometry.
-template <class Work>
-auto placed(const std::string& located, const Work& work) {
-  try {
-    return work();
-  } catch (const InputError& error) {
-    throw InputError(at_place(located, error.what()));
-  }
-}
-
 std::optional<double> in_unit(std::optional<double> length, double metres) {
   if (length) *length /= metres;
   return length;
@@ -67,7 +57,9 @@ std::vector<EntitySize> entity_sizes(GmshSession& session, const MeshRequest& re
         entities.insert(of_group.begin(), of_group.end());
         continue;
       }
-      for (int triangle : select_triangles(selector, points, surface)) entities.insert(surface.entities[triangle]);
+      const std::vector<int> triangles =
+          placed(selection->located, [&] { return select_triangles(selector, points, surface); });
+      for (int triangle : triangles) entities.insert(surface.entities[triangle]);
     }
     result.push_back({2, {entities.begin(), entities.end()}, wish.size / source.metres});
   }
@@ -115,11 +107,9 @@ void check_mesh(const MeshRequest& request, const ExtractedModel& model, const F
 
 Mesh import_mesh(const MeshRequest& request, Progress& progress) {
   progress.start("reading " + std::filesystem::path(request.path).filename().string());
-  const SourceFile source = placed(request.located, [&] {
-    return prepare_source(request.path, request.length_unit, request.length_unit_located, progress);
-  });
+  const SourceFile source = prepare_source(request, progress);
   GmshSession session;
-  placed(request.located, [&] { open_model(session, source.path, source.name); });
+  placed(request.located, [&] { open_model(session, source); });
   const std::vector<PhysicalGroup> groups = physical_groups();
   check_groups(request, groups);
 

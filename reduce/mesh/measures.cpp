@@ -26,9 +26,12 @@ double mesh_volume(const Mesh& mesh) {
 
 double geometry_volume(const std::string& path, const std::optional<std::string>& length_unit) {
   Progress progress(true);
-  const SourceFile source = prepare_source(path, length_unit, "", progress);
+  MeshRequest request;
+  request.path = path;
+  request.length_unit = length_unit;
+  const SourceFile source = prepare_source(request, progress);
   GmshSession session;
-  open_model(session, source.path, source.name);
+  open_model(session, source);
   double volume = 0;
   session.run(fmt::format("'{}' has no volume that OpenCASCADE could measure", path), [&] {
     gmsh::vectorpair volumes;

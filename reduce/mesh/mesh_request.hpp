@@ -64,9 +64,4 @@ struct MeshRequest {
   std::vector<VolumeSelection> volumes;
 };
 
-/// `located: message`, or the message alone when there is no place to name.
-inline std::string at_place(const std::string& located, const std::string& message) {
-  return located.empty() ? message : located + ": " + message;
-}
-
 }  // namespace bielle::reduce

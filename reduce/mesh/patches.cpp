@@ -116,8 +116,10 @@ double difference(const PlaneSelector& asked, const Patch& patch, double size) {
   return angle_between(asked.normal, p->normal) + std::abs(p->normal.dot(asked.point - p->point)) / size;
 }
 
+// How far the patch sticks out of the box.
 double difference(const BoxSelector& asked, const Patch& patch, double size) {
-  return Eigen::AlignedBox3d(asked.low, asked.high).exteriorDistance(patch.box) / size;
+  const double below = (asked.low - patch.box.min()).maxCoeff(), above = (patch.box.max() - asked.high).maxCoeff();
+  return std::max({below, above, 0.0}) / size;
 }
 
 double difference(const std::string&, const Patch&, double) { return std::numeric_limits<double>::infinity(); }

@@ -1,4 +1,4 @@
-// Places and directions in messages.
+// Places in messages: in space, and in the user's input file.
 #pragma once
 
 #include <cmath>
@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 #include <fmt/format.h>
+
+#include "reduce/common/error.hpp"
 
 namespace bielle::reduce {
 
@@ -19,6 +21,22 @@ inline std::string direction_name(const Eigen::Vector3d& v) {
 /// "(0.2, 0, -0.013) m"; less than an atom's diameter is 0.
 inline std::string place_name(const Eigen::Vector3d& point) {
   return direction_name((point.array().abs() < 1e-10).select(0.0, point)) + " m";
+}
+
+/// `located: message`, or the message alone when there is no place to name.
+/// @param located  "rod.yaml:17: interfaces.big_end"
+inline std::string at_place(const std::string& located, const std::string& message) {
+  return located.empty() ? message : located + ": " + message;
+}
+
+/// What `work` returns; an InputError from it gets the place in the input file in front.
+template <class Work>
+auto placed(const std::string& located, const Work& work) {
+  try {
+    return work();
+  } catch (const InputError& error) {
+    throw InputError(at_place(located, error.what()));
+  }
 }
 
 }  // namespace bielle::reduce

@@ -10,7 +10,7 @@
 #include "reduce/common/error.hpp"
 #include "reduce/common/progress.hpp"
 #include "reduce/mesh/length_unit.hpp"
-#include "reduce/mesh/mesh_request.hpp"
+#include "reduce/mesh/place.hpp"
 
 namespace bielle::reduce {
 
@@ -39,44 +39,39 @@ std::string ending_of(const std::string& path) {
   return ending;
 }
 
-bool carries_unit(const std::string& ending) {
-  return ending == ".step" || ending == ".stp" || ending == ".iges" || ending == ".igs";
+// Metres per unit of a geometry that carries none; for one that carries its own, a warning when the user says
+// otherwise.
+void settle_unit(const MeshRequest& request, const std::string& ending, SourceFile& source, Progress& progress) {
+  const double said =
+      request.length_unit ? placed(request.length_unit_located, [&] { return metres_per(*request.length_unit); }) : 1.0;
+  if (!source.carries_unit) {
+    source.metres = said;
+    source.unit_note = request.length_unit ? fmt::format("read in {} as length_unit says", *request.length_unit)
+                                           : "it carries no unit: read in m (length_unit changes that)";
+    return;
+  }
+  const std::optional<double> carried = ending.starts_with(".st") ? step_length_unit(request.path) : std::nullopt;
+  source.unit_note = carried ? fmt::format("it says that its unit is {}", unit_name(*carried)) : "it carries its unit";
+  if (request.length_unit && carried && std::abs(*carried - said) > 1e-6 * said)
+    progress.warn(at_place(request.length_unit_located,
+                           fmt::format("'{}' is not the unit of '{}', which carries its own, {}: that one holds",
+                                       *request.length_unit, request.path, unit_name(*carried))));
 }
 
 }  // namespace
 
-SourceFile prepare_source(const std::string& path, const std::optional<std::string>& length_unit,
-                          const std::string& length_unit_located, Progress& progress) {
-  check_file(path);
+SourceFile prepare_source(const MeshRequest& request, Progress& progress) {
+  placed(request.located, [&] { check_file(request.path); });
+  const std::string ending = ending_of(request.path);
   SourceFile source;
-  source.name = source.path = path;
-  double said = 1;
-  try {
-    if (length_unit) said = metres_per(*length_unit);
-  } catch (const InputError& error) {
-    throw InputError(at_place(length_unit_located, error.what()));
-  }
-
-  const std::string ending = ending_of(path);
-  source.geometry = gmsh_reads(path) && ending != ".msh" && ending != ".unv";
-  if (carries_unit(ending)) {
-    const std::optional<double> carried = ending.starts_with(".st") ? step_length_unit(path) : std::nullopt;
-    source.unit_note =
-        carried ? fmt::format("it says that its unit is {}", unit_name(*carried)) : "it carries its unit";
-    if (length_unit && carried && std::abs(*carried - said) > 1e-6 * said)
-      progress.warn(
-          at_place(length_unit_located, fmt::format("'{}' is not the unit of '{}', which carries its own, {}: that one "
-                                                    "holds",
-                                                    *length_unit, path, unit_name(*carried))));
-  } else {
-    source.metres = said;
-    source.unit_note = length_unit ? fmt::format("read in {} as length_unit says", *length_unit)
-                                   : "it carries no unit: read in m (length_unit changes that)";
-  }
-  if (!gmsh_reads(path)) {
-    source.folder = std::make_unique<TemporaryFolder>();
+  source.name = source.path = request.path;
+  source.geometry = gmsh_reads(request.path) && ending != ".msh" && ending != ".unv";
+  source.carries_unit = ending == ".step" || ending == ".stp" || ending == ".iges" || ending == ".igs";
+  settle_unit(request, ending, source, progress);
+  if (!gmsh_reads(request.path)) {
+    source.folder = std::make_unique<ScratchFolder>();
     source.path = (source.folder->path() / "mesh.msh").string();
-    convert_mesh(path, source.path, progress);
+    placed(request.located, [&] { convert_mesh(request.path, source.path, progress); });
   }
   return source;
 }

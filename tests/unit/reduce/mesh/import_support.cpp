@@ -1,0 +1,85 @@
+#include "import_support.hpp"
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+#include <gmsh.h>
+
+#include "reduce/common/error.hpp"
+#include "reduce/common/progress.hpp"
+#include "reduce/mesh/gmsh_session.hpp"
+#include "reduce/mesh/import.hpp"
+#include "tests/support/messages.hpp"
+
+namespace bielle::test {
+
+using namespace bielle::reduce;
+
+MeshRequest request(const std::string& path) {
+  MeshRequest result;
+  result.path = path;
+  return result;
+}
+
+Mesh import(const MeshRequest& request) {
+  Progress progress(true);
+  return import_mesh(request, progress);
+}
+
+std::string import_message(const MeshRequest& request) {
+  return message_of<InputError>([&] { import(request); });
+}
+
+SurfaceSelection selection(const std::string& group, const SurfaceSelector& selector) {
+  return {group, {selector}, ""};
+}
+
+std::string msh(const std::vector<std::string>& points, const std::vector<std::string>& elements,
+                const std::vector<std::string>& names) {
+  std::string text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+  const auto section = [&](const std::string& name, const std::vector<std::string>& rows, bool numbered) {
+    text += fmt::format("${}\n{}\n", name, rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      text += numbered ? fmt::format("{} {}\n", i + 1, rows[i]) : rows[i] + "\n";
+    text += fmt::format("$End{}\n", name);
+  };
+  if (!names.empty()) section("PhysicalNames", names, false);
+  section("Nodes", points, true);
+  section("Elements", elements, true);
+  return text;
+}
+
+void gmsh_convert(const std::string& source, const std::string& target, double size, int order) {
+  GmshSession session;
+  session.run("test", [&] {
+    gmsh::option::setString("Geometry.OCCTargetUnit", "MM");  // what is written as STEP is in mm
+    gmsh::open(source);
+    gmsh::option::setNumber("Mesh.MeshSizeMax", size);
+    gmsh::option::setNumber("Mesh.ElementOrder", order);
+    if (!target.ends_with(".step") && !target.ends_with(".brep")) gmsh::model::mesh::generate(3);
+    gmsh::write(target);
+  });
+}
+
+Eigen::Vector3d area_vector(const Mesh& mesh, const std::string& group) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const GroupPart& part : mesh.groups.at(group).parts)
+    for (int cell : part.cells) {
+      const auto nodes = mesh.block(part.type)->nodes.col(cell);
+      const Eigen::Vector3d a = mesh.points.col(nodes[0]), b = mesh.points.col(nodes[1]), c = mesh.points.col(nodes[2]);
+      sum += 0.5 * (b - a).cross(c - a);
+    }
+  return sum;
+}
+
+double corner_area(const Mesh& mesh, const std::string& group) {
+  double sum = 0;
+  for (const GroupPart& part : mesh.groups.at(group).parts)
+    for (int cell : part.cells) {
+      const auto nodes = mesh.block(part.type)->nodes.col(cell);
+      const Eigen::Vector3d a = mesh.points.col(nodes[0]), b = mesh.points.col(nodes[1]), c = mesh.points.col(nodes[2]);
+      sum += 0.5 * (b - a).cross(c - a).norm();
+    }
+  return sum;
+}
+
+}  // namespace bielle::test

@@ -1,0 +1,276 @@
+// What users read when a geometry or mesh cannot be reduced.
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+
+#include "import_support.hpp"
+#include <catch2/catch.hpp>
+#include <fcntl.h>
+#include <unistd.h>
+
+#include "reduce/common/error.hpp"
+#include "reduce/common/progress.hpp"
+#include "reduce/mesh/checks.hpp"
+#include "reduce/mesh/import.hpp"
+#include "tests/support/box_mesh.hpp"
+#include "tests/support/messages.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+using namespace bielle::reduce;
+using namespace bielle::test;
+using Catch::Contains;
+using Catch::StartsWith;
+
+namespace {
+
+const std::vector<std::string> corners = {"0 0 0", "1 0 0", "0 1 0", "0 0 1"};
+
+// The message for a mesh written as text, with its place in a body file.
+std::string message_for(const std::string& text, const std::string& name = "body.msh") {
+  const TemporaryFolder folder;
+  MeshRequest wish = request(folder.file(name, text));
+  wish.located = "rod.yaml:2: geometry";
+  return import_message(wish);
+}
+
+MeshRequest small_box(const TemporaryFolder& folder, const std::string& more = "") {
+  MeshRequest wish = request(folder.file("box.geo", "SetFactory(\"OpenCASCADE\"); Box(1) = {0,0,0, 1,1,1};\n" + more));
+  wish.size = 0.5;
+  wish.located = "rod.yaml:2: geometry";
+  wish.mesh_located = "rod.yaml:4: mesh";
+  return wish;
+}
+
+const std::string groups_geo =
+    "Physical Volume(\"solid\") = {1}; Physical Surface(\"crown\") = {1}; Physical Surface(\"floor\") = {2};\n";
+
+}  // namespace
+
+TEST_CASE("an inverted element is named by its number in the file and its place") {
+  CHECK_THAT(message_for(msh({"0 0 0", "1 0 0", "0 1 0", "0 0 1", "1 1 1"}, {"4 2 1 1 1 2 3 4", "4 2 1 1 2 3 5 4"})),
+             StartsWith("rod.yaml:2: geometry: 1 of 2 elements are inverted (negative volume); the first is element 2 "
+                        "at (0.5, 0.5, 0.5) m"));
+}
+
+TEST_CASE("a mesh whose elements are all inverted is mirrored") {
+  CHECK_THAT(
+      message_for(msh(corners, {"4 2 1 1 2 1 3 4"})),
+      Contains(
+          "all 1 elements are inverted (negative volume): the mesh is mirrored, or its nodes are ordered otherwise"));
+}
+
+TEST_CASE("a flat element is named") {
+  CHECK_THAT(
+      message_for(msh({"0 0 0", "1 0 0", "0 1 0", "0 0 1", "0.2 0.2 0"}, {"4 2 1 1 1 2 3 4", "4 2 1 1 1 3 2 5"})),
+      Contains("1 of 2 elements are degenerate (no volume); the first is element 2 at"));
+}
+
+TEST_CASE("a body in pieces is described, and whether the pieces touch") {
+  const std::vector<std::string> apart = {"0 0 0", "1 0 0", "0 1 0", "0 0 1", "4 0 0", "6 0 0", "4 2 0", "4 0 2"};
+  CHECK_THAT(
+      message_for(msh(apart, {"4 2 1 1 1 2 3 4", "4 2 1 1 5 6 7 8"})),
+      Contains("the body is in 2 pieces that share no nodes: 1 elements with 1.33 m^3 from (4, 0, 0) m to (6, 2, 2) m; "
+               "1 elements with 0.167 m^3 from (0, 0, 0) m to (1, 1, 1) m; join them"));
+  const std::vector<std::string> touching = {"0 0 0", "1 0 0", "0 1 0", "0 0 1", "1 0 0", "0 1 0", "0 0 1", "1 1 1"};
+  CHECK_THAT(message_for(msh(touching, {"4 2 1 1 1 2 3 4", "4 2 1 1 5 6 7 8"})),
+             Contains("in 2 pieces") && Contains("3 pairs of nodes lie at the same place: merge them"));
+}
+
+TEST_CASE("coincident nodes within one piece are a crack") {
+  // Two bricks that share the lower half of the nodes of their common face only: nodes on it are split.
+  Mesh mesh = box_mesh({{2, 1, 1}, {2, 2, 2}, false});
+  const CellBlock solids = mesh.solids();
+  int split = -1;
+  for (int node = 0; node < mesh.point_count(); ++node)
+    if ((mesh.points.col(node) - Eigen::Vector3d(1, 0.5, 1)).norm() < 1e-12) split = node;
+  REQUIRE(split >= 0);
+  mesh.points.conservativeResize(3, mesh.point_count() + 1);
+  mesh.points.col(mesh.point_count() - 1) = mesh.points.col(split);
+  for (CellBlock& block : mesh.blocks)
+    for (Eigen::Index e = 0; e < block.nodes.cols(); ++e) {
+      double x = 0;
+      for (int node : block.nodes.col(e)) x += mesh.points(0, node) / static_cast<double>(block.nodes.rows());
+      for (int& node : block.nodes.col(e))
+        if (node == split && x > 1) node = static_cast<int>(mesh.point_count()) - 1;
+    }
+  CHECK_NOTHROW(check_connected(mesh));
+  const CoincidentNodes found = coincident_nodes(mesh, FaceTable(mesh));
+  CHECK(found.pairs == 1);
+  CHECK((found.place - Eigen::Vector3d(1, 0.5, 1)).norm() < 1e-12);
+  const Mesh sound = box_mesh({{2, 1, 1}, {2, 2, 2}, false});
+  CHECK(coincident_nodes(sound, FaceTable(sound)).pairs == 0);
+}
+
+TEST_CASE("cells that stand twice are refused") {
+  CHECK_THAT(message_for(msh(corners, {"4 2 1 1 1 2 3 4", "4 2 1 1 1 2 3 4", "4 2 1 1 1 2 3 4"})),
+             Contains("three or more cells share the face at (") && Contains("cells overlap or stand twice"));
+}
+
+TEST_CASE("cells that are no tetrahedra are named with what is supported") {
+  const std::vector<std::string> cube = {"0 0 0", "1 0 0", "1 1 0", "0 1 0", "0 0 1", "1 0 1", "1 1 1", "0 1 1"};
+  CHECK_THAT(message_for(msh(cube, {"5 2 1 1 1 2 3 4 5 6 7 8"})),
+             Contains("holds 1 cells of type 'Hexahedron 8'; supported are tetrahedra with 4 or 10 nodes"));
+  CHECK_THAT(message_for(msh(cube, {"6 2 1 1 1 2 4 5 6 8"})), Contains("cells of type 'Prism 6'"));
+}
+
+TEST_CASE("a surface mesh and a mesh without cells are no bodies") {
+  CHECK_THAT(message_for(msh(corners, {"2 2 1 1 1 2 3"})),
+             Contains("holds a surface mesh only (1 cells); a body needs tetrahedra"));
+  CHECK_THAT(message_for(msh(corners, {"15 2 1 1 1"})), Contains("holds no cells"));
+}
+
+TEST_CASE("linear and quadratic tetrahedra do not mix") {
+  const std::vector<std::string> points = {"0 0 0",  "1 0 0",  "0 1 0",   "0 0 1",   ".5 0 0", ".5 .5 0",
+                                           "0 .5 0", "0 0 .5", "0 .5 .5", ".5 0 .5", "1 1 1"};
+  CHECK_THAT(message_for(msh(points, {"11 2 1 1 1 2 3 4 5 6 7 8 9 10", "4 2 1 1 2 3 4 11"})),
+             Contains("mixes tetrahedra with 4 and with 10 nodes"));
+}
+
+TEST_CASE("a triangle that is no face of a solid is refused when it belongs to a group") {
+  const std::vector<std::string> points = {"0 0 0", "1 0 0", "0 1 0", "0 0 1", "2 2 2"};
+  CHECK_THAT(message_for(msh(points, {"4 2 1 1 1 2 3 4", "2 2 9 1 1 2 5"}, {"2 9 \"skin\""})),
+             Contains("surface group 'skin' holds a triangle that is no face of a solid cell"));
+}
+
+TEST_CASE("a linear triangle on a quadratic solid becomes a face with its mid-side nodes") {
+  const TemporaryFolder folder;
+  const std::vector<std::string> points = {"0 0 0",   "1 0 0",  "0 1 0",  "0 0 1",   ".5 0 0",
+                                           ".5 .5 0", "0 .5 0", "0 0 .5", "0 .5 .5", ".5 0 .5"};
+  const Mesh mesh = import(request(
+      folder.file("one.msh", msh(points, {"11 2 1 1 1 2 3 4 5 6 7 8 9 10", "2 2 9 1 1 2 3"}, {"2 9 \"base\""}))));
+  CHECK(mesh.groups.at("base").nodes == std::vector<int>{0, 1, 2, 4, 5, 6});
+}
+
+TEST_CASE("files that are missing, empty or of another kind are named") {
+  const TemporaryFolder folder;
+  folder.file("conrod.geo", "");
+  CHECK_THAT(import_message(request(folder / "conord.geo")),
+             Contains("conord.geo' does not exist; did you mean 'conrod.geo'?"));
+  CHECK_THAT(import_message(request(folder / "conrod.geo")), Contains("is empty"));
+  CHECK_THAT(import_message(request(folder.path())), Contains("is not a file"));
+  CHECK_THAT(message_for("this is no mesh\n"), StartsWith("rod.yaml:2: geometry: '") && Contains("cannot be read"));
+  CHECK_THAT(message_for("this is no geometry\n", "body.step"),
+             StartsWith("rod.yaml:2: geometry: '") && Contains("cannot be read"));
+  CHECK_THAT(message_for("this is no geometry\n", "body.brep"),
+             StartsWith("rod.yaml:2: geometry: '") && Contains("cannot be read"));
+  CHECK_THAT(message_for("Point(1) = {0, 0;\n", "body.geo"),
+             StartsWith("rod.yaml:2: geometry: '") && Contains("line 1"));
+  CHECK_THAT(message_for("-1\nno universal file\n", "body.unv"),
+             StartsWith("rod.yaml:2: geometry: '") && Contains("cannot be read"));
+  CHECK_THAT(message_for("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n7\n1 0 0 0\n"),
+             StartsWith("rod.yaml:2: geometry: '"));
+}
+
+TEST_CASE("an import after a failed one works") {
+  const TemporaryFolder folder;
+  CHECK_THAT(message_for("Point(1) = {0, 0;\n", "body.geo"), Contains("line 1"));
+  CHECK(import(small_box(folder)).solid_count() > 0);
+}
+
+TEST_CASE("a geometry needs volumes, and a size where it has none of its own") {
+  const TemporaryFolder folder;
+  MeshRequest flat = request(folder.file("flat.geo", "SetFactory(\"OpenCASCADE\"); Rectangle(1) = {0,0,0, 1,1};"));
+  CHECK_THAT(import_message(flat), Contains("holds no volume: a body is a solid"));
+  MeshRequest box = small_box(folder);
+  gmsh_convert(box.path, folder / "box.step", 1, 1);
+  box.path = folder / "box.step";
+  box.size.reset();
+  CHECK_THAT(import_message(box),
+             StartsWith("rod.yaml:2: geometry: ") && Contains("say how fine to mesh it, e.g. mesh: {size: 3e-3}"));
+}
+
+TEST_CASE("a mesh takes no size and no order") {
+  const TemporaryFolder folder;
+  MeshRequest wish = request(folder.file("one.msh", msh(corners, {"4 2 1 1 1 2 3 4"})));
+  wish.mesh_located = "rod.yaml:4: mesh";
+  wish.size = 0.1;
+  CHECK_THAT(import_message(wish), StartsWith("rod.yaml:4: mesh: ") && Contains("is a mesh already: remove this key"));
+  wish.size.reset();
+  wish.order = 2;
+  CHECK_THAT(import_message(wish), Contains("is a mesh already"));
+}
+
+TEST_CASE("unknown groups are answered with the nearest one, before meshing") {
+  const TemporaryFolder folder;
+  MeshRequest wish = small_box(folder, groups_geo);
+  wish.surfaces = {{"crwon", {std::string("crwon")}, "rod.yaml:9: loads.gas.surface"}};
+  CHECK_THAT(
+      import_message(wish),
+      StartsWith(
+          "rod.yaml:9: loads.gas.surface: 'crwon' is not a physical surface of the geometry; did you mean 'crown'?"));
+  wish.surfaces = {{"solid", {std::string("solid")}, "rod.yaml:9: loads.gas.surface"}};
+  CHECK_THAT(import_message(wish), Contains("'solid' is a physical volume of the geometry, but a surface is needed"));
+  wish.surfaces.clear();
+  wish.volumes = {{"sloid", "rod.yaml:7: regions.sloid"}};
+  CHECK_THAT(import_message(wish), StartsWith("rod.yaml:7: regions.sloid: 'sloid' is not a physical volume") &&
+                                       Contains("did you mean 'solid'?"));
+  wish = small_box(folder);
+  wish.volumes = {{"solid", "rod.yaml:7: regions.solid"}};
+  CHECK_THAT(import_message(wish), Contains("it has no physical volumes: use all"));
+  wish.volumes.clear();
+  wish.surfaces = {{"crown", {std::string("crown")}, "rod.yaml:9: loads.gas.surface"}};
+  CHECK_THAT(import_message(wish),
+             Contains("it has no physical surfaces; select by shape: {cylinder: {point, axis, radius}}"));
+}
+
+TEST_CASE("a physical surface without triangles is refused when it is used") {
+  const TemporaryFolder folder;
+  // Format 4.1: surface 5 stands among the entities and in group 9, but has no cells.
+  MeshRequest wish =
+      request(folder.file("one.msh",
+                          "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 9 \"empty\"\n$EndPhysicalNames\n"
+                          "$Entities\n0 0 1 1\n5 0 0 0 1 1 1 1 9 0\n1 0 0 0 1 1 1 0 1 5\n$EndEntities\n"
+                          "$Nodes\n1 4 1 4\n3 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n$EndNodes\n"
+                          "$Elements\n1 1 1 1\n3 1 4 1\n1 1 2 3 4\n$EndElements\n"));
+  CHECK(import(wish).solid_count() == 1);
+  wish.surfaces = {{"empty", {std::string("empty")}, "rod.yaml:9: interfaces.end.surface"}};
+  CHECK_THAT(import_message(wish),
+             StartsWith("rod.yaml:9: interfaces.end.surface: the physical surface 'empty' is empty"));
+}
+
+TEST_CASE("an unknown unit of length is answered with those that are known") {
+  const TemporaryFolder folder;
+  MeshRequest wish = small_box(folder);
+  wish.length_unit = "mn";
+  wish.length_unit_located = "rod.yaml:3: length_unit";
+  CHECK_THAT(import_message(wish), StartsWith("rod.yaml:3: length_unit: 'mn' is not a unit of length"));
+}
+
+TEST_CASE("a body of more than 1 km or less than 1 mm is doubtful") {
+  CHECK(doubtful_size(box_mesh({{1, 1, 1}, {1, 1, 1}, false})).empty());
+  CHECK_THAT(doubtful_size(box_mesh({{2000, 1, 1}, {1, 1, 1}, false})),
+             Contains("2e+03 m long: is length_unit right?"));
+  CHECK_THAT(doubtful_size(box_mesh({{2e-4, 1e-4, 1e-4}, {1, 1, 1}, false})), Contains("0.0002 m long"));
+}
+
+TEST_CASE("nothing of gmsh or OpenCASCADE reaches standard output") {
+  const TemporaryFolder folder;
+  std::cout.flush();
+  std::fflush(stdout);
+  const int saved = dup(STDOUT_FILENO);
+  const int file = open((folder / "out").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  dup2(file, STDOUT_FILENO);
+  MeshRequest wish = request(std::string(BIELLE_SOURCE_DIR) + "/meshes/conrod.step");
+  wish.size = 0.01;
+  import(wish);
+  std::cout.flush();
+  std::fflush(stdout);
+  dup2(saved, STDOUT_FILENO);
+  close(saved);
+  close(file);
+  CHECK(std::filesystem::file_size(folder / "out") == 0);
+}
+
+TEST_CASE("the quality of a regular and of a right-angled tetrahedron") {
+  Mesh mesh;
+  mesh.points.resize(3, 4);
+  mesh.points << 1, 1, -1, -1, 1, -1, 1, -1, 1, -1, -1, 1;
+  mesh.blocks.push_back({CellType::tet4, Eigen::Vector4i(0, 2, 1, 3)});
+  const MeshQuality regular = mesh_quality(mesh);
+  CHECK(regular.least_scaled_jacobian == Approx(1).margin(1e-14));
+  CHECK(regular.shortest_edge == Approx(std::sqrt(8)).margin(1e-14));
+  mesh.points << 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1;
+  mesh.blocks.front().nodes = Eigen::Vector4i(0, 1, 2, 3);
+  // At a corner of the large face: sqrt(2) * 1 / (1 * sqrt(2) * sqrt(2)).
+  CHECK(mesh_quality(mesh).least_scaled_jacobian == Approx(std::sqrt(0.5)).margin(1e-14));
+}
