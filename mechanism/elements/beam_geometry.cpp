@@ -1,8 +1,8 @@
 #include "mechanism/elements/beam_geometry.hpp"
 
 #include <cmath>
+#include <numbers>
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 namespace bielle::mechanism {
@@ -75,7 +75,7 @@ BeamLine arc_through(const YamlValue& value, const Vector3& start, const Vector3
   const auto angle_to = [&](const Vector3& point) {
     const Vector3 to = point - centre;
     const double angle = std::atan2(axis.dot(from.cross(to)), from.dot(to));
-    return angle > 0 ? angle : angle + 2 * M_PI;
+    return angle > 0 ? angle : angle + 2 * std::numbers::pi;
   };
   // About +n the three points follow each other in the order start, through, end.
   return BeamLine::arc(start, centre, axis, angle_to(end));
