@@ -64,7 +64,7 @@ TEST_CASE("a rigid body is equivalent to the mass points that it is made of") {
 
   Model model;
   Node node;
-  node.name = "a";
+  node.name = std::string("a");  // gcc 12 warns of plain assignment (its bug 105651)
   node.frame = frame;
   node.velocity = v;
   node.angular_velocity = Omega;
