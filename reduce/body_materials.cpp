@@ -31,23 +31,25 @@ double poisson_ratio(const YamlValue& value) {
   return poisson;
 }
 
-Material isotropic(const YamlValue& value, double density) {
+double density(const YamlValue& value) { return value.at("density").positive_number(); }
+
+Material isotropic(const YamlValue& value) {
   value.check_keys(with(isotropic_keys, {"density"}), "an isotropic material");
-  return Material::isotropic(value.at("young").positive_number(), poisson_ratio(value.at("poisson")), density);
+  return Material::isotropic(value.at("young").positive_number(), poisson_ratio(value.at("poisson")), density(value));
 }
 
-Material orthotropic(const YamlValue& value, double density) {
+Material orthotropic(const YamlValue& value) {
   value.check_keys(with(orthotropic_keys, {"density", "axes"}), "an orthotropic material");
   const auto modulus = [&](const char* key) { return value.at(key).positive_number(); };
   const auto ratio = [&](const char* key) { return value.at(key).number(); };
   return Material::orthotropic({modulus("E1"), modulus("E2"), modulus("E3")},
                                {ratio("nu23"), ratio("nu13"), ratio("nu12")},
-                               {modulus("G23"), modulus("G13"), modulus("G12")}, density);
+                               {modulus("G23"), modulus("G13"), modulus("G12")}, density(value));
 }
 
-Material anisotropic(const YamlValue& value, double density) {
+Material anisotropic(const YamlValue& value) {
   value.check_keys(with(anisotropic_keys, {"density", "axes"}), "an anisotropic material");
-  return Material::anisotropic(value.at("stiffness").matrix(6, 6), density);
+  return Material::anisotropic(value.at("stiffness").matrix(6, 6), density(value));
 }
 
 }  // namespace
@@ -56,12 +58,9 @@ Material read_material(const YamlValue& value) {
   const bool engineering = has_any(value, orthotropic_keys), full = has_any(value, anisotropic_keys);
   if (has_any(value, isotropic_keys) + engineering + full > 1)
     value.fail("expected the keys of one kind of material: young and poisson; or E1 .. nu12 .. G12 ..; or stiffness");
-  const double density = value.at("density").positive_number();
   Material material;
   try {
-    material = full          ? anisotropic(value, density)
-               : engineering ? orthotropic(value, density)
-                             : isotropic(value, density);
+    material = full ? anisotropic(value) : engineering ? orthotropic(value) : isotropic(value);
   } catch (const InputError& error) {
     // Reading a key names its place already; what the material as a whole violates does not.
     const std::string message = error.what();
