@@ -13,7 +13,7 @@ constexpr double partial_weight = 1e-3;
 
 }  // namespace
 
-CorotatedFrame::CorotatedFrame(std::vector<BodyPoint> points, MatrixX A)
+CorotatedFrame::CorotatedFrame(std::vector<BodyPoint> points, MatrixX6 A)
     : points_(std::move(points)), A_(std::move(A)) {
   Vector3 centre = Vector3::Zero();
   for (const BodyPoint& point : points_) centre += point.X / static_cast<double>(points_.size());

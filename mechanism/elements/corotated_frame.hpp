@@ -28,6 +28,9 @@
 
 namespace bielle::mechanism {
 
+using MatrixX6 = Eigen::Matrix<double, Eigen::Dynamic, 6>;
+using Matrix6X = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+
 /// An interface as its body sees it.
 struct BodyPoint {
   Vector3 X = Vector3::Zero();          ///< position in the undeformed body [m], body axes
@@ -45,8 +48,8 @@ struct CorotatedGeometry {
   std::vector<Vector3> y;  ///< [m] position of each point from the frame's origin, body axes
   std::vector<Matrix3> E;  ///< rotation of each point relative to the body
   std::vector<Matrix3> D;  ///< differential of its rotational coordinate
-  MatrixX V;               ///< D U_c (n,6)
-  MatrixX Sigma;           ///< (A^T V)^-1 A^T (6,n)
+  MatrixX6 V;              ///< D U_c (n,6)
+  Matrix6X Sigma;          ///< (A^T V)^-1 A^T (6,n)
 };
 
 class CorotatedFrame {
@@ -54,10 +57,10 @@ class CorotatedFrame {
   CorotatedFrame() = default;
   /// @param points  their rows in q must not overlap
   /// @param A       M~ U (n,6); the modal amplitudes are the last rows of q
-  CorotatedFrame(std::vector<BodyPoint> points, MatrixX A);
+  CorotatedFrame(std::vector<BodyPoint> points, MatrixX6 A);
 
   const std::vector<BodyPoint>& points() const { return points_; }
-  const MatrixX& A() const { return A_; }
+  const MatrixX6& A() const { return A_; }
 
   /// Solves the mean-axis conditions for the nodes and amplitudes of `state` (node k is point k).
   /// @throws ComputationError when there is no such frame (the nodes are far from any rigid placement of the body)
@@ -69,7 +72,7 @@ class CorotatedFrame {
  private:
   void update(const LocalState& state, CorotatedGeometry& geometry) const;
   std::vector<BodyPoint> points_;
-  MatrixX A_;
+  MatrixX6 A_;
   double size_ = 1;  ///< [m] of the body: scale of translations and lever of rotations
 };
 

@@ -1,7 +1,7 @@
 #include "mechanism/elements/superelement_body.hpp"
 
 #include <algorithm>
-#include <map>
+#include <mutex>
 
 #include <fmt/format.h>
 
@@ -10,11 +10,53 @@
 
 namespace bielle::mechanism {
 
+struct SuperelementBody::Workspace {
+  SuperelementMotion motion;
+  SuperelementTangent tangent;
+};
+
+/// As many as threads have evaluated the body at once; kept, so that evaluations allocate nothing behind the first.
+class SuperelementBody::Workspaces {
+ public:
+  std::unique_ptr<Workspace> take() {
+    const std::lock_guard lock(mutex_);
+    if (idle_.empty()) return std::make_unique<Workspace>();
+    auto workspace = std::move(idle_.back());
+    idle_.pop_back();
+    return workspace;
+  }
+  void give_back(std::unique_ptr<Workspace> workspace) {
+    const std::lock_guard lock(mutex_);
+    idle_.push_back(std::move(workspace));
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Workspace>> idle_;
+};
+
+class SuperelementBody::Loan {
+ public:
+  explicit Loan(Workspaces& workspaces) : workspaces_(workspaces), workspace_(workspaces.take()) {}
+  Loan(Loan&&) = default;
+  ~Loan() {
+    if (workspace_) workspaces_.give_back(std::move(workspace_));
+  }
+  Workspace* operator->() const { return workspace_.get(); }
+
+ private:
+  Workspaces& workspaces_;
+  std::unique_ptr<Workspace> workspace_;
+};
+
+SuperelementBody::~SuperelementBody() = default;
+
 SuperelementBody::SuperelementBody(std::string name, const Superelement& superelement, SuperelementPlacement placement)
     : Component("superelement", std::move(name)),
       matrices_(superelement, placement.reference_positions, placement.reference_rotations),
       frame_(matrices_.points, matrices_.A),
-      nodes_(std::move(placement.nodes)) {
+      nodes_(std::move(placement.nodes)),
+      workspaces_(std::make_unique<Workspaces>()) {
   for (SuperelementPlacement::Load& load : placement.loads) {
     const auto& names = matrices_.pattern_names;
     const auto found = std::find(names.begin(), names.end(), load.pattern);
@@ -36,19 +78,9 @@ void SuperelementBody::declare(Declaration& declaration) const {
   declaration.stiffness = declaration.damping = declaration.mass = true;
 }
 
-struct SuperelementBody::Workspace {
-  SuperelementMotion motion;
-  SuperelementTangent tangent;
-};
-
-SuperelementBody::Workspace& SuperelementBody::workspace() const {
-  // One per size and thread: bodies that take turns do not resize each other's memory.
-  thread_local std::map<std::pair<int, std::size_t>, Workspace> workspaces;
-  return workspaces[{matrices_.size(), matrices_.points.size()}];
-}
-
-const SuperelementMotion& SuperelementBody::evaluate(const LocalState& state) const {
-  SuperelementMotion& motion = workspace().motion;
+SuperelementBody::Loan SuperelementBody::evaluate(const LocalState& state) const {
+  Loan work(*workspaces_);
+  SuperelementMotion& motion = work->motion;
   try {
     motion.set_motion(frame_, state);
   } catch (const ComputationError& error) {
@@ -59,11 +91,12 @@ const SuperelementMotion& SuperelementBody::evaluate(const LocalState& state) co
     motion.loads.push_back(
         {&matrices_.patterns[load.pattern], state.environment().load_factor * load.factor(state.time()), load.follows});
   motion.set_forces(matrices_, state.memory());
-  return motion;
+  return work;
 }
 
 void SuperelementBody::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
-  const SuperelementMotion& motion = evaluate(state);
+  const Loan work = evaluate(state);
+  const SuperelementMotion& motion = work->motion;
   const Matrix3& R_0 = motion.geometry.frame.R;
   for (std::size_t k = 0; k < matrices_.points.size(); ++k) {
     const BodyPoint& point = matrices_.points[k];
@@ -77,11 +110,13 @@ void SuperelementBody::add_residual(const LocalState& state, Eigen::Ref<VectorX>
 }
 
 void SuperelementBody::add_tangent(const LocalState& state, LocalTangent& tangent) const {
-  workspace().tangent.add(matrices_, evaluate(state), state, tangent);
+  const Loan work = evaluate(state);
+  work->tangent.add(matrices_, work->motion, state, tangent);
 }
 
 void SuperelementBody::add_energy(const LocalState& state, Energy& energy) const {
-  const SuperelementMotion& motion = evaluate(state);
+  const Loan work = evaluate(state);
+  const SuperelementMotion& motion = work->motion;
   const CorotatedGeometry& geometry = motion.geometry;
   energy.kinetic += motion.kinetic_energy(matrices_);
   energy.elastic += 0.5 * geometry.q.dot(motion.elastic_force);
@@ -104,7 +139,8 @@ std::vector<OutputField> SuperelementBody::output_fields() const {
 }
 
 void SuperelementBody::write_output(const LocalState& state, double* values) const {
-  const SuperelementMotion& motion = evaluate(state);
+  const Loan work = evaluate(state);
+  const SuperelementMotion& motion = work->motion;
   const Frame& frame = motion.geometry.frame;
   Eigen::Map<VectorX>(values, 3) = frame.x;
   Eigen::Map<VectorX>(values + 3, 4) = quaternion_of(frame.R);
@@ -125,7 +161,8 @@ std::vector<std::pair<std::string, std::string>> SuperelementBody::attributes() 
 
 void SuperelementBody::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {
   if (matrices_.load_stiffness.empty()) return;
-  const SuperelementMotion& motion = evaluate(state);
+  const Loan work = evaluate(state);
+  const SuperelementMotion& motion = work->motion;
   for (std::size_t j = 0; j < matrices_.directions.size(); ++j) {
     const SuperelementMatrices::Direction& direction = matrices_.directions[j];
     memory[static_cast<Eigen::Index>(j)] = direction.axis.dot(motion.node_force.segment<3>(direction.row));

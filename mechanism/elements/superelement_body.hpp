@@ -47,6 +47,8 @@ class SuperelementBody : public Component {
   /// @throws InputError when arrays of the superelement do not fit each other or a pattern does not exist
   SuperelementBody(std::string name, const Superelement& superelement, SuperelementPlacement placement);
 
+  ~SuperelementBody() override;
+
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
@@ -61,10 +63,11 @@ class SuperelementBody : public Component {
   const CorotatedFrame& frame() const { return frame_; }
 
  private:
-  /// Motion and forces at a state, in this thread's working memory.
-  const SuperelementMotion& evaluate(const LocalState& state) const;
   struct Workspace;
-  Workspace& workspace() const;
+  class Workspaces;
+  class Loan;
+  /// Working memory with motion and forces at a state.
+  Loan evaluate(const LocalState& state) const;
 
   struct Load {
     std::size_t pattern;
@@ -76,6 +79,7 @@ class SuperelementBody : public Component {
   std::vector<int> nodes_;
   std::vector<Load> loads_;
   std::vector<std::pair<std::string, std::string>> attributes_;
+  std::unique_ptr<Workspaces> workspaces_;
 };
 
 /// Reads `name: {type: superelement, ...}` of the elements; see superelement_body_reader.cpp.

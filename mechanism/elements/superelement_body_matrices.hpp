@@ -45,8 +45,10 @@ struct SuperelementMatrices {
   std::vector<BodyPoint> points;
   std::vector<Direction> directions;  ///< of the file's interface coordinates
 
-  MatrixX K, C, M, U, A;
-  std::array<MatrixX, 3> G, GU;  ///< G_k and G_k U
+  MatrixX K, C, M;
+  MatrixX6 U, A;
+  std::array<MatrixX, 3> G;
+  std::array<MatrixX6, 3> GU;  ///< G_k U
   std::array<MatrixX, 6> H;
   std::vector<MatrixX> load_stiffness;  ///< per unit force along each direction; empty when the file has none
   std::vector<std::string> pattern_names;

@@ -86,11 +86,8 @@ void SuperelementMotion::set_forces(const SuperelementMatrices& body,
   pi.noalias() = body.U.transpose() * p;
   pi_rate.noalias() = body.U.transpose() * p_rate;
 
-  elastic_force.noalias() = body.K * q;
-  for (std::size_t j = 0; j < body.load_stiffness.size(); ++j) {
-    const double weight = interface_force[static_cast<Eigen::Index>(j)];
-    if (weight != 0) elastic_force.noalias() += weight * body.load_stiffness[j] * q;
-  }
+  set_stiffness(body, interface_force);
+  elastic_force.noalias() = stiffness * q;
   r = p_rate + elastic_force;
   r.noalias() += Gs * Om_0;
   r.noalias() += body.C * q_rate;
@@ -133,6 +130,15 @@ void SuperelementMotion::set_forces(const SuperelementMatrices& body,
   for (std::size_t k = 0; k < body.points.size(); ++k)
     if (const int theta = body.points[k].theta; theta >= 0)
       node_force.segment<3>(theta) = geometry.D[k].transpose() * force.segment<3>(theta);
+}
+
+void SuperelementMotion::set_stiffness(const SuperelementMatrices& body,
+                                       const Eigen::Ref<const VectorX>& interface_force) {
+  if (stiffness.size() > 0 && weights_ == interface_force) return;
+  stiffness = body.K;
+  weights_ = interface_force;
+  for (std::size_t j = 0; j < body.load_stiffness.size(); ++j)
+    stiffness += weights_[static_cast<Eigen::Index>(j)] * body.load_stiffness[j];
 }
 
 double SuperelementMotion::kinetic_energy(const SuperelementMatrices& body) const {

@@ -19,9 +19,7 @@
 namespace bielle::mechanism {
 
 using Matrix3X = Eigen::Matrix<double, 3, Eigen::Dynamic>;
-using Matrix6X = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 using MatrixX3 = Eigen::Matrix<double, Eigen::Dynamic, 3>;
-using MatrixX6 = Eigen::Matrix<double, Eigen::Dynamic, 6>;
 
 /// A load pattern at work.
 struct ActingLoad {
@@ -30,7 +28,7 @@ struct ActingLoad {
   bool follows = true;  ///< turns with the body's frame; else its directions stay fixed in space
 };
 
-/// Working memory, kept from one evaluation to the next: no allocation but when the size changes.
+/// Working memory of one body, kept from one evaluation to the next: no allocation behind the first.
 struct SuperelementMotion {
   CorotatedGeometry geometry;
   VectorX w, w_rel, a, a_rel;  ///< node triads in body axes
@@ -41,6 +39,7 @@ struct SuperelementMotion {
   VectorX p, p_rate;
   Vector6 pi, pi_rate, e;
   VectorX r, load, elastic_force, force, node_force;
+  MatrixX stiffness;   ///< K~ + F_j K_load,j
   Vector6 rigid_load;  ///< U^T f + [0; m]
   std::vector<ActingLoad> loads;
 
@@ -51,6 +50,10 @@ struct SuperelementMotion {
   void set_forces(const SuperelementMatrices& body, const Eigen::Ref<const VectorX>& interface_force);
 
   double kinetic_energy(const SuperelementMatrices& body) const;  ///< set_forces must have been called
+
+ private:
+  void set_stiffness(const SuperelementMatrices& body, const Eigen::Ref<const VectorX>& interface_force);
+  VectorX weights_;  // F_j in `stiffness`: they change once in a step, the stiffness serves all its evaluations
 };
 
 /// Direction of component k of a load in body axes.

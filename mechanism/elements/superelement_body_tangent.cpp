@@ -113,8 +113,8 @@ void SuperelementTangent::set_rate_blocks(const View& v) {
 /// X_qq <- L^T [X_nn X_nq; X_qn X_qq] L
 void SuperelementTangent::reduce_both_sides(const View& v, const Matrix6& X_nn, const Matrix6X& X_nq,
                                             const MatrixX6& X_qn, MatrixX& X_qq) {
-  const MatrixX& V = v.geometry.V;
-  const MatrixX& Sigma = v.geometry.Sigma;
+  const MatrixX6& V = v.geometry.V;
+  const Matrix6X& Sigma = v.geometry.Sigma;
   left_ = X_qn;
   left_.noalias() -= X_qq * V;
   Matrix6 corner = X_nn;
@@ -174,11 +174,7 @@ void SuperelementTangent::set_rate_form(const View& v) {
 
 void SuperelementTangent::set_position_form(const View& v) {
   const SuperelementMotion& m = v.motion;
-  KQ_ = v.body.K;
-  const auto memory = v.state.memory();
-  for (std::size_t j = 0; j < v.body.load_stiffness.size(); ++j)
-    if (const double weight = memory[static_cast<Eigen::Index>(j)]; weight != 0)
-      KQ_ += weight * v.body.load_stiffness[j];
+  KQ_ = m.stiffness;
   for (int k = 0; k < 3; ++k) {
     KQ_ += v.Om_rate[k] * v.body.G[static_cast<std::size_t>(k)];
     for (int l = k; l < 3; ++l)
