@@ -13,8 +13,8 @@
 // back: that of the centrifugal field inside H, that of interface loads F_j with the values of the last accepted state
 // (memory), which makes V a potential within a step and lets the energy balance show what a changing F_j adds.
 //
-// Limits: strains and rotations within the body are small (bending beyond about a tenth of the length wants several
-// superelements); load patterns and gravity do not prestress it; damping acts on q alone.
+// Limits: strains and rotations within the body are small (what bends by more than a few per cent of its length wants
+// several superelements); load patterns and gravity do not prestress it; damping acts on q alone.
 //
 // Reference: A. Cardona, M. Geradin, Modelling of superelements in mechanism analysis, IJNME 32 (1991) 1565, for the
 // place of a superelement among nodes; the inertia is not theirs (their nodal velocities are not Galilean invariant).

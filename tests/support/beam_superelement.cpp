@@ -247,4 +247,14 @@ BeamChain bent_chain() {
   return chain;
 }
 
+std::vector<BeamChain> bent_chains() {
+  std::vector<BeamChain> chains(5, bent_chain());
+  chains[1].interfaces[1].kept = {true, true, true, false, false, false};
+  chains[2].interfaces[1].kept = {true, true, true, true, true, false};
+  chains[2].interfaces[2].kept = {true, true, true, false, true, false};
+  chains[3].interfaces[2].kept = {false, true, true, true, false, true};
+  for (BeamInterface& interface : chains[4].interfaces) interface.kept = {true, true, true, false, false, false};
+  return chains;
+}
+
 }  // namespace bielle::test

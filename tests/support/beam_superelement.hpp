@@ -64,4 +64,8 @@ BeamChain straight_beam(const BeamProperties& properties = {}, int modes = 4);
 /// patterns "push" (one point) and "spread" (two).
 BeamChain bent_chain();
 
+/// The bent body with interfaces that keep: everything; forces alone at one; all but a turn at one and a single moment
+/// at another; two translations and two turns; forces alone at all three.
+std::vector<BeamChain> bent_chains();
+
 }  // namespace bielle::test

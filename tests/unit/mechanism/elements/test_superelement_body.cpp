@@ -14,16 +14,6 @@ namespace {
 
 double error(const MatrixX& A, const MatrixX& B) { return (A - B).cwiseAbs().maxCoeff(); }
 
-/// Some bodies: all directions kept; a node that carries forces alone; free rotations; a free translation.
-std::vector<BeamChain> bodies() {
-  std::vector<BeamChain> chains(4, bent_chain());
-  chains[1].interfaces[1].kept = {true, true, true, false, false, false};
-  chains[2].interfaces[1].kept = {true, true, true, true, true, false};
-  chains[2].interfaces[2].kept = {true, true, true, false, true, false};
-  chains[3].interfaces[2].kept = {false, true, true, true, false, true};
-  return chains;
-}
-
 SuperelementAlone alone_with_loads(const BeamChain& chain, Random& random) {
   return SuperelementAlone(
       chain.reduced().body, {exp_so3(random.vector3(2)), exp_so3(random.vector3(2)), exp_so3(random.vector3(2))},
@@ -52,7 +42,7 @@ VectorX turned_back(const VectorX& r, const Matrix3& R, int nodes) {
 
 TEST_CASE("the tangents of a superelement are the derivatives of its residual, with nothing neglected") {
   Random random(1);
-  for (const BeamChain& chain : bodies())
+  for (const BeamChain& chain : bent_chains())
     for (double deformation : {0.0, 1e-8, 0.01, 0.1})
       for (double rate : {0.0, 1.0, 10.0}) {
         CAPTURE(deformation, rate);
@@ -98,7 +88,7 @@ TEST_CASE("each tangent can be had alone") {
 
 TEST_CASE("a rigid motion of everything turns the forces and leaves energies and local coordinates") {
   Random random(3);
-  for (const BeamChain& chain : bodies())
+  for (const BeamChain& chain : bent_chains())
     for (double deformation : {0.0, 0.01, 0.15}) {
       const SuperelementAlone alone = alone_with_loads(chain, random);
       State state = alone.random_state(random, deformation, 2, 3);
@@ -117,7 +107,7 @@ TEST_CASE("a rigid motion of everything turns the forces and leaves energies and
 
 TEST_CASE("every observer in uniform motion sees the same forces") {
   Random random(4);
-  for (const BeamChain& chain : bodies()) {
+  for (const BeamChain& chain : bent_chains()) {
     SuperelementAlone alone = alone_with_loads(chain, random);
     State state = alone.random_state(random, 0.05, 3, 3);
     // Rates of some 1000 times the size of the change would show.
@@ -128,7 +118,7 @@ TEST_CASE("every observer in uniform motion sees the same forces") {
 
 TEST_CASE("gravity is an acceleration of the observer") {
   Random random(5);
-  SuperelementAlone alone = alone_with_loads(bodies()[3], random);
+  SuperelementAlone alone = alone_with_loads(bent_chains()[3], random);
   State state = alone.random_state(random, 0.05, 1);
   const VectorX weightless = alone.residual(state);
   alone.environment.gravity = {1, 2, -9.81};
@@ -136,7 +126,7 @@ TEST_CASE("gravity is an acceleration of the observer") {
   CHECK(error(alone.residual(state), weightless) < 1e-12 * weightless.cwiseAbs().maxCoeff());
 
   // Its potential is that of the centre of mass: minus the work of moving the body there.
-  const BeamSuperelement reduced = bodies()[3].reduced();
+  const BeamSuperelement reduced = bent_chains()[3].reduced();
   const CorotatedGeometry geometry = alone.geometry(state);
   VectorX q(reduced.body.size());
   alone.body().matrices().to_file(geometry.q, q);
@@ -152,7 +142,7 @@ TEST_CASE("gravity is an acceleration of the observer") {
 
 TEST_CASE("forces of a superelement in motion balance the rates of its momenta") {
   Random random(6);
-  for (const BeamChain& chain : bodies()) {
+  for (const BeamChain& chain : bent_chains()) {
     const SuperelementAlone alone(chain.reduced().body);
     // Along a motion with constant residual zero the sum of forces is the rate of momentum: here the sums of elastic
     // forces alone, which must vanish, with moments about the origin.
@@ -171,7 +161,7 @@ TEST_CASE("forces of a superelement in motion balance the rates of its momenta")
 
 TEST_CASE("the power of all forces is the rate of energy and dissipation") {
   Random random(7);
-  for (const BeamChain& chain : bodies()) {
+  for (const BeamChain& chain : bent_chains()) {
     SuperelementAlone alone = alone_with_loads(chain, random);
     alone.environment.gravity = {1, 2, -9.81};
     const State state = alone.random_state(random, 0.05, 2, 3);
@@ -234,7 +224,7 @@ TEST_CASE("the load factor of a static analysis scales load patterns") {
 
 TEST_CASE("rotations that an interface does not keep carry no moment") {
   Random random(10);
-  const auto chains = bodies();
+  const auto chains = bent_chains();
   const SuperelementAlone forces_alone(chains[1].reduced().body);
   const State state = forces_alone.random_state(random, 0.05, 3, 2);
   CHECK(forces_alone.residual(state).segment<3>(9).norm() == 0);

@@ -11,18 +11,14 @@ using namespace bielle::test;
 
 namespace {
 
-double error(const MatrixX& A, const MatrixX& B) { return (A - B).cwiseAbs().maxCoeff(); }
-
 std::vector<BeamChain> bodies() {
-  std::vector<BeamChain> chains(5, bent_chain());
+  std::vector<BeamChain> chains = bent_chains();
   chains[0].prestress = false;
-  chains[1].interfaces[1].kept = {true, true, true, false, false, false};
-  chains[2].interfaces[1].kept = {true, true, true, true, true, false};
-  chains[2].interfaces[2].kept = {true, true, true, false, true, false};
-  chains[3].interfaces[2].kept = {false, true, true, true, false, true};
   for (BeamChain& chain : chains) chain.damping = 0;
   return chains;
 }
+
+double error(const MatrixX& A, const MatrixX& B) { return (A - B).cwiseAbs().maxCoeff(); }
 
 /// A motion through a state: z(t) = v t + a t^2 / 2 in the chart x + dx, R exp(dTheta), amplitudes. In this chart rates
 /// and accelerations at t = 0 are v and a.
@@ -135,14 +131,14 @@ TEST_CASE("the kinetic energy is that of the mass points of the reduced field") 
 TEST_CASE("forces of a superelement are those of Lagrange's equations") {
   Random random(2);
   for (const BeamChain& chain : bodies())
-    for (double deformation : {0.0, 0.02, 0.1}) {
+    for (double deformation : {0.0, 0.02, 0.05}) {
       CAPTURE(deformation);
       const BeamSuperelement reduced = chain.reduced();
       const SuperelementAlone alone(reduced.body,
                                     {exp_so3(random.vector3(2)), exp_so3(random.vector3(2)), exp_so3({1, 0, 2})});
       const Reference reference = reference_of(reduced, alone, random, deformation);
       const VectorX force = alone.residual(reference.start);
-      const double step = 0.01;
+      const double step = 0.005;
       for (Eigen::Index j = 0; j < alone.size(); ++j) {
         const VectorX e = VectorX::Unit(alone.size(), j);
         // T is quadratic in the rates: dT/dzdot_j by one central difference of any size is exact.
@@ -154,7 +150,8 @@ TEST_CASE("forces of a superelement are those of Lagrange's equations") {
           return reference.rates(s * e, reference.v).kinetic - reference.potential(s * e);
         };
         const double expected = derivative(momentum, step) - derivative(lagrangian, step);
-        // Differences of differences: 1e-13 over steps of 0.0025 of energies of some 10, and truncation.
+        // Differences of differences: 1e-13 over steps of 0.00125 of energies of some 10, and truncation, which grows
+        // fast with the deformation where a body is held loosely.
         CHECK_THAT(force[j], Catch::WithinAbs(expected, 2e-9 * (1 + force.cwiseAbs().maxCoeff())));
       }
     }
