@@ -1,5 +1,7 @@
 // bielle-reduce: a body file in, a superelement out.
+#include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -8,6 +10,7 @@
 #include "reduce/common/command_line.hpp"
 #include "reduce/common/error.hpp"
 #include "reduce/common/progress.hpp"
+#include "reduce/mesh/checks.hpp"
 #include "reduce/mesh/describe.hpp"
 #include "reduce/mesh/import.hpp"
 #include "reduce/reduction/reduce_body.hpp"
@@ -19,54 +22,105 @@ namespace {
 using namespace bielle;
 using namespace bielle::reduce;
 
-/// Prints a superelement file with its checks made anew. @returns the exit status: 2 when a check fails
-int inspect(const std::string& path) {
-  const Superelement body = read_superelement(path);
-  const std::vector<Check> checks = check_superelement(body);
-  fmt::print("{}: written by {}\n{}", path, body.created_by, format_superelement(body, checks));
-  for (const Check& check : checks)
-    if (!check.passed()) throw ComputationError(fmt::format("{}: the check {} fails", path, check.name));
-  return 0;
+/// Refuses before the long work what would fail, or hurt, after it.
+void check_output(const std::string& path, const std::string& input, const std::string& geometry) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::path(path).parent_path();
+  if (!folder.empty() && !fs::is_directory(folder)) {
+    throw InputError(fmt::format("{}: there is no folder '{}'", path, folder.string()));
+  }
+  if (fs::is_directory(path)) {
+    throw InputError(fmt::format("{}: is a folder; expected a file name for the superelement", path));
+  }
+  for (const std::string& source : {input, geometry}) {
+    std::error_code missing;
+    if (fs::equivalent(path, source, missing)) {
+      throw InputError(fmt::format("{}: the superelement would replace its own input", path));
+    }
+  }
 }
 
-int reduce(const std::string& body_path, std::string output_path, const CommonOptions& common) {
-  const BodyFile file = read_body_file(body_path);
-  if (output_path.empty()) output_path = std::filesystem::path(body_path).replace_extension(".h5").string();
+void reduce(const std::string& input, std::string output, const CommonOptions& common) {
+  const BodyFile file = read_body_file(input);
+  if (output.empty()) {
+    output = std::filesystem::path(input).replace_extension(".h5").string();
+  }
+  check_output(output, input, file.mesh.path);
   Progress progress(common.quiet);
-  if (const std::string warning = blas_warning(); !warning.empty()) progress.note(warning);
+  if (const std::string warning = blas_warning(); !warning.empty()) {
+    progress.warn(warning);
+  }
   const Mesh mesh = import_mesh(file.mesh, progress);
   ReductionReport report;
   const Superelement body = reduce_body(mesh, file.options, progress, common.threads, &report);
   progress.start("writing");
-  write_superelement(body, output_path);
+  write_superelement(body, output);
   progress.finish();
-  if (!common.quiet)
-    fmt::print("{}{}superelement: {}\n", format_superelement(body, report.checks),
-               format_cost(report, progress.phases()), output_path);
-  return 0;
+  if (!common.quiet) {
+    fmt::print("{}\n{}{}{}written: {} ({:.1f} MB)\n", summary(mesh), describe(body), describe(report.checks),
+               describe(report, progress.phases()), output, 1e-6 * std::filesystem::file_size(output));
+  }
+}
+
+/// @throws ComputationError when a check fails
+void inspect(const std::string& path) {
+  const Superelement body = read_superelement(path);
+  const std::vector<Check> checks = check_superelement(body);
+  std::string stored;
+  for (const auto& [name, value] : body.checks) {
+    if (std::none_of(checks.begin(), checks.end(),
+                     [&, &key = name](const Check& check) { return check.name == key; })) {
+      stored += fmt::format("  {:28} {:8.1e}\n", name, value);
+    }
+  }
+  fmt::print("{}: {}\n{}{}", path, body.created_by, describe(body), describe(checks));
+  if (!stored.empty()) {
+    fmt::print("stored by the reduction, which alone had the mesh's matrices\n{}", stored);
+  }
+  for (const Check& check : checks) {
+    if (!check.passed()) {
+      throw ComputationError(fmt::format("{}: the check {} fails: {}", path, check.name, check.meaning));
+    }
+  }
 }
 
 int body(int argc, char** argv) {
-  CLI::App app{"Reduces an elastic body to a superelement: mesh, constraint modes, vibration modes.", "bielle-reduce"};
-  std::string body_path, output_path, geometry, superelement, length_unit;
+  CLI::App app{"Reduces a solid body to the motions of its interfaces and its lowest modes.", "bielle-reduce"};
+  std::string input, output, geometry, superelement;
+  std::optional<std::string> length_unit;
   CommonOptions common;
-  app.add_option("BODY", body_path, "body file (YAML)");
-  app.add_option("-o,--output", output_path, "superelement file (default: BODY with the ending .h5)");
-  app.add_option("--list", geometry, "GEOMETRY: list the surfaces, volumes, groups and units that it offers");
-  app.add_option("--length-unit", length_unit, "unit of the lengths in a geometry without one (for --list)");
-  app.add_option("--inspect", superelement, "BODY.h5: say what is in a superelement and run its checks again");
+  const auto* input_option = app.add_option("BODY", input, "body file (YAML)");
+  const auto* output_option =
+      app.add_option("-o,--output", output, "superelement file (default: BODY with the ending .h5)");
+  const auto* list =
+      app.add_option("--list", geometry, "show what a geometry or mesh offers: volumes, surfaces, groups, units");
+  const auto* unit = app.add_option("--length-unit", length_unit, "with --list: unit of a geometry that carries none");
+  const auto* inspect_option =
+      app.add_option("--inspect", superelement, "show what is in a superelement file, check it again");
   add_common_options(app, common);
-  if (!parse_command_line(app, argc, argv)) return 0;
-
-  if (!geometry.empty()) {
-    Progress progress(true);
-    fmt::print("{}",
-               describe_geometry(geometry, length_unit.empty() ? std::nullopt : std::optional(length_unit), progress));
+  if (!parse_command_line(app, argc, argv)) {
     return 0;
   }
-  if (!superelement.empty()) return inspect(superelement);
-  if (body_path.empty()) throw InputError("give a body file, or --list GEOMETRY, or --inspect BODY.h5");
-  return reduce(body_path, output_path, common);
+  if (input_option->count() + list->count() + inspect_option->count() != 1) {
+    throw InputError("expected one of: a body file, --list GEOMETRY, --inspect SUPERELEMENT; see --help");
+  }
+  if (output_option->count() > 0 && input_option->count() == 0) {
+    throw InputError("-o goes with a body file: --list and --inspect write nothing");
+  }
+  if (unit->count() > 0 && list->count() == 0) {
+    throw InputError("--length-unit goes with --list; a body file has its own length_unit");
+  }
+  if (list->count() > 0) {
+    Progress progress(true);
+    fmt::print("{}", describe_geometry(geometry, length_unit, progress));
+    return 0;
+  }
+  if (inspect_option->count() > 0) {
+    inspect(superelement);
+    return 0;
+  }
+  reduce(input, output, common);
+  return 0;
 }
 
 }  // namespace

@@ -1,85 +1,147 @@
 #include "reduce/summary.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
 namespace bielle::reduce {
+
 namespace {
 
-std::string format_vector(const Eigen::Vector3d& v) {
-  // Rounding residue beside the largest component reads as zero.
-  const double least = 1e-12 * v.cwiseAbs().maxCoeff();
-  const auto clean = [&](double x) { return std::abs(x) < least ? 0.0 : x; };
-  return fmt::format("({:.6g}, {:.6g}, {:.6g})", clean(v.x()), clean(v.y()), clean(v.z()));
+constexpr Eigen::Index shown_modes = 40, shown_free = 12, shown_interfaces = 20;
+
+/// Rounding residue beside the largest component reads as zero.
+std::string place(const Eigen::Vector3d& x) {
+  const double least = 1e-12 * x.cwiseAbs().maxCoeff();
+  const auto clean = [&](double value) { return std::abs(value) < least ? 0.0 : value; };
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", clean(x.x()), clean(x.y()), clean(x.z()));
 }
 
-std::string format_kept(const Interface& interface) {
+std::string directions(const Interface& interface) {
   constexpr const char* names[] = {"x", "y", "z", "rx", "ry", "rz"};
-  if (std::all_of(interface.kept.begin(), interface.kept.end(), [](bool kept) { return kept; }))
-    return "all directions";
-  std::string text;
-  for (std::size_t k = 0; k < 6; ++k)
-    if (interface.kept[k]) text += text.empty() ? names[k] : fmt::format(" {}", names[k]);
-  return text;
+  std::string result;
+  for (int axis = 0; axis < 6; ++axis) {
+    if (interface.kept[axis]) {
+      result += fmt::format("{}{}", result.empty() ? "" : " ", names[axis]);
+    }
+  }
+  return result;
 }
 
-std::string format_modes(const Superelement& body) {
-  if (body.modes() == 0) return "  no fixed-boundary modes\n";
-  std::string text = "  fixed-boundary modes [Hz], effective mass in x y z [%]\n";
-  for (Eigen::Index k = 0; k < body.modes(); ++k) {
-    const Eigen::Vector3d share = 100 * body.effective_mass.row(k).head<3>() / body.total_mass;
-    text += fmt::format("    {:>3} {:>12.6g}   {:6.2f} {:6.2f} {:6.2f}\n", k + 1, body.frequencies[k], share.x(),
-                        share.y(), share.z());
+std::string interfaces_of(const Superelement& body) {
+  std::size_t width = 0;
+  for (const Interface& interface : body.interfaces) {
+    width = std::max(width, interface.name.size());
   }
-  return text;
+  std::string result = "interfaces\n";
+  Eigen::Index shown = 0;
+  for (const Interface& interface : body.interfaces) {
+    if (shown++ == shown_interfaces) {
+      result += fmt::format("  ... and {} more\n", body.interfaces.size() - shown_interfaces);
+      break;
+    }
+    result +=
+        fmt::format("  {:{}}  at {} m, {}\n", interface.name, width, place(interface.position), directions(interface));
+  }
+  return result;
+}
+
+std::string mass_of(const Superelement& body) {
+  const Eigen::Matrix3d& j = body.inertia;
+  return fmt::format(
+      "mass {:.6g} kg, centre {} m\ninertia about the centre: xx {:.6g}, yy {:.6g}, zz {:.6g}, xy {:.6g}, xz {:.6g}, "
+      "yz "
+      "{:.6g} kg m^2\n",
+      body.total_mass, place(body.centre), j(0, 0), j(1, 1), j(2, 2), j(0, 1), j(0, 2), j(1, 2));
+}
+
+std::string modes_of(const Superelement& body) {
+  if (body.modes() == 0) {
+    return "no fixed-boundary modes: the body deforms as its interfaces move it\n";
+  }
+  const Eigen::Vector3d j = body.inertia.diagonal();
+  Eigen::RowVectorXd whole(6);
+  whole << Eigen::RowVector3d::Constant(body.total_mass), j.transpose();
+  const auto row = [&](const std::string& name, const std::string& frequency, const Eigen::RowVectorXd& mass) {
+    std::string line = fmt::format("  {:>4} {:>12}", name, frequency);
+    for (int k = 0; k < 6; ++k) {
+      line += fmt::format("{:8.2f}", 100 * mass(k) / whole(k));
+    }
+    return line + "\n";
+  };
+  std::string result = fmt::format(
+      "fixed-boundary modes and their effective mass, in % of the body's mass and inertia about its centre\n"
+      "  mode         [Hz]       x       y       z      rx      ry      rz\n");
+  for (Eigen::Index k = 0; k < std::min(body.modes(), shown_modes); ++k) {
+    result += row(fmt::format("{}", k + 1), fmt::format("{:.6g}", body.frequencies(k)), body.effective_mass.row(k));
+  }
+  if (body.modes() > shown_modes) {
+    result +=
+        fmt::format("  ... and {} more, up to {:.6g} Hz\n", body.modes() - shown_modes, body.frequencies.maxCoeff());
+  }
+  return result + row("sum", "", body.effective_mass.colwise().sum());
+}
+
+std::string free_of(const Superelement& body) {
+  const Eigen::VectorXd frequencies = free_frequencies(body);
+  if (frequencies.size() == 0) {
+    return "";
+  }
+  std::string result = "free-free frequencies of the reduced body [Hz]:";
+  for (Eigen::Index k = 0; k < std::min(frequencies.size(), shown_free); ++k) {
+    result += fmt::format(" {:.6g}", frequencies(k));
+  }
+  return result + (frequencies.size() > shown_free ? " ...\n" : "\n");
+}
+
+std::string extras_of(const Superelement& body) {
+  std::string result;
+  for (const auto& [name, pattern] : body.loads) {
+    result += fmt::format("{}{}", result.empty() ? "load patterns: " : ", ", name);
+  }
+  result += result.empty() ? "" : "\n";
+  result += body.displacement_recovery.size() > 0
+                ? fmt::format("displacements can be recovered at {} points", body.mesh.points.cols())
+                : std::string("displacements cannot be recovered");
+  result += body.stress_recovery.size() > 0 ? fmt::format(", stresses at {}\n", body.stress_nodes.size())
+                                            : std::string(", stresses cannot\n");
+  return result;
 }
 
 }  // namespace
 
-std::string format_superelement(const Superelement& body, const std::vector<Check>& checks) {
-  constexpr std::size_t shown = 12;
-  std::string text = fmt::format("{}\n  {} generalised coordinates: {} of interfaces, {} modal amplitudes\n", body.name,
-                                 body.size(), body.interface_directions(), body.modes());
-  for (std::size_t k = 0; k < std::min(shown, body.interfaces.size()); ++k) {
-    const Interface& interface = body.interfaces[k];
-    text += fmt::format("  interface '{}' at {} m, {}\n", interface.name, format_vector(interface.position),
-                        format_kept(interface));
-  }
-  if (body.interfaces.size() > shown) text += fmt::format("  and {} interfaces more\n", body.interfaces.size() - shown);
-  text += fmt::format(
-      "  mass    {:.8g} kg\n  centre  {} m\n  inertia about the centre [kg m^2]\n    xx {:.6g}  yy {:.6g}  zz {:.6g}  "
-      "yz {:.3g}  xz {:.3g}  xy {:.3g}\n",
-      body.total_mass, format_vector(body.centre), body.inertia(0, 0), body.inertia(1, 1), body.inertia(2, 2),
-      body.inertia(1, 2), body.inertia(0, 2), body.inertia(0, 1));
-  text += format_modes(body);
-  const Eigen::VectorXd free = free_frequencies(body);
-  text += "  free reduced body [Hz]:";
-  for (Eigen::Index k = 0; k < std::min<Eigen::Index>(6, free.size()); ++k) text += fmt::format(" {:.6g}", free[k]);
-  text += "\n  checks\n";
-  for (const Check& check : checks)
-    text += fmt::format("    {} {:<28} {:9.2e} (limit {:.0e})  {}\n", check.passed() ? "ok    " : "FAILED", check.name,
-                        check.value, check.limit, check.meaning);
-  for (const auto& [name, pattern] : body.loads) {
-    (void)pattern;
-    text += fmt::format("  load pattern '{}'\n", name);
-  }
-  return text;
+std::string describe(const Superelement& body) {
+  return fmt::format("{}: {} coordinates, {} of interfaces and {} of modes\n", body.name.empty() ? "body" : body.name,
+                     body.size(), body.interface_directions(), body.modes()) +
+         interfaces_of(body) + mass_of(body) + modes_of(body) + free_of(body) + extras_of(body);
 }
 
-std::string format_cost(const ReductionReport& report, const std::vector<PhaseReport>& phases) {
-  std::string text = fmt::format("  mesh    {} points, {} cells; {} unknowns inside\n", report.points, report.cells,
-                                 report.factor.unknowns);
-  text += fmt::format("  factor  {:.3g} entries, {:.3g} flops at {:.1f} GFLOP/s; {} solutions for the modes\n",
-                      static_cast<double>(report.factor.nonzeros), report.factor.flops, report.factor.speed(),
-                      report.solves);
+std::string describe(const std::vector<Check>& checks) {
+  std::string result = "checks\n";
+  for (const Check& check : checks) {
+    result += fmt::format("  {}  {:8.1e} (at most {:.0e})  {}\n", check.passed() ? "passed" : "FAILED", check.value,
+                          check.limit, check.meaning);
+  }
+  return result;
+}
+
+std::string describe(const ReductionReport& report, const std::vector<PhaseReport>& phases) {
+  std::string result;
+  if (report.factor.unknowns > 0) {
+    result += fmt::format(
+        "factorisation: {} unknowns, {} numbers in the factor ({:.0f} MB), {:.3g} GFLOP at {:.3g} GFLOP/s, ordering "
+        "{:.2f} s, "
+        "numbers {:.2f} s; {} single solutions for the modes\n",
+        report.factor.unknowns, report.factor.nonzeros, report.factor.memory_MB(), 1e-9 * report.factor.flops,
+        report.factor.speed(), report.factor.ordering_seconds, report.factor.factorisation_seconds, report.solves);
+  }
   double total = 0;
   for (const PhaseReport& phase : phases) {
-    text +=
-        fmt::format("  {:<28} {:8.2f} s   peak memory {:6.0f} MB\n", phase.name, phase.seconds, phase.peak_memory_MB);
+    result += fmt::format("  {:24} {:9.2f} s {:9.0f} MB\n", phase.name, phase.seconds, phase.peak_memory_MB);
     total += phase.seconds;
   }
-  return text + fmt::format("  {:<28} {:8.2f} s\n", "together", total);
+  return result + fmt::format("  {:24} {:9.2f} s\n", "all", total);
 }
 
 }  // namespace bielle::reduce

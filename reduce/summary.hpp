@@ -1,4 +1,4 @@
-// What bielle-reduce tells about a superelement: after a reduction, and of a file (`--inspect`).
+// What bielle-reduce prints about a body on standard output.
 #pragma once
 
 #include <string>
@@ -6,14 +6,17 @@
 
 #include "reduce/common/progress.hpp"
 #include "reduce/reduction/reduce_body.hpp"
-#include "reduce/superelement/superelement.hpp"
 
 namespace bielle::reduce {
 
-/// Size, interfaces, mass properties, frequencies with effective masses, and the given checks with their verdicts.
-std::string format_superelement(const Superelement& body, const std::vector<Check>& checks);
+/// Interfaces, mass properties, fixed-boundary modes with their effective masses, free-free frequencies, load patterns
+/// and what can be recovered.
+std::string describe(const Superelement& body);
 
-/// Time and memory of each phase, and the speed of the factorisation.
-std::string format_cost(const ReductionReport& report, const std::vector<PhaseReport>& phases);
+/// One line for each check with its verdict.
+std::string describe(const std::vector<Check>& checks);
+
+/// What the reduction cost: factorisation, solutions, time and memory of each phase.
+std::string describe(const ReductionReport& report, const std::vector<PhaseReport>& phases);
 
 }  // namespace bielle::reduce

@@ -1,12 +1,13 @@
 // What the user asks of a reduction, free of any file format: body_file.cpp fills it, reduce_body() carries it out.
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "reduce/fe/material.hpp"
 
@@ -45,10 +46,11 @@ struct ReductionOptions {
   std::string input_text;
   std::map<std::string, Material> materials;
   std::map<std::string, std::string> regions;  ///< volume group -> material name; key "all" for the whole body
-  std::vector<InterfaceRequest> interfaces;    ///< may be empty: a free body gets its modes about inertia relief ... or an error
-  std::optional<int> mode_count;
-  std::optional<double> modes_below;  ///< [Hz]
-  /// Damping of the eigenmodes of the reduced body: one ratio for all, or one per elastic mode; or Rayleigh.
+  std::vector<InterfaceRequest> interfaces;    ///< at least one: a mechanism moves a body by its interfaces
+  std::optional<int> mode_count;               ///< the lowest so many fixed-boundary modes; with neither: none
+  std::optional<double> modes_below;           ///< those below [Hz]; with both: the lowest `mode_count` of them
+  /// Damping of the eigenmodes of the free reduced body, in their order, the last ratio holding for all further ones;
+  /// or Rayleigh.
   std::vector<double> damping_ratios;
   std::optional<std::array<double, 2>> rayleigh;  ///< alpha [1/s] on M~, beta [s] on K~
   std::vector<LoadRequest> loads;

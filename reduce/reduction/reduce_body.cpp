@@ -13,7 +13,6 @@
 #include "reduce/reduction/recovery.hpp"
 #include "reduce/reduction/reduced_matrices.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
-#include "reduce/spectral/blas.hpp"
 
 namespace bielle::reduce {
 
@@ -93,9 +92,6 @@ Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Prog
                          ReductionReport* report) {
   progress.start("stiffness and mass");
   check_connected(mesh);
-  if (const std::string warning = blas_warning(); !warning.empty()) {
-    progress.warn(warning);
-  }
   const Solid solid = make_solid(mesh, options.materials, options.regions);
   const MassProperties properties = mass_properties(solid);
   const Ties ties = make_ties(solid, options.interfaces);

@@ -92,6 +92,54 @@ class Reduce(CommandTest):
                             item.dtype.kind == "f" and "units" not in item.attrs else None)
             self.assertEqual(missing, [])
 
+    def test_rigid_motions_and_geometric_stiffness_stand_in_the_file(self):
+        self.write("body.yaml", BODY + "loads:\n  snow: {surface: bottom, pressure: 1e5}\n")
+        done = self.run_program("body.yaml")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for text in ("bar: 16 coordinates, 12 of interfaces and 4 of modes", "mass 0.628 kg", "free-free frequencies",
+                     "effective mass", "passed", "factorisation", "written: body.h5"):
+            self.assertIn(text, done.stdout)
+        self.assertNotIn("FAILED", done.stdout)
+        self.assertIn("rigid ties (left, right) stiffen the body", done.stderr)
+        with h5py.File(os.path.join(self.folder, "body.h5")) as file:
+            stiffness, mass = file["reduced/stiffness"][()], file["reduced/mass"][()]
+            along_x = numpy.zeros(16)
+            along_x[[0, 6]] = 1
+            self.assertLess(numpy.abs(stiffness @ along_x).max(), 1e-9 * stiffness.max())
+            self.assertAlmostEqual(along_x @ mass @ along_x, 0.628, places=12)
+            self.assertEqual(file["loads/snow"].shape, (3, 3, 16))
+            self.assertEqual(file["reduced/geometric_stiffness/load"].shape, (12, 16, 16))
+
+    def test_inspect_runs_the_checks_again(self):
+        self.write("body.yaml", BODY)
+        self.assertEqual(self.run_program("body.yaml", "-o", "other.h5", "--quiet").returncode, 0)
+        with h5py.File(os.path.join(self.folder, "other.h5"), "r+") as file:
+            file["reduced/mass"][...] *= 1.001
+        done = self.expect_refusal(2, "--inspect", "other.h5", says=["other.h5", "mass_error"])
+        self.assertIn("FAILED   1.0e-03 (at most 1e-10)  mass of M~ against the mesh", done.stdout)
+
+    def test_quiet_prints_no_summary(self):
+        self.write("body.yaml", BODY)
+        done = self.run_program("body.yaml", "--quiet", "--threads", "1")
+        self.assertEqual((done.returncode, done.stdout), (0, ""))
+        for line in done.stderr.splitlines():
+            self.assertIn("warning", line)
+
+    def test_command_lines_that_make_no_sense(self):
+        self.write("body.yaml", BODY)
+        self.expect_refusal(1, says=["expected one of: a body file"])
+        self.expect_refusal(1, "body.yaml", "--list", "bar.geo", says=["expected one of"])
+        self.expect_refusal(1, "--list", "bar.geo", "-o", "x.h5", says=["-o goes with a body file"])
+        self.expect_refusal(1, "body.yaml", "--length-unit", "mm", says=["--length-unit goes with --list"])
+        self.expect_refusal(1, "body.yaml", "-o", "nowhere/bar.h5", says=["there is no folder 'nowhere'"])
+        self.expect_refusal(1, "body.yaml", "-o", "bar.geo", says=["would replace its own input"])
+
+    def test_a_body_that_is_not_held_says_how_it_can_still_move(self):
+        self.refuse("left, tie: rigid}\n  right: {surface: right, tie: rigid}",
+                    "left, tie: rigid, directions: [x, y, z, ry, rz]}", "body.yaml:9: interfaces.left",
+                    "can still turn about the axis (1, 0, 0)")
+        self.refuse("modes: {count: 4}", "modes: {count: 60000}", "60000 fixed-boundary modes")
+
     def test_inspect_and_list(self):
         self.write("body.yaml", BODY)
         self.assertEqual(self.run_program("body.yaml", "--quiet").returncode, 0)
