@@ -8,23 +8,12 @@
 #include <array>
 #include <memory>
 #include <span>
-#include <stdexcept>
 #include <vector>
 
 #include "reduce/common/interpolation.hpp"
+#include "reduce/common/jet.hpp"
 
 namespace bielle {
-
-/// What a formula cannot do at its arguments, e.g. "division by zero".
-class FormulaError : public std::domain_error {
- public:
-  using std::domain_error::domain_error;
-};
-
-/// Value and derivatives along one argument.
-struct Jet {
-  double value = 0, first = 0, second = 0;
-};
 
 enum class Operation {
   // leaves
@@ -116,6 +105,8 @@ class FormulaTree {
   struct Evaluation;
 
   const Term& term(int index) const { return terms_[static_cast<std::size_t>(index)]; }
+  static void check_transition(double t0, double t1);
+  double constant_value(int index) const;
   bool depends_on_arguments(int index) const;
   void fold(int index);
   Linear linear_in(int index, int argument) const;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "reduce/common/atomic_output.hpp"
 #include "reduce/common/hdf5_file.hpp"
 #include "reduce/superelement/superelement.hpp"
 #include "reduce/superelement/superelement_check.hpp"

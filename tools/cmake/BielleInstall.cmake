@@ -1,3 +1,44 @@
-# Install: the two programs. (Libraries, headers and an exported CMake package follow below so that others can link.)
+# Install: programs, tools, libraries with their headers, and the CMake package that lets others link them:
+#     find_package(Bielle 0.1)
+#     target_link_libraries(mine PRIVATE Bielle::superelement)
+# Headers keep the folders of the sources below include/bielle, so that `#include "reduce/common/error.hpp"` holds anywhere.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
+set(BIELLE_INSTALL_CMAKE ${CMAKE_INSTALL_LIBDIR}/cmake/Bielle)
+set(BIELLE_INSTALL_TOOLS ${CMAKE_INSTALL_DATADIR}/bielle/tools)
+
+foreach(program bielle-reduce bielle-mechanism)
+  if(TARGET ${program})
+    install(TARGETS ${program} RUNTIME)
+  endif()
+endforeach()
+
+# The tools stand together beside their Python package; the programs for users are linked from where programs are.
+install(PROGRAMS ${PROJECT_SOURCE_DIR}/tools/convert_mesh.py DESTINATION ${BIELLE_INSTALL_TOOLS})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/bielle_tools DESTINATION ${BIELLE_INSTALL_TOOLS} FILES_MATCHING PATTERN "*.py"
+        PATTERN __pycache__ EXCLUDE)
+foreach(tool bielle-animate bielle-paraview bielle-plot study)
+  install(PROGRAMS ${PROJECT_SOURCE_DIR}/tools/${tool} DESTINATION ${BIELLE_INSTALL_TOOLS})
+  string(REPLACE study bielle-study command ${tool})
+  set(link "\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_BINDIR}/${command}")
+  file(RELATIVE_PATH target /prefix/${CMAKE_INSTALL_BINDIR} /prefix/${BIELLE_INSTALL_TOOLS}/${tool})
+  install(CODE "file(CREATE_LINK \"${target}\" \"${link}\" SYMBOLIC)")
+endforeach()
+
+get_property(libraries GLOBAL PROPERTY BIELLE_LIBRARIES)
+set_target_properties(bielle_options PROPERTIES EXPORT_NAME options)
+install(TARGETS ${libraries} bielle_options EXPORT BielleTargets ARCHIVE)
+file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} reduce/*.hpp mechanism/*.hpp)
+foreach(header ${headers})
+  cmake_path(GET header PARENT_PATH folder)
+  install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/bielle/${folder})
+endforeach()
+
+install(EXPORT BielleTargets NAMESPACE Bielle:: DESTINATION ${BIELLE_INSTALL_CMAKE})
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/BielleConfig.cmake.in ${PROJECT_BINARY_DIR}/BielleConfig.cmake
+                              INSTALL_DESTINATION ${BIELLE_INSTALL_CMAKE})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/BielleConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/BielleConfig.cmake ${PROJECT_BINARY_DIR}/BielleConfigVersion.cmake
+              ${CMAKE_CURRENT_LIST_DIR}/Dependencies.cmake
+        DESTINATION ${BIELLE_INSTALL_CMAKE})
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -10,6 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "reduce/common/atomic_output.hpp"
 #include "reduce/common/hdf5_file.hpp"
 #include "tests/support/messages.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -1,0 +1,54 @@
+"""Installs Bielle into a folder and uses it from there: programs, tools, and the libraries from another project."""
+
+import os
+import subprocess
+import tempfile
+import unittest
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+BUILD = os.environ["BIELLE_BUILD"]
+
+
+def run(*command, cwd=None):
+    done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=cwd)
+    if done.returncode != 0:
+        raise AssertionError(f"{' '.join(command)}: status {done.returncode}\n{done.stdout}\n{done.stderr}")
+    return done.stdout
+
+
+class Install(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.prefix = os.path.join(cls.folder.name, "bielle")
+        run("cmake", "--install", BUILD, "--prefix", cls.prefix)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def installed(self, *parts):
+        return os.path.join(self.prefix, *parts)
+
+    def test_programs_run(self):
+        for program in "bielle-reduce", "bielle-mechanism":
+            self.assertIn(program, run(self.installed("bin", program), "--version"))
+
+    def test_tools_run_from_the_folder_of_programs(self):
+        for tool in "bielle-plot", "bielle-animate", "bielle-paraview", "bielle-study":
+            self.assertIn("usage", run(self.installed("bin", tool), "--help").lower())
+        self.assertTrue(os.access(self.installed("share", "bielle", "tools", "convert_mesh.py"), os.X_OK))
+
+    def test_headers_keep_their_folders(self):
+        self.assertTrue(os.path.exists(self.installed("include", "bielle", "reduce", "common", "error.hpp")))
+
+    def test_another_project_links_the_libraries(self):
+        build = os.path.join(self.folder.name, "build")
+        run("cmake", "-S", os.path.join(HERE, "consumer"), "-B", build, f"-DCMAKE_PREFIX_PATH={self.prefix}",
+            "-DCMAKE_BUILD_TYPE=Release")
+        run("cmake", "--build", build)
+        self.assertEqual(run(os.path.join(build, "consumer"), cwd=build), "rigid 0.100\n")
+
+
+if __name__ == "__main__":
+    unittest.main()
