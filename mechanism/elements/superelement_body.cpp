@@ -66,6 +66,7 @@ SuperelementBody::SuperelementBody(std::string name, const Superelement& superel
                       names.empty() ? std::string("; it has none at all") : did_you_mean(load.pattern, names)));
     loads_.push_back({static_cast<std::size_t>(found - names.begin()), std::move(load.factor), load.follows});
   }
+  file_ = placement.file;
   attributes_ = {{"file", placement.file}, {"superelement", superelement.name}};
   for (std::size_t k = 0; k < placement.node_names.size(); ++k)
     attributes_.emplace_back("interface " + superelement.interfaces[k].name, placement.node_names[k]);
@@ -129,13 +130,15 @@ void SuperelementBody::add_energy(const LocalState& state, Energy& energy) const
 
 std::vector<OutputField> SuperelementBody::output_fields() const {
   const auto n = matrices_.directions.size() + static_cast<std::size_t>(matrices_.modes);
-  return {
+  std::vector<OutputField> outputs = {
       {"frame", {7}, "m, -", "body frame: position of the mesh's origin, unit quaternion w x y z (body -> inertial)"},
       {"coordinates", {n}, "m, rad, m kg^0.5", "local coordinates, in the order of the superelement file"},
       {"interface_force",
        {matrices_.points.size(), 6},
        "N, N m",
        "force and moment that the mechanism exerts at each interface, body axes"}};
+  for (const RecoveredField& field : fields_) outputs.push_back(field.description());
+  return outputs;
 }
 
 void SuperelementBody::write_output(const LocalState& state, double* values) const {
@@ -146,6 +149,7 @@ void SuperelementBody::write_output(const LocalState& state, double* values) con
   Eigen::Map<VectorX>(values + 3, 4) = quaternion_of(frame.R);
   values += 7;
   const auto n = static_cast<Eigen::Index>(matrices_.directions.size()) + matrices_.modes;
+  const Eigen::Map<VectorX> coordinates(values, n);
   matrices_.to_file(motion.geometry.q, Eigen::Map<VectorX>(values, n));
   values += n;
   for (const BodyPoint& point : matrices_.points) {
@@ -155,7 +159,15 @@ void SuperelementBody::write_output(const LocalState& state, double* values) con
     if (point.theta >= 0) force.tail<3>() = motion.node_force.segment<3>(point.theta);
     values += 6;
   }
+  for (const RecoveredField& field : fields_) {
+    field.write(coordinates, values);
+    values += field.description().size();
+  }
 }
+
+std::vector<std::string> SuperelementBody::optional_fields() const { return RecoveredField::names(); }
+
+void SuperelementBody::record_field(const std::string& field) { fields_.emplace_back(field, read_superelement(file_)); }
 
 std::vector<std::pair<std::string, std::string>> SuperelementBody::attributes() const { return attributes_; }
 

@@ -20,6 +20,7 @@
 // place of a superelement among nodes; the inertia is not theirs (their nodal velocities are not Galilean invariant).
 #pragma once
 
+#include "mechanism/elements/recovered_field.hpp"
 #include "mechanism/elements/superelement_body_motion.hpp"
 #include "mechanism/system/model.hpp"
 #include "reduce/common/expression.hpp"
@@ -58,6 +59,8 @@ class SuperelementBody : public Component {
   std::vector<std::pair<std::string, std::string>> attributes() const override;
   void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
   void add_break_points(std::vector<double>& times) const override;
+  std::vector<std::string> optional_fields() const override;
+  void record_field(const std::string& field) override;
 
   const SuperelementMatrices& matrices() const { return matrices_; }
   const CorotatedFrame& frame() const { return frame_; }
@@ -79,6 +82,8 @@ class SuperelementBody : public Component {
   std::vector<int> nodes_;
   std::vector<Load> loads_;
   std::vector<std::pair<std::string, std::string>> attributes_;
+  std::string file_;
+  std::vector<RecoveredField> fields_;
   std::unique_ptr<Workspaces> workspaces_;
 };
 

@@ -142,6 +142,36 @@ Analysis read_analysis(const YamlValue& entry) {
   return analysis;
 }
 
+/// `fields: {rod: [displacement, von_mises]}`: what elements record beside their own outputs.
+void read_fields(const YamlValue& fields, Model& model) {
+  fields.check_keys(model.names_in("elements"), "`fields`, which names elements");
+  for (const auto& [element, names] : fields.entries()) {
+    Component& component = *model.components_in("elements/" + element).front();
+    const std::vector<std::string> available = component.optional_fields();
+    if (available.empty())
+      names.fail(fmt::format("a {} has no further fields: all that it knows is recorded already", component.type()));
+    for (const YamlValue& name : names.items()) {
+      const std::string field = name.word(available, "field of '" + element + "'");
+      for (const OutputField& recorded : component.output_fields())
+        if (recorded.name == field) name.fail("is asked for twice");
+      try {
+        component.record_field(field);
+      } catch (const InputError& error) {
+        name.fail(error.what());
+      }
+    }
+  }
+}
+
+OutputOptions read_output(const YamlValue& entry, Model& model) {
+  entry.check_keys({"every", "fields"}, "`output`");
+  OutputOptions output;
+  if (entry.has("every")) output.every = entry.at("every").integer();
+  if (output.every < 1) entry.at("every").fail("expected at least 1");
+  if (const auto fields = entry.find("fields")) read_fields(*fields, model);
+  return output;
+}
+
 MechanismFile read_mechanism(YamlValue root, const std::map<std::string, std::string>& overrides) {
   root.check_keys(
       {"mechanism", "gravity", "parameters", "nodes", "elements", "joints", "drives", "loads", "analysis", "output"},
@@ -163,11 +193,7 @@ MechanismFile read_mechanism(YamlValue root, const std::map<std::string, std::st
 
   if (const auto analyses = root.find("analysis"))
     for (const YamlValue& entry : analyses->items()) file.analyses.push_back(read_analysis(entry));
-  if (const auto output = root.find("output")) {
-    output->check_keys({"every"}, "`output`");
-    if (output->has("every")) file.output.every = output->at("every").integer();
-    if (file.output.every < 1) output->at("every").fail("expected at least 1");
-  }
+  if (const auto output = root.find("output")) file.output = read_output(*output, file.model);
   return file;
 }
 

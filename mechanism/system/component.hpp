@@ -95,6 +95,10 @@ class Component {
   /// The quantities that the component can record, and their values one after the other in the same order.
   virtual std::vector<OutputField> output_fields() const { return {}; }
   virtual void write_output(const LocalState& /*state*/, double* /*values*/) const {}
+  /// Further quantities that are recorded only when the user asks for them, because they are large.
+  virtual std::vector<std::string> optional_fields() const { return {}; }
+  /// Adds one of the optional fields to the outputs. Called while the model is read. @throws InputError
+  virtual void record_field(const std::string& /*field*/) {}
   /// Facts for those who read the results (e.g. {"file", "conrod.h5"}), written as attributes of the group.
   virtual std::vector<std::pair<std::string, std::string>> attributes() const { return {}; }
 

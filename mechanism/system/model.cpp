@@ -1,5 +1,7 @@
 #include "mechanism/system/model.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace bielle::mechanism {
@@ -46,14 +48,28 @@ Component& Model::add(std::unique_ptr<Component> component, const std::string& g
   return *members_.back().component;
 }
 
-const Component& Model::component_named_by(const YamlValue& value, const std::string& section) const {
-  const std::string name = value.text();
+std::vector<std::string> Model::names_in(const std::string& section) const {
   std::vector<std::string> names;
   for (const Member& member : members_) {
-    if (member.group == section + "/" + name) return *member.component;
-    if (member.group.rfind(section + "/", 0) == 0) names.push_back(member.group.substr(section.size() + 1));
+    if (member.group.rfind(section + "/", 0) != 0) continue;
+    const std::string name = member.group.substr(section.size() + 1);
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
-  value.fail(fmt::format("there is no '{}' among the {}{}", name, section, did_you_mean(name, names)));
+  return names;
+}
+
+std::vector<Component*> Model::components_in(const std::string& group) {
+  std::vector<Component*> components;
+  for (const Member& member : members_)
+    if (member.group == group) components.push_back(member.component.get());
+  return components;
+}
+
+const Component& Model::component_named_by(const YamlValue& value, const std::string& section) const {
+  const std::string name = value.text();
+  for (const Member& member : members_)
+    if (member.group == section + "/" + name) return *member.component;
+  value.fail(fmt::format("there is no '{}' among the {}{}", name, section, did_you_mean(name, names_in(section))));
 }
 
 }  // namespace bielle::mechanism

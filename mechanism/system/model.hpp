@@ -67,6 +67,9 @@ class Model {
   /// The component recorded under `section`/`name` that a value of the input file names ("joints": drives name joints).
   /// @throws InputError with the nearest name
   const Component& component_named_by(const YamlValue& value, const std::string& section) const;
+  std::vector<std::string> names_in(const std::string& section) const;  ///< in the order of the file, each once
+  /// The components recorded in a group ("elements/shaft").
+  std::vector<Component*> components_in(const std::string& group);
 
   Environment environment;  ///< gravity with load factor 1
   std::string title;

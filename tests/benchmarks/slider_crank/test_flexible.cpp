@@ -4,6 +4,8 @@
 // straight and undeformed with the velocities of a rigid rod. Reference: geometrically exact rod (GA = 5/6 G A) by
 // nodal spectral elements and Runge-Kutta, converged to some 1e-8 m in the deflection of the midpoint: extremes
 // +1.87059e-3 (t = 0.04778) and -1.87011e-3 m, slider at t = 0.1: 0.16974254 m.
+#include <map>
+
 #include <catch2/catch.hpp>
 
 #include "mechanism/io/energy_balance.hpp"
@@ -164,4 +166,48 @@ TEST_CASE("a slider-crank with a stiff superelement is the rigid one in closed f
   const Extremes stiff = run_with_superelement(reduced_rod(true, 1e3), 5e-5);
   CHECK(stiff.slider_error < 5e-8);
   CHECK(stiff.highest - stiff.lowest < 1e-5);
+}
+
+TEST_CASE("recorded fields are the recovery of the recorded coordinates") {
+  bielle::test::BeamSuperelement rod = reduced_rod(false);
+  // Any rows will do: displacements of two nodes, stresses of one.
+  std::srand(3);
+  rod.body.mesh.points = Eigen::Matrix3Xd::Random(3, 2);
+  rod.body.displacement_recovery = MatrixX::Random(6, rod.body.size());
+  rod.body.stress_recovery = MatrixX::Random(6, rod.body.size());
+  rod.body.stress_nodes = {1};
+  const bielle::test::TemporaryFolder folder;
+  const std::string file = folder / "rod.h5";
+  bielle::write_superelement(rod.body, file);
+  const std::string text = slider_crank("  rod: {type: superelement, file: \"" + file +
+                                        "\", position: [0.15, 0, 0], nodes: {big_end: a, small_end: b}}\n");
+  const ReadyModel model(text + "output: {fields: {rod: [von_mises, displacement]}}\n");
+  const State end = integrate(model, Scheme::generalized_alpha(0.9), 5e-5, 0.005);
+  std::size_t member = 0;
+  while (model.file.model.members()[member].component->name() != "rod") ++member;
+  const Component& body = *model.file.model.members()[member].component;
+  std::map<std::string, std::size_t> begin;
+  std::size_t size = 0;
+  for (const OutputField& field : body.output_fields()) {
+    begin[field.name] = size;
+    size += field.size();
+  }
+  std::vector<double> record(size);
+  body.write_output(LocalState(end, model.system.slots()[member], model.environment()), record.data());
+  const Eigen::Map<const VectorX> q(&record[begin.at("coordinates")], rod.body.size());
+  REQUIRE(q.norm() > 0);
+  const VectorX u = rod.body.displacement_recovery * q, s = rod.body.stress_recovery * q;
+  CHECK((Eigen::Map<const VectorX>(&record[begin.at("displacement")], 6) - u).norm() < 1e-15 * u.norm());
+  // Of the deviator: sqrt(3/2 dev:dev), the definition rather than the formula.
+  Eigen::Matrix3d stress;
+  stress << s[0], s[5], s[4], s[5], s[1], s[3], s[4], s[3], s[2];
+  const Eigen::Matrix3d deviator = stress - stress.trace() / 3 * Eigen::Matrix3d::Identity();
+  CHECK(record[begin.at("von_mises")] == Approx(std::sqrt(1.5) * deviator.norm()).epsilon(1e-12));
+
+  using Catch::Contains;
+  CHECK_THROWS_WITH(ReadyModel(text + "output: {fields: {rod: [displacment]}}\n"),
+                    Contains("did you mean 'displacement'"));
+  CHECK_THROWS_WITH(ReadyModel(text + "output: {fields: {rodd: [displacement]}}\n"), Contains("did you mean 'rod'"));
+  CHECK_THROWS_WITH(ReadyModel(text + "output: {fields: {crank: [displacement]}}\n"),
+                    Contains("has no further fields"));
 }
