@@ -232,7 +232,7 @@ TEST_CASE("two regions share the nodes of their common face, and a group may lie
   CHECK_THAT(corner_area(mesh, "between"), WithinRel(1.0, 1e-12));
 }
 
-TEST_CASE("groups that have numbers only are named after them; sparse node numbers and unused nodes do no harm") {
+TEST_CASE("groups that have numbers only are named after them, sparse node numbers and unused nodes do no harm") {
   const TemporaryFolder folder;
   std::string text = msh({"0 0 0", "1 0 0", "0 1 0", "0 0 1", "5 5 5"}, {"4 2 7 1 1 2 3 4", "2 2 9 1 1 3 2"});
   // Node 4 becomes node 4000000.

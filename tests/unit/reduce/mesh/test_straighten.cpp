@@ -49,7 +49,7 @@ TEST_CASE("a mid-side node that turns elements inside out goes to the middle of 
   CHECK((mesh.points - straight).cwiseAbs().maxCoeff() < 1e-14);
 }
 
-TEST_CASE("the coarse connecting rod has elements inside out at its fillets; after the import none is left") {
+TEST_CASE("the coarse connecting rod has elements inside out at its fillets, and after the import none is left") {
   MeshRequest wish = request(std::string(BIELLE_SOURCE_DIR) + "/meshes/conrod.geo");
   wish.length_unit = "mm";
   wish.size = 6e-3;
