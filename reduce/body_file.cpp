@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -25,24 +26,33 @@ void check_name(const std::string& name, const YamlValue& value) {
   if (name.empty() || name.find('/') != std::string::npos) value.fail("expected a name without '/'");
 }
 
+std::optional<CylinderSelector> read_cylinder(const std::optional<YamlValue>& value) {
+  if (!value) return {};
+  value->check_keys({"point", "axis", "radius"}, "a cylinder");
+  return CylinderSelector{value->at("point").vector3(), value->at("axis").direction(),
+                          value->at("radius").positive_number()};
+}
+
+std::optional<PlaneSelector> read_plane(const std::optional<YamlValue>& value) {
+  if (!value) return {};
+  value->check_keys({"point", "normal"}, "a plane");
+  return PlaneSelector{value->at("point").vector3(), value->at("normal").direction()};
+}
+
+std::optional<BoxSelector> read_box(const std::optional<YamlValue>& value) {
+  if (!value) return {};
+  if (value->size() != 2) value->fail("expected two opposite corners: [[x, y, z], [x, y, z]]");
+  const Eigen::Vector3d a = value->at(0).vector3(), b = value->at(1).vector3();
+  return BoxSelector{a.cwiseMin(b), a.cwiseMax(b)};
+}
+
 SurfaceSelector read_selector(const YamlValue& value) {
   if (value.is_scalar()) return value.text();
   value.check_keys({"cylinder", "plane", "box"}, "a surface given by its shape");
-  if (value.entries().size() != 1)
-    value.fail("expected one shape: cylinder, plane or box (a list of shapes is their union)");
-  if (const auto cylinder = value.find("cylinder")) {
-    cylinder->check_keys({"point", "axis", "radius"}, "a cylinder");
-    return CylinderSelector{cylinder->at("point").vector3(), cylinder->at("axis").direction(),
-                            cylinder->at("radius").positive_number()};
-  }
-  if (const auto plane = value.find("plane")) {
-    plane->check_keys({"point", "normal"}, "a plane");
-    return PlaneSelector{plane->at("point").vector3(), plane->at("normal").direction()};
-  }
-  const YamlValue box = value.at("box");
-  if (box.size() != 2) box.fail("expected two opposite corners: [[x, y, z], [x, y, z]]");
-  const Eigen::Vector3d a = box.at(0).vector3(), b = box.at(1).vector3();
-  return BoxSelector{a.cwiseMin(b), a.cwiseMax(b)};
+  if (value.entries().empty())
+    value.fail("expected a shape: cylinder, plane or box, or several that it lies on at once");
+  return ShapeSelector(read_cylinder(value.find("cylinder")), read_plane(value.find("plane")),
+                       read_box(value.find("box")));
 }
 
 // Reads `surface` of an interface or load, registers it, and returns the name of its group in the mesh: that of the

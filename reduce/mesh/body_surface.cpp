@@ -25,6 +25,7 @@ BodySurface body_surface(const ExtractedModel& model, const FaceTable& faces, bo
 
 BodySurface body_surface(const std::map<int, std::vector<Triangle>>& surfaces) {
   BodySurface surface;
+  surface.outward = false;
   surface.geometry = true;
   for (const auto& [entity, triangles] : surfaces)
     for (const Triangle& triangle : triangles) {

@@ -9,10 +9,11 @@
 namespace bielle::reduce {
 
 struct BodySurface {
-  std::vector<Triangle> triangles;  ///< outward
-  std::vector<int> faces;           ///< of the FaceTable, one per triangle; empty before there are solid cells
-  std::vector<int> entities;        ///< surface of the geometry or file, one per triangle; empty unless all have one
-  bool geometry = false;            ///< whether these are surfaces of a geometry, which shapes select as wholes
+  std::vector<Triangle> triangles;
+  bool outward = true;        ///< whether the triangles are oriented out of the body
+  std::vector<int> faces;     ///< of the FaceTable, one per triangle, empty where there are no solid cells yet
+  std::vector<int> entities;  ///< surface of the geometry or file, one per triangle; empty unless all have one
+  bool geometry = false;      ///< whether these are surfaces of a geometry, which shapes select as wholes
 };
 
 /// The boundary faces of a mesh.

@@ -29,10 +29,10 @@ double longest_edge(const Eigen::Matrix<double, 3, 4>& x) {
   return longest;
 }
 
-// Union-find over nodes.
-class Pieces {
+// Disjoint sets of numbers from 0, joined pair by pair.
+class Sets {
  public:
-  explicit Pieces(int count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
+  explicit Sets(int count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
   int of(int i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
@@ -45,9 +45,38 @@ class Pieces {
 
 struct Piece {
   int cells = 0;
-  double volume = 0;
+  double volume = 0;  // [m^3]
   Eigen::AlignedBox3d box;
 };
+
+// The solid cells by the number that `number_of` gives them; largest first.
+template <class Number>
+std::vector<Piece> pieces_of(const Mesh& mesh, const Number& number_of) {
+  const CellBlock& block = mesh.solids();
+  std::map<int, Piece> numbered;
+  for (Eigen::Index e = 0; e < block.nodes.cols(); ++e) {
+    Piece& piece = numbered[number_of(e)];
+    const auto x = corners_of(mesh, block, e);
+    ++piece.cells;
+    piece.volume += straight_determinant(x) / 6;
+    for (int k = 0; k < 4; ++k) piece.box.extend(Eigen::Vector3d(x.col(k)));
+  }
+  std::vector<Piece> pieces;
+  for (const auto& [number, piece] : numbered) pieces.push_back(piece);
+  std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.volume > b.volume; });
+  return pieces;
+}
+
+// "12 elements with 1.3 m^3 from (..) to (..); ... and 3 more"
+std::string piece_names(const std::vector<Piece>& pieces) {
+  constexpr std::size_t most = 5;
+  std::string names;
+  for (std::size_t i = 0; i < std::min(pieces.size(), most); ++i)
+    names += fmt::format("{}{} elements with {:.3g} m^3 from {} to {}", i == 0 ? "" : "; ", pieces[i].cells,
+                         pieces[i].volume, place_name(pieces[i].box.min()), place_name(pieces[i].box.max()));
+  if (pieces.size() > most) names += fmt::format("; and {} more", pieces.size() - most);
+  return names;
+}
 
 // Pairs of points nearer to each other than `distance`, of those listed; a point is the first of one pair at most.
 std::vector<std::pair<int, int>> near_pairs(const Eigen::Matrix3Xd& points, const std::vector<int>& listed,
@@ -66,8 +95,6 @@ std::vector<std::pair<int, int>> near_pairs(const Eigen::Matrix3Xd& points, cons
       }
   return pairs;
 }
-
-double shortest_edge(const Mesh& mesh) { return mesh_quality(mesh).shortest_edge; }
 
 }  // namespace
 
@@ -105,38 +132,32 @@ void check_elements(const Mesh& mesh, const std::vector<std::size_t>& cell_tags)
 
 void check_connected(const Mesh& mesh) {
   const CellBlock& block = mesh.solids();
-  Pieces pieces(static_cast<int>(mesh.point_count()));
+  Sets nodes(static_cast<int>(mesh.point_count()));
   for (Eigen::Index e = 0; e < block.nodes.cols(); ++e)
-    for (Eigen::Index k = 1; k < block.nodes.rows(); ++k) pieces.join(block.nodes(0, e), block.nodes(k, e));
-  std::map<int, Piece> found;
-  for (Eigen::Index e = 0; e < block.nodes.cols(); ++e) {
-    Piece& piece = found[pieces.of(block.nodes(0, e))];
-    const auto x = corners_of(mesh, block, e);
-    ++piece.cells;
-    piece.volume += straight_determinant(x) / 6;
-    for (int k = 0; k < 4; ++k) piece.box.extend(Eigen::Vector3d(x.col(k)));
-  }
-  if (found.size() == 1) return;
-
-  std::vector<Piece> sorted;
-  for (const auto& [root, piece] : found) sorted.push_back(piece);
-  std::sort(sorted.begin(), sorted.end(), [](const Piece& a, const Piece& b) { return a.volume > b.volume; });
-  std::string names;
-  const std::size_t shown = std::min<std::size_t>(sorted.size(), 5);
-  for (std::size_t i = 0; i < shown; ++i)
-    names += fmt::format("{}{} elements with {:.3g} m^3 from {} to {}", i == 0 ? "" : "; ", sorted[i].cells,
-                         sorted[i].volume, place_name(sorted[i].box.min()), place_name(sorted[i].box.max()));
-  if (shown < sorted.size()) names += fmt::format("; and {} more", sorted.size() - shown);
+    for (Eigen::Index k = 1; k < block.nodes.rows(); ++k) nodes.join(block.nodes(0, e), block.nodes(k, e));
+  const std::vector<Piece> pieces = pieces_of(mesh, [&](Eigen::Index cell) { return nodes.of(block.nodes(0, cell)); });
+  if (pieces.size() == 1) return;
 
   std::vector<int> all(mesh.point_count());
   std::iota(all.begin(), all.end(), 0);
   int touching = 0;
-  for (const auto& [a, b] : near_pairs(mesh.points, all, 1e-6 * shortest_edge(mesh)))
-    touching += pieces.of(a) != pieces.of(b);
-  throw InputError(fmt::format("the body is in {} pieces that share no nodes: {}{}", sorted.size(), names,
+  for (const auto& [a, b] : near_pairs(mesh.points, all, 1e-6 * mesh_quality(mesh).shortest_edge))
+    touching += nodes.of(a) != nodes.of(b);
+  throw InputError(fmt::format("the body is in {} pieces that share no nodes: {}{}", pieces.size(), piece_names(pieces),
                                touching > 0
                                    ? fmt::format("; {} pairs of nodes lie at the same place: merge them", touching)
                                    : "; join them in the geometry (a fragment or union), or reduce each by itself"));
+}
+
+std::string loose_joints(const Mesh& mesh, const FaceTable& faces) {
+  Sets cells(static_cast<int>(mesh.solid_count()));
+  for (int face = 0; face < faces.size(); ++face)
+    if (!faces.on_boundary(face)) cells.join(faces.cell(face), faces.other_cell(face));
+  const std::vector<Piece> pieces =
+      pieces_of(mesh, [&](Eigen::Index cell) { return cells.of(static_cast<int>(cell)); });
+  if (pieces.size() == 1) return "";
+  return fmt::format("{} parts of the body hang together by single nodes or edges only, about which they can turn: {}",
+                     pieces.size(), piece_names(pieces));
 }
 
 CoincidentNodes coincident_nodes(const Mesh& mesh, const FaceTable& faces) {
@@ -146,7 +167,7 @@ CoincidentNodes coincident_nodes(const Mesh& mesh, const FaceTable& faces) {
   std::vector<int> listed;
   for (int node = 0; node < mesh.point_count(); ++node)
     if (on_boundary[node]) listed.push_back(node);
-  const auto pairs = near_pairs(mesh.points, listed, 1e-6 * shortest_edge(mesh));
+  const auto pairs = near_pairs(mesh.points, listed, 1e-6 * mesh_quality(mesh).shortest_edge);
   CoincidentNodes result;
   result.pairs = static_cast<int>(pairs.size());
   if (!pairs.empty()) result.place = mesh.points.col(pairs.front().first);
@@ -179,11 +200,11 @@ MeshQuality mesh_quality(const Mesh& mesh) {
   return quality;
 }
 
-std::string summary(const Mesh& mesh) {
+std::string mesh_summary(const Mesh& mesh) {
   const MeshQuality quality = mesh_quality(mesh);
-  return fmt::format("{} nodes, {} {}, edges {:.3g} to {:.3g} mm, least scaled Jacobian {:.2g} at {}",
-                     mesh.point_count(), mesh.solid_count(), cell_name(mesh.solids().type), 1e3 * quality.shortest_edge,
-                     1e3 * quality.longest_edge, quality.least_scaled_jacobian, place_name(quality.worst_place));
+  return fmt::format("{} nodes, {} {}, edges from {} to {}, least scaled Jacobian {:.2g} at {}", mesh.point_count(),
+                     mesh.solid_count(), cell_name(mesh.solids().type), length_name(quality.shortest_edge),
+                     length_name(quality.longest_edge), quality.least_scaled_jacobian, place_name(quality.worst_place));
 }
 
 }  // namespace bielle::reduce

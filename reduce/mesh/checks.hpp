@@ -18,6 +18,10 @@ void check_elements(const Mesh& mesh, const std::vector<std::size_t>& cell_tags)
 /// @throws InputError: how many pieces, how large and where; whether they touch without sharing nodes
 void check_connected(const Mesh& mesh);
 
+/// A sentence when parts of the body hang together by single nodes or edges only, about which they can turn; else
+/// empty.
+std::string loose_joints(const Mesh& mesh, const FaceTable& faces);
+
 /// Pairs of boundary nodes that lie at one place, nearer than 1e-6 of the shortest edge: a crack, or an unmerged mesh.
 struct CoincidentNodes {
   int pairs = 0;
@@ -37,7 +41,7 @@ struct MeshQuality {
 };
 MeshQuality mesh_quality(const Mesh& mesh);
 
-/// "4321 nodes, 2345 tet10, edges 0.9 to 3.2 mm, least scaled Jacobian 0.12 at (..) m"
-std::string summary(const Mesh& mesh);
+/// "4321 nodes, 2345 tet10, edges from 0.9 mm to 3.2 mm, least scaled Jacobian 0.12 at (..) m"
+std::string mesh_summary(const Mesh& mesh);
 
 }  // namespace bielle::reduce

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmsh.h>
 
 #include "reduce/common/error.hpp"
@@ -45,33 +46,47 @@ std::string numbers(const Vector3d& v) {
   return fmt::format("[{:.9g}, {:.9g}, {:.9g}]", shown(v.x()), shown(v.y()), shown(v.z()));
 }
 
-// What selects this surface in a body file.
-std::string selector_line(const SurfaceEntry& entry, double margin) {
+// What selects this surface in a body file. @param in_box  restricts a plane or cylinder to this surface alone
+std::string selector_line(const SurfaceEntry& entry, bool in_box, double margin) {
+  std::string shape;
   if (const auto* c = std::get_if<CylinderShape>(&entry.shape))
-    return fmt::format("surface: {{cylinder: {{point: {}, axis: {}, radius: {:.9g}}}}}", numbers(c->point),
-                       numbers(c->axis), c->radius);
+    shape = fmt::format("cylinder: {{point: {}, axis: {}, radius: {:.9g}}}", numbers(c->point), numbers(c->axis),
+                        c->radius);
   if (const auto* p = std::get_if<PlaneShape>(&entry.shape))
-    return fmt::format("surface: {{plane: {{point: {}, normal: {}}}}}", numbers(p->normal * p->normal.dot(p->point)),
-                       numbers(p->normal));
-  return fmt::format("surface: {{box: [{}, {}]}}", numbers(entry.box.min().array() - margin),
-                     numbers(entry.box.max().array() + margin));
+    shape = fmt::format("plane: {{point: {}, normal: {}}}", numbers(p->normal * p->normal.dot(p->point)),
+                        numbers(p->normal));
+  if (shape.empty() || in_box)
+    shape += fmt::format("{}box: [{}, {}]", shape.empty() ? "" : ", ", numbers(entry.box.min().array() - margin),
+                         numbers(entry.box.max().array() + margin));
+  return fmt::format("surface: {{{}}}", shape);
+}
+
+// Whether both lie on the same endless plane or cylinder, as far as selection can tell.
+bool same_shape(const SurfaceEntry& one, const SurfaceEntry& other, double tolerance) {
+  if (const auto* a = std::get_if<PlaneShape>(&one.shape), *b = std::get_if<PlaneShape>(&other.shape); a && b)
+    return a->normal.cross(b->normal).norm() < 1e-4 && std::abs(a->normal.dot(b->point - a->point)) < tolerance;
+  if (const auto* a = std::get_if<CylinderShape>(&one.shape), *b = std::get_if<CylinderShape>(&other.shape); a && b)
+    return a->axis.cross(b->axis).norm() < 1e-4 && a->axis.cross(b->point - a->point).norm() < tolerance &&
+           std::abs(a->radius - b->radius) < tolerance;
+  return false;
 }
 
 std::string surfaces_text(const std::vector<SurfaceEntry>& entries, double body_size) {
   std::string text;
-  std::map<std::string, std::string> first;  // selector -> the surface for which it stands already
   for (const SurfaceEntry& entry : entries) {
     const auto* plane = std::get_if<PlaneShape>(&entry.shape);
     const std::string shape = plane != nullptr           ? "plane normal to " + direction_name(plane->normal)
                               : entry.shape.index() != 0 ? shape_name(entry.shape)
                                                          : entry.kind;
-    text += fmt::format("  {}: {}{}{}{}{}\n", entry.name, shape, entry.hollow ? " (a bore)" : "",
+    std::vector<std::string> others;
+    for (const SurfaceEntry& other : entries)
+      if (&other != &entry && same_shape(entry, other, 1e-4 * body_size)) others.push_back(other.name);
+    text += fmt::format("  {}: {}{}{}{}{}\n    {}\n", entry.name, shape, entry.hollow ? " (a bore)" : "",
                         entry.area ? fmt::format(", area {:.4g} m^2", *entry.area) : "",
                         entry.centre ? fmt::format(", centre {}", place_name(*entry.centre)) : "",
-                        entry.groups.empty() ? "" : "; in " + entry.groups);
-    const std::string line = selector_line(entry, 1e-3 * body_size);
-    const auto [place, is_new] = first.emplace(line, entry.name);
-    text += is_new ? fmt::format("    {}\n", line) : fmt::format("    (selected along with {})\n", place->second);
+                        entry.groups.empty() ? "" : "; in " + entry.groups,
+                        selector_line(entry, !others.empty(), 1e-3 * body_size));
+    if (!others.empty()) text += fmt::format("    (without the box also {})\n", fmt::join(others, ", "));
   }
   return text;
 }
@@ -207,7 +222,7 @@ std::string mesh_text(GmshSession& session, const SourceFile& source) {
   } catch (const InputError& error) {
     return text + fmt::format("  not usable as it is: {}\n", error.what());
   }
-  text += fmt::format("  {}\n", summary(mesh));
+  text += fmt::format("  {}\n", mesh_summary(mesh));
 
   const FaceTable faces(mesh);
   const BodySurface surface = body_surface(model, faces, false);
@@ -265,7 +280,7 @@ std::string describe_geometry(const std::string& path, const std::optional<std::
   GmshSession session;
   open_model(session, source);
   std::string text;
-  session.run(fmt::format("'{}' cannot be listed", path), [&] {
+  session.read(fmt::format("'{}' cannot be listed", path), [&] {
     const bool mesh = !source.geometry || model_has_cells(3);
     text = fmt::format("{}: {}; {}\n", path, mesh ? "a mesh" : "a geometry", source.unit_note);
     text += groups_text();

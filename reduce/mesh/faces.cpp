@@ -22,18 +22,20 @@ FaceTable::FaceTable(const Mesh& mesh) : solids_(mesh.solids()) {
   std::vector<Face> all;
   all.reserve(4 * solids_.nodes.cols());
   for (int cell = 0; cell < solids_.nodes.cols(); ++cell)
-    for (short side = 0; side < 4; ++side) {
+    for (int side = 0; side < 4; ++side) {
       std::array<int, 3> key;
       for (int k = 0; k < 3; ++k) key[k] = solids_.nodes(sides[side][k], cell);
       std::sort(key.begin(), key.end());
-      all.push_back({key, cell, side, 1});
+      all.push_back({key, cell, -1, side});
     }
   std::sort(all.begin(), all.end(),
             [](const Face& a, const Face& b) { return std::tie(a.key, a.cell) < std::tie(b.key, b.cell); });
   for (const Face& face : all) {
     if (faces_.empty() || faces_.back().key != face.key) {
       faces_.push_back(face);
-    } else if (++faces_.back().cells > 2) {
+    } else if (faces_.back().other < 0) {
+      faces_.back().other = face.cell;
+    } else {
       throw InputError(fmt::format("three or more cells share the face at {}: cells overlap or stand twice",
                                    place_name(mesh.points.col(face.key[0]))));
     }

@@ -21,10 +21,11 @@ class FaceTable {
 
   int size() const { return static_cast<int>(faces_.size()); }
   CellType type() const;  ///< of its faces: tri3 or tri6
-  bool on_boundary(int face) const { return faces_[face].cells == 1; }
-  int cell(int face) const { return faces_[face].cell; }  ///< its (first) solid cell
-  Eigen::VectorXi nodes(int face) const;                  ///< corners and mid-side nodes in gmsh's order, (3) or (6)
-  std::array<int, 3> corners(int face) const;             ///< outward
+  bool on_boundary(int face) const { return faces_[face].other < 0; }
+  int cell(int face) const { return faces_[face].cell; }         ///< its (first) solid cell
+  int other_cell(int face) const { return faces_[face].other; }  ///< its second one; -1 on the boundary
+  Eigen::VectorXi nodes(int face) const;       ///< corners and mid-side nodes in gmsh's order, (3) or (6)
+  std::array<int, 3> corners(int face) const;  ///< outward
   /// The face with these corners in any order.
   std::optional<int> find(std::array<int, 3> corners) const;
   std::vector<int> boundary() const;  ///< faces of one cell only, ascending
@@ -32,9 +33,8 @@ class FaceTable {
  private:
   struct Face {
     std::array<int, 3> key;  // corner nodes, ascending
-    int cell;
-    short side;   // of the cell, 0..3
-    short cells;  // 1 or 2
+    int cell, other;
+    int side;  // of the first cell, 0..3
   };
   CellBlock solids_;
   std::vector<Face> faces_;

@@ -60,10 +60,24 @@ void visit_elements(int dim, const Visit& visit) {
   }
 }
 
-std::map<int, std::vector<Triangle>> read_triangles(const Nodes& nodes) {
+// gmsh delivers of the cells of one entity and shape those of the first one's order only, silently: its own count
+// tells.
+bool all_delivered(const char* shape, std::size_t delivered) {
+  double all = 0;
+  gmsh::option::getNumber(std::string("Mesh.Nb") + shape, all);
+  return static_cast<double>(delivered) == all;
+}
+
+// @throws InputError for other cells than triangles
+std::map<int, std::vector<Triangle>> read_triangles(const Nodes& nodes, const std::string& name) {
   std::map<int, std::vector<Triangle>> surfaces;
+  std::size_t count = 0;
   visit_elements(2, [&](int entity, int type, const Tags& elements, const Tags& tags) {
-    if (type != static_cast<int>(CellType::tri3) && type != static_cast<int>(CellType::tri6)) return;
+    if (type != static_cast<int>(CellType::tri3) && type != static_cast<int>(CellType::tri6))
+      throw InputError(
+          fmt::format("'{}' holds {} surface cells of type '{}'; supported are triangles with 3 or 6 nodes", name,
+                      elements.size(), gmsh_cell_name(type)));
+    count += elements.size();
     const std::size_t width = tags.size() / elements.size();
     for (std::size_t e = 0; e < elements.size(); ++e) {
       Triangle triangle;
@@ -71,6 +85,8 @@ std::map<int, std::vector<Triangle>> read_triangles(const Nodes& nodes) {
       surfaces[entity].push_back(triangle);
     }
   });
+  if (!all_delivered("Triangles", count))
+    throw InputError(fmt::format("'{}' mixes triangles with 3 and with 6 nodes on one surface; use one kind", name));
   return surfaces;
 }
 
@@ -84,10 +100,7 @@ void read_solids(const Nodes& nodes, const std::string& name, ExtractedModel& mo
           fmt::format("'{}' holds {} cells of type '{}'; supported are tetrahedra with 4 or 10 nodes: remesh "
                       "the body with tetrahedra",
                       name, count, gmsh_cell_name(type)));
-  // Of the tetrahedra of one volume gmsh delivers those of the first one's type only, silently: its own count tells.
-  double all = 0;
-  gmsh::option::getNumber("Mesh.NbTetrahedra", all);
-  if (counts.size() > 1 || (counts.size() == 1 && static_cast<double>(counts.begin()->second) != all))
+  if (counts.size() > 1 || (counts.size() == 1 && !all_delivered("Tetrahedra", counts.begin()->second)))
     throw InputError(
         fmt::format("'{}' mixes tetrahedra with 4 and with 10 nodes: their common faces do not fit together; "
                     "use one kind",
@@ -132,6 +145,37 @@ void drop_unused_nodes(const Eigen::Matrix3Xd& points, ExtractedModel& model) {
       for (int& node : triangle) node = number[node];
 }
 
+// Size on an entity of any dimension: the least of those of the groups to whose closure it belongs.
+std::map<std::pair<int, int>, double> sizes_of_closures(const std::vector<EntitySize>& sizes) {
+  std::map<std::pair<int, int>, double> size_of;
+  for (const EntitySize& wish : sizes) {
+    gmsh::vectorpair closure, boundary;
+    for (int entity : wish.entities) closure.emplace_back(wish.dimension, entity);
+    for (int dim = wish.dimension; dim >= 0; --dim) {
+      for (const auto& [d, tag] : closure) {
+        const auto [place, is_new] = size_of.emplace(std::pair(d, std::abs(tag)), wish.size);
+        if (!is_new) place->second = std::min(place->second, wish.size);
+      }
+      if (dim == 0) break;
+      gmsh::model::getBoundary(closure, boundary, false, false, false);
+      closure = boundary;
+    }
+  }
+  return size_of;
+}
+
+// gmsh may leave a volume without cells and only say so in its log.
+void check_volumes_meshed(const std::string& name) {
+  for (int volume : entities(3)) {
+    std::vector<int> types;
+    std::vector<Tags> elements, nodes;
+    gmsh::model::mesh::getElements(types, elements, nodes, 3, volume);
+    if (types.empty())
+      throw ComputationError(
+          fmt::format("'{}': gmsh could not mesh volume {}; another mesh.size may help", name, volume));
+  }
+}
+
 // Edge lengths by place, until the end of a scope: gmsh would keep them beyond its own finalisation.
 struct SizeCallback {
   explicit SizeCallback(std::function<double(int, int, double, double, double)> size) {
@@ -150,13 +194,13 @@ struct SizeCallback {
 }  // namespace
 
 void open_model(GmshSession& session, const SourceFile& source) {
-  session.run(fmt::format("'{}' cannot be read", source.name), [&] {
+  session.read(fmt::format("'{}' cannot be read", source.name), [&] {
     // OpenCASCADE's unit outlives a session. What a .geo reads by itself comes in mm, as gmsh has it by default.
     gmsh::option::setString("Geometry.OCCTargetUnit", source.carries_unit ? "M" : "MM");
     gmsh::open(source.path);
+    if (entities(0).empty() && entities(2).empty() && entities(3).empty())
+      throw InputError(fmt::format("'{}' cannot be read: gmsh finds nothing in it", source.name));
   });
-  if (entities(0).empty() && entities(2).empty() && entities(3).empty())
-    throw InputError(fmt::format("'{}' cannot be read: gmsh finds nothing in it", source.name));
 }
 
 bool model_has_cells(int dimension) {
@@ -201,24 +245,12 @@ std::vector<PhysicalGroup> physical_groups() {
 
 void mesh_model(GmshSession& session, const std::string& name, int dimension, std::optional<double> size,
                 const std::vector<EntitySize>& sizes) {
-  // Size on an entity of any dimension: that of the group to whose closure it belongs.
-  std::map<std::pair<int, int>, double> size_of;
-  for (const EntitySize& wish : sizes) {
-    gmsh::vectorpair closure, boundary;
-    for (int entity : wish.entities) closure.emplace_back(wish.dimension, entity);
-    for (int dim = wish.dimension; dim >= 0; --dim) {
-      for (const auto& [d, tag] : closure) {
-        const auto [place, is_new] = size_of.emplace(std::pair(d, std::abs(tag)), wish.size);
-        if (!is_new) place->second = std::min(place->second, wish.size);
-      }
-      if (dim == 0) break;
-      gmsh::model::getBoundary(closure, boundary, false, false, false);
-      closure = boundary;
-    }
-  }
-  session.run(fmt::format("'{}' cannot be meshed", name), [&] {
+  session.compute(fmt::format("'{}' cannot be meshed", name), [&] {
     gmsh::model::mesh::clear();
-    if (size) gmsh::option::setNumber("Mesh.MeshSizeMax", *size);
+    const std::map<std::pair<int, int>, double> size_of = sizes_of_closures(sizes);
+    double largest = size.value_or(0);
+    for (const auto& [entity, wish] : size_of) largest = std::max(largest, wish);
+    if (size) gmsh::option::setNumber("Mesh.MeshSizeMax", largest);
     std::optional<SizeCallback> callback;
     if (!size_of.empty())
       callback.emplace([size_of, size](int dim, int tag, double, double, double) {
@@ -229,11 +261,12 @@ void mesh_model(GmshSession& session, const std::string& name, int dimension, st
     gmsh::option::setNumber("Mesh.ElementOrder", 1);
     gmsh::option::setNumber("Mesh.RecombineAll", 0);
     gmsh::model::mesh::generate(dimension);
+    if (dimension == 3) check_volumes_meshed(name);
   });
 }
 
 void make_second_order(GmshSession& session, const std::string& name) {
-  session.run(fmt::format("'{}' cannot be meshed with second-order elements", name), [&] {
+  session.compute(fmt::format("'{}' cannot be meshed with second-order elements", name), [&] {
     // gmsh's own repair of curved elements throws on real parts (4.8): ours follows in straighten.cpp.
     gmsh::option::setNumber("Mesh.HighOrderOptimize", 0);
     gmsh::option::setNumber("Mesh.SecondOrderLinear", 0);
@@ -244,10 +277,10 @@ void make_second_order(GmshSession& session, const std::string& name) {
 
 ExtractedModel extract_model(GmshSession& session, const std::string& name, double metres) {
   ExtractedModel model;
-  session.run(fmt::format("'{}' cannot be read", name), [&] {
+  session.read(fmt::format("'{}' cannot be read", name), [&] {
     const Nodes nodes = read_nodes(metres);
     read_solids(nodes, name, model);
-    model.surfaces = read_triangles(nodes);
+    model.surfaces = read_triangles(nodes, name);
     model.groups = physical_groups();
     drop_unused_nodes(nodes.points, model);
   });
@@ -257,10 +290,10 @@ ExtractedModel extract_model(GmshSession& session, const std::string& name, doub
 std::map<int, std::vector<Triangle>> extract_surfaces(GmshSession& session, const std::string& name, double metres,
                                                       Eigen::Matrix3Xd& points) {
   std::map<int, std::vector<Triangle>> surfaces;
-  session.run(fmt::format("'{}' cannot be read", name), [&] {
+  session.read(fmt::format("'{}' cannot be read", name), [&] {
     const Nodes nodes = read_nodes(metres);
     points = nodes.points;
-    surfaces = read_triangles(nodes);
+    surfaces = read_triangles(nodes, name);
   });
   return surfaces;
 }

@@ -46,6 +46,8 @@ struct EntitySize {
 /// @throws InputError "<name>: ..." when gmsh cannot read it, or nothing is in it
 void open_model(GmshSession& session, const SourceFile& source);
 
+// What follows calls gmsh without translating its exceptions: within session.read() only.
+
 bool model_has_cells(int dimension);  ///< whether there are meshed cells: 2 surface, 3 solid
 bool model_has_volumes();
 
@@ -55,11 +57,14 @@ std::vector<std::pair<std::string, std::size_t>> cell_counts();
 /// Physical groups of surfaces and volumes. A surface group with the name of a volume group gets `_surface` behind it.
 std::vector<PhysicalGroup> physical_groups();
 
+// What follows translates.
+
 /// Meshes the geometry with straight cells, in surfaces (dimension 2) or also in volumes (3), instead of an earlier
 /// mesh.
 /// @param name   of the file in messages, here and below
 /// @param size   largest edge in the geometry's own unit; absent: as the geometry says
 /// @param sizes  on some entities; fades into `size` away from them
+/// @throws ComputationError when gmsh fails, or leaves a volume without cells
 void mesh_model(GmshSession& session, const std::string& name, int dimension, std::optional<double> size,
                 const std::vector<EntitySize>& sizes);
 
@@ -67,7 +72,8 @@ void mesh_model(GmshSession& session, const std::string& name, int dimension, st
 void make_second_order(GmshSession& session, const std::string& name);
 
 /// @param metres  per unit of the model
-/// @throws InputError for cells that are no tetrahedra, for none at all, for linear and quadratic ones side by side
+/// @throws InputError for cells that are no tetrahedra (no triangles on surfaces), for none at all, for linear and
+///         quadratic ones side by side
 ExtractedModel extract_model(GmshSession& session, const std::string& name, double metres);
 
 /// Triangles of the surfaces of a model meshed in dimension 2, and all their nodes.

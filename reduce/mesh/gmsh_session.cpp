@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <iostream>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include <fcntl.h>
@@ -25,11 +26,10 @@ class SilentStandardOutput {
  public:
   SilentStandardOutput() {
     flush();
-    saved_ = dup(STDOUT_FILENO);
-    const int nowhere = open("/dev/null", O_WRONLY);
-    if (nowhere < 0) return;
-    dup2(nowhere, STDOUT_FILENO);
-    close(nowhere);
+    saved_ = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3);
+    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (saved_ >= 0 && nowhere >= 0) dup2(nowhere, STDOUT_FILENO);
+    if (nowhere >= 0) close(nowhere);
   }
   ~SilentStandardOutput() {
     flush();
@@ -59,6 +59,23 @@ std::string logged_errors() {
   return errors;
 }
 
+// Calls `work`. Returns gmsh's reason (": ...", or nothing known) when it throws something of its own; our errors pass.
+std::optional<std::string> failure(const std::function<void()>& work) {
+  std::string reason;
+  try {
+    work();
+    return {};
+  } catch (const std::exception&) {
+    throw;
+  } catch (const std::string& thrown) {
+    reason = thrown;
+  } catch (...) {  // numbers, and OpenCASCADE's own failures
+  }
+  const std::string errors = logged_errors();
+  if (!errors.empty()) reason = errors;
+  return reason.empty() ? reason : ": " + reason;
+}
+
 }  // namespace
 
 struct GmshSession::State {
@@ -81,19 +98,12 @@ GmshSession::~GmshSession() {
   }
 }
 
-void GmshSession::run(const std::string& what, const std::function<void()>& work) {
-  const auto fail = [&](std::string reason) {
-    const std::string errors = logged_errors();
-    if (!errors.empty()) reason = errors;
-    throw InputError(what + (reason.empty() ? "" : ": " + reason));
-  };
-  try {
-    work();
-  } catch (const std::string& reason) {
-    fail(reason);
-  } catch (int) {
-    fail("");
-  }
+void GmshSession::read(const std::string& what, const std::function<void()>& work) {
+  if (const auto reason = failure(work)) throw InputError(what + *reason);
+}
+
+void GmshSession::compute(const std::string& what, const std::function<void()>& work) {
+  if (const auto reason = failure(work)) throw ComputationError(what + *reason);
 }
 
 }  // namespace bielle::reduce

@@ -20,10 +20,13 @@ class GmshSession {
   GmshSession(const GmshSession&) = delete;
   GmshSession& operator=(const GmshSession&) = delete;
 
-  /// Calls `work`, which may call gmsh.
-  /// @param what  what was being done, as the beginning of a message: "rod.geo cannot be read"
+  /// Calls `work`, which may call gmsh, to read something.
+  /// @param what  what was being done, as the beginning of a message: "'rod.geo' cannot be read"
   /// @throws InputError "<what>: <gmsh's reason>"
-  void run(const std::string& what, const std::function<void()>& work);
+  void read(const std::string& what, const std::function<void()>& work);
+
+  /// The same where not the user's input but gmsh fails. @throws ComputationError
+  void compute(const std::string& what, const std::function<void()>& work);
 
  private:
   struct State;

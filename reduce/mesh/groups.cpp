@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
-#include <set>
 
 #include <fmt/format.h>
 
@@ -61,13 +60,19 @@ std::vector<int> faces_of(const std::vector<Triangle>& triangles, const FaceTabl
   return found;
 }
 
-Group volume_group(const Mesh& mesh, std::vector<int> cells) {
-  const CellBlock& block = mesh.solids();
-  std::sort(cells.begin(), cells.end());
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-  std::set<int> nodes;
-  for (int cell : cells) nodes.insert(block.nodes.col(cell).begin(), block.nodes.col(cell).end());
-  return {3, {{block.type, std::move(cells)}}, {nodes.begin(), nodes.end()}};
+void sort_unique(std::vector<int>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+// A group of cells of one block.
+Group group_of(const CellBlock& block, std::vector<int> cells) {
+  sort_unique(cells);
+  std::vector<int> nodes;
+  nodes.reserve(cells.size() * block.nodes.rows());
+  for (int cell : cells) nodes.insert(nodes.end(), block.nodes.col(cell).begin(), block.nodes.col(cell).end());
+  sort_unique(nodes);
+  return {dimension(block.type), {{block.type, std::move(cells)}}, std::move(nodes)};
 }
 
 // Faces of every surface group that the mesh shall have, by name.
@@ -93,8 +98,8 @@ std::map<std::string, std::vector<int>> surface_groups(const MeshRequest& reques
         selected.insert(selected.end(), of_group.begin(), of_group.end());
         continue;
       }
-      const std::vector<int> triangles =
-          placed(selection.located, [&] { return select_triangles(selector, mesh.points, surface); });
+      const std::vector<int> triangles = placed(
+          selection.located, [&] { return select_triangles(std::get<ShapeSelector>(selector), mesh.points, surface); });
       for (int triangle : triangles) selected.push_back(surface.faces[triangle]);
     }
     result[selection.group] = selected;
@@ -124,12 +129,12 @@ void add_volume_groups(const ExtractedModel& model, Mesh& mesh) {
     for (int entity : group.entities)
       if (const auto found = model.volumes.find(entity); found != model.volumes.end())
         cells.insert(cells.end(), found->second.begin(), found->second.end());
-    if (!cells.empty()) mesh.groups[group.name] = volume_group(mesh, cells);
+    if (!cells.empty()) mesh.groups[group.name] = group_of(mesh.solids(), cells);
   }
   if (!group_names(model.groups, 3).empty()) return;
   std::vector<int> all(mesh.solid_count());
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
-  mesh.groups["all"] = volume_group(mesh, all);
+  std::iota(all.begin(), all.end(), 0);
+  mesh.groups["all"] = group_of(mesh.solids(), all);
 }
 
 void add_surface_groups(const MeshRequest& request, const ExtractedModel& model, bool geometry, const FaceTable& faces,
@@ -146,13 +151,9 @@ void add_surface_groups(const MeshRequest& request, const ExtractedModel& model,
   }
   for (const auto& [name, members] : groups) {
     if (members.empty()) continue;
-    std::set<int> cells, nodes;
-    for (int face : members) {
-      const int cell = cell_of.at(face);
-      cells.insert(cell);
-      nodes.insert(block.nodes.col(cell).begin(), block.nodes.col(cell).end());
-    }
-    mesh.groups[name] = {2, {{block.type, {cells.begin(), cells.end()}}}, {nodes.begin(), nodes.end()}};
+    std::vector<int> cells;
+    for (int face : members) cells.push_back(cell_of.at(face));
+    mesh.groups[name] = group_of(block, std::move(cells));
   }
   if (block.nodes.cols() > 0) mesh.blocks.push_back(std::move(block));
 }

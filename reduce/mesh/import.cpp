@@ -57,8 +57,8 @@ std::vector<EntitySize> entity_sizes(GmshSession& session, const MeshRequest& re
         entities.insert(of_group.begin(), of_group.end());
         continue;
       }
-      const std::vector<int> triangles =
-          placed(selection->located, [&] { return select_triangles(selector, points, surface); });
+      const std::vector<int> triangles = placed(
+          selection->located, [&] { return select_triangles(std::get<ShapeSelector>(selector), points, surface); });
       for (int triangle : triangles) entities.insert(surface.entities[triangle]);
     }
     result.push_back({2, {entities.begin(), entities.end()}, wish.size / source.metres});
@@ -68,8 +68,6 @@ std::vector<EntitySize> entity_sizes(GmshSession& session, const MeshRequest& re
 
 void mesh_geometry(GmshSession& session, const MeshRequest& request, const SourceFile& source,
                    const std::vector<PhysicalGroup>& groups, Progress& progress) {
-  if (!model_has_volumes())
-    throw InputError(at_place(request.located, fmt::format("'{}' holds no volume: a body is a solid", source.name)));
   const std::string ending = std::filesystem::path(source.name).extension().string();
   if (!request.size && !ending.starts_with(".geo"))
     throw InputError(at_place(
@@ -89,10 +87,10 @@ void check_mesh(const MeshRequest& request, const ExtractedModel& model, const F
   check_connected(mesh);
   const Straightening repaired = straighten_elements(mesh);
   if (repaired.nodes > 0)
-    progress.note(
-        fmt::format("{} second-order elements were inside out at curved surfaces: {} mid-side nodes were moved "
-                    "to the middle of their edges, by {:.2g} mm at most (at {}); smaller elements avoid it",
-                    repaired.elements, repaired.nodes, 1e3 * repaired.farthest, place_name(repaired.place)));
+    progress.note(fmt::format(
+        "{} second-order elements were or might be inside out at curved surfaces: {} mid-side nodes were moved "
+        "to the middle of their edges, by {} at most (at {}); smaller elements avoid it",
+        repaired.elements, repaired.nodes, length_name(repaired.farthest), place_name(repaired.place)));
   if (model.dropped_nodes > 0)
     progress.note(fmt::format("{} nodes that belong to no solid cell were left out", model.dropped_nodes));
   if (const CoincidentNodes coincident = coincident_nodes(mesh, faces); coincident.pairs > 0)
@@ -100,7 +98,13 @@ void check_mesh(const MeshRequest& request, const ExtractedModel& model, const F
         fmt::format("{}: {} pairs of nodes lie at the same place, the first at {}: the body is cracked there; "
                     "merge the nodes if it should not be",
                     request.path, coincident.pairs, place_name(coincident.place)));
-  if (const std::string doubt = doubtful_size(mesh); !doubt.empty()) progress.warn(at_place(request.located, doubt));
+  for (const std::string& doubt : {doubtful_size(mesh), loose_joints(mesh, faces)})
+    if (!doubt.empty()) progress.warn(at_place(request.located, doubt));
+  if (const MeshQuality quality = mesh_quality(mesh); quality.least_scaled_jacobian < 1e-3)
+    progress.warn(
+        at_place(request.located, fmt::format("an element at {} is nearly flat (scaled Jacobian {:.1g}): stresses "
+                                              "there mean nothing; another mesh.size avoids it",
+                                              place_name(quality.worst_place), quality.least_scaled_jacobian)));
 }
 
 }  // namespace
@@ -110,10 +114,15 @@ Mesh import_mesh(const MeshRequest& request, Progress& progress) {
   const SourceFile source = prepare_source(request, progress);
   GmshSession session;
   placed(request.located, [&] { open_model(session, source); });
-  const std::vector<PhysicalGroup> groups = physical_groups();
+  std::vector<PhysicalGroup> groups;
+  bool geometry = false;
+  session.read(fmt::format("'{}' cannot be read", source.name), [&] {
+    groups = physical_groups();
+    geometry = source.geometry && !model_has_cells(3);
+    if (geometry && !model_has_volumes())
+      throw InputError(at_place(request.located, fmt::format("'{}' holds no volume: a body is a solid", source.name)));
+  });
   check_groups(request, groups);
-
-  const bool geometry = source.geometry && !model_has_cells(3);
   if (geometry) {
     mesh_geometry(session, request, source, groups, progress);
   } else if (request.size || request.order || !request.sizes.empty()) {
@@ -130,7 +139,7 @@ Mesh import_mesh(const MeshRequest& request, Progress& progress) {
   placed(request.located, [&] { check_mesh(request, model, faces, mesh, progress); });
   add_volume_groups(model, mesh);
   add_surface_groups(request, model, geometry, faces, mesh);
-  progress.note(summary(mesh));
+  progress.note(mesh_summary(mesh));
   return mesh;
 }
 

@@ -33,7 +33,7 @@ double geometry_volume(const std::string& path, const std::optional<std::string>
   GmshSession session;
   open_model(session, source);
   double volume = 0;
-  session.run(fmt::format("'{}' has no volume that OpenCASCADE could measure", path), [&] {
+  session.read(fmt::format("'{}' has no volume that OpenCASCADE could measure", path), [&] {
     gmsh::vectorpair volumes;
     gmsh::model::occ::getEntities(volumes, 3);
     if (volumes.empty()) throw std::string("its volumes are of another kernel");

@@ -28,8 +28,22 @@ struct BoxSelector {
   Eigen::Vector3d low, high;  ///< opposite corners [m]
 };
 
-/// A physical group of the geometry, or a shape on which the surface lies.
-using SurfaceSelector = std::variant<std::string, CylinderSelector, PlaneSelector, BoxSelector>;
+/// Where a surface lies: on or in all of the shapes that are given, of which there is at least one.
+struct ShapeSelector {
+  ShapeSelector(const CylinderSelector& shape) : cylinder(shape) {}
+  ShapeSelector(const PlaneSelector& shape) : plane(shape) {}
+  ShapeSelector(const BoxSelector& shape) : box(shape) {}
+  ShapeSelector(const std::optional<CylinderSelector>& on_cylinder, const std::optional<PlaneSelector>& on_plane,
+                const std::optional<BoxSelector>& in_box)
+      : cylinder(on_cylinder), plane(on_plane), box(in_box) {}
+
+  std::optional<CylinderSelector> cylinder;
+  std::optional<PlaneSelector> plane;
+  std::optional<BoxSelector> box;
+};
+
+/// The name of a physical group of the geometry, or shapes.
+using SurfaceSelector = std::variant<std::string, ShapeSelector>;
 
 /// One or more selectors whose surfaces together become a surface group.
 struct SurfaceSelection {

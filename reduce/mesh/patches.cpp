@@ -91,7 +91,7 @@ void measure(const Matrix3Xd& points, const BodySurface& surface, double body_si
   }
   // Nodes lie on their surface but for the digits of the file: 1e-6 of the coordinates, doubled.
   patch.shape = recognise_shape(x, n, std::max(1e-5 * patch.box.diagonal().norm(), 2e-6 * body_size));
-  if (const auto* cylinder = std::get_if<CylinderShape>(&patch.shape)) {
+  if (const auto* cylinder = std::get_if<CylinderShape>(&patch.shape); cylinder != nullptr && surface.outward) {
     const Vector3d from = x.col(0) - cylinder->point;
     patch.hollow = n.col(0).dot(from - cylinder->axis * cylinder->axis.dot(from)) < 0;
   }
@@ -122,10 +122,16 @@ double difference(const BoxSelector& asked, const Patch& patch, double size) {
   return std::max({below, above, 0.0}) / size;
 }
 
-double difference(const std::string&, const Patch&, double) { return std::numeric_limits<double>::infinity(); }
+double difference(const ShapeSelector& asked, const Patch& patch, double size) {
+  double sum = 0;
+  if (asked.cylinder) sum += difference(*asked.cylinder, patch, size);
+  if (asked.plane) sum += difference(*asked.plane, patch, size);
+  if (asked.box) sum += difference(*asked.box, patch, size);
+  return sum;
+}
 
-std::string described(const SurfaceSelector& asked, const Patch& patch) {
-  if (std::holds_alternative<BoxSelector>(asked))
+std::string described(const ShapeSelector& asked, const Patch& patch) {
+  if (asked.box)
     return fmt::format("a {} from {} to {}", shape_kind(patch.shape), place_name(patch.box.min()),
                        place_name(patch.box.max()));
   return shape_name(patch.shape) + (patch.hollow ? " (a bore)" : "");
@@ -151,19 +157,19 @@ std::vector<Patch> find_patches(const Matrix3Xd& points, const BodySurface& surf
   return patches;
 }
 
-std::string near_candidates(const SurfaceSelector& shape, const Matrix3Xd& points, const BodySurface& surface) {
+std::string near_candidates(const ShapeSelector& shape, const Matrix3Xd& points, const BodySurface& surface) {
   const double size = (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).norm();
   std::vector<std::pair<double, std::string>> candidates;
   for (const Patch& patch : find_patches(points, surface)) {
-    const double unlike = std::visit([&](const auto& asked) { return difference(asked, patch, size); }, shape);
+    const double unlike = difference(shape, patch, size);
     if (!std::isfinite(unlike)) continue;
     const std::string name = described(shape, patch);
     const bool known =
         std::any_of(candidates.begin(), candidates.end(), [&](const auto& c) { return c.second == name; });
     if (!known) candidates.emplace_back(unlike, name);
   }
-  const bool box = std::holds_alternative<BoxSelector>(shape);
-  const char* kind = box ? "surfaces" : std::holds_alternative<PlaneSelector>(shape) ? "planes" : "cylinders";
+  const bool box = shape.box.has_value();
+  const char* kind = shape.cylinder ? "cylinders" : shape.plane ? "planes" : "surfaces";
   if (candidates.empty()) return fmt::format("; it has no {}", kind);
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });

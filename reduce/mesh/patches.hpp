@@ -20,14 +20,14 @@ struct Patch {
   Eigen::Vector3d centre;  ///< of area [m]
   Eigen::AlignedBox3d box;
   Shape shape;
-  bool hollow = false;  ///< a cylinder whose inside is empty: a bore
+  bool hollow = false;  ///< a cylinder whose inside is empty: a bore. Known where triangles are known to be outward
 };
 
 /// Divides the surface, by geometry's surface where known, otherwise at edges where the normal turns by more than 40
 /// degrees. Largest first.
 std::vector<Patch> find_patches(const Eigen::Matrix3Xd& points, const BodySurface& surface);
 
-/// For a selector that found nothing: "; the cylinders of the body are: ..." with those that come nearest.
-std::string near_candidates(const SurfaceSelector& shape, const Eigen::Matrix3Xd& points, const BodySurface& surface);
+/// For a selector that found nothing: "; the nearest cylinders are: ..." (planes, surfaces in the case of a box alone).
+std::string near_candidates(const ShapeSelector& shape, const Eigen::Matrix3Xd& points, const BodySurface& surface);
 
 }  // namespace bielle::reduce

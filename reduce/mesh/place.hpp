@@ -23,6 +23,11 @@ inline std::string place_name(const Eigen::Vector3d& point) {
   return direction_name((point.array().abs() < 1e-10).select(0.0, point)) + " m";
 }
 
+/// "3.2 mm", "1.5 m"
+inline std::string length_name(double length) {
+  return length < 0.5 ? fmt::format("{:.3g} mm", 1e3 * length) : fmt::format("{:.3g} m", length);
+}
+
 /// `located: message`, or the message alone when there is no place to name.
 /// @param located  "rod.yaml:17: interfaces.big_end"
 inline std::string at_place(const std::string& located, const std::string& message) {

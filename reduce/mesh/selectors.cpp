@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "reduce/common/error.hpp"
 #include "reduce/mesh/patches.hpp"
@@ -52,31 +53,32 @@ bool lies_on_shape(const BoxSelector& box, const Eigen::Matrix3Xd& points, const
   return true;
 }
 
-bool lies_on_shape(const std::string&, const Eigen::Matrix3Xd&, const Triangle&, double) { return false; }
-
 }  // namespace
 
 double selection_tolerance(const Eigen::Matrix3Xd& points) {
   return 1e-4 * (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).norm();
 }
 
-bool lies_on(const SurfaceSelector& shape, const Eigen::Matrix3Xd& points, const Triangle& triangle, double tolerance) {
-  return std::visit([&](const auto& s) { return lies_on_shape(s, points, triangle, tolerance); }, shape);
+bool lies_on(const ShapeSelector& shape, const Eigen::Matrix3Xd& points, const Triangle& triangle, double tolerance) {
+  return (!shape.cylinder || lies_on_shape(*shape.cylinder, points, triangle, tolerance)) &&
+         (!shape.plane || lies_on_shape(*shape.plane, points, triangle, tolerance)) &&
+         (!shape.box || lies_on_shape(*shape.box, points, triangle, tolerance));
 }
 
-std::string selector_name(const SurfaceSelector& shape) {
-  if (const auto* cylinder = std::get_if<CylinderSelector>(&shape))
-    return fmt::format("the cylinder with radius {:.5g} m about {} along {}", cylinder->radius,
-                       place_name(cylinder->point), direction_name(cylinder->axis.normalized()));
-  if (const auto* plane = std::get_if<PlaneSelector>(&shape))
-    return fmt::format("the plane through {} normal to {}", place_name(plane->point),
-                       direction_name(plane->normal.normalized()));
-  if (const auto* box = std::get_if<BoxSelector>(&shape))
-    return fmt::format("the box from {} to {}", place_name(box->low), place_name(box->high));
-  return fmt::format("'{}'", std::get<std::string>(shape));
+std::string selector_name(const ShapeSelector& shape) {
+  std::vector<std::string> names;
+  if (shape.cylinder)
+    names.push_back(fmt::format("on the cylinder with radius {:.5g} m about {} along {}", shape.cylinder->radius,
+                                place_name(shape.cylinder->point), direction_name(shape.cylinder->axis.normalized())));
+  if (shape.plane)
+    names.push_back(fmt::format("on the plane through {} normal to {}", place_name(shape.plane->point),
+                                direction_name(shape.plane->normal.normalized())));
+  if (shape.box)
+    names.push_back(fmt::format("in the box from {} to {}", place_name(shape.box->low), place_name(shape.box->high)));
+  return fmt::format("{}", fmt::join(names, " and "));
 }
 
-std::vector<int> select_triangles(const SurfaceSelector& shape, const Eigen::Matrix3Xd& points,
+std::vector<int> select_triangles(const ShapeSelector& shape, const Eigen::Matrix3Xd& points,
                                   const BodySurface& surface) {
   const double tolerance = selection_tolerance(points);
   const int count = static_cast<int>(surface.triangles.size());
@@ -92,9 +94,8 @@ std::vector<int> select_triangles(const SurfaceSelector& shape, const Eigen::Mat
   for (int i = 0; i < count; ++i)
     if (inside[i] && (!surface.geometry || whole.at(surface.entities[i]))) selected.push_back(i);
   if (selected.empty())
-    throw InputError(fmt::format("no surface of the body lies {} {} (within {:.2g} m){}",
-                                 std::holds_alternative<BoxSelector>(shape) ? "in" : "on", selector_name(shape),
-                                 tolerance, near_candidates(shape, points, surface)));
+    throw InputError(fmt::format("no surface of the body lies {} (within {:.2g} m){}", selector_name(shape), tolerance,
+                                 near_candidates(shape, points, surface)));
   return selected;
 }
 

@@ -52,10 +52,10 @@ void settle_unit(const MeshRequest& request, const std::string& ending, SourceFi
   }
   const std::optional<double> carried = ending.starts_with(".st") ? step_length_unit(request.path) : std::nullopt;
   source.unit_note = carried ? fmt::format("it says that its unit is {}", unit_name(*carried)) : "it carries its unit";
-  if (request.length_unit && carried && std::abs(*carried - said) > 1e-6 * said)
-    progress.warn(at_place(request.length_unit_located,
-                           fmt::format("'{}' is not the unit of '{}', which carries its own, {}: that one holds",
-                                       *request.length_unit, request.path, unit_name(*carried))));
+  if (!request.length_unit || (carried && std::abs(*carried - said) <= 1e-6 * said)) return;
+  progress.warn(at_place(request.length_unit_located,
+                         fmt::format("'{}' is not used: '{}' carries its own unit{}", *request.length_unit,
+                                     request.path, carried ? ", which is " + unit_name(*carried) : "")));
 }
 
 }  // namespace

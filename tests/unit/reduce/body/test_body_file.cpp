@@ -116,7 +116,7 @@ TEST_CASE("surfaces by shape") {
                              "big_end: {surface: {cylinder: {point: [1, 2, 3], axis: [0, 0, 2], radius: 0.024}}}");
   CHECK(file.options.interfaces[0].group == "interfaces.big_end");
   CHECK(file.options.interfaces[0].tie == Tie::rigid);
-  const auto cylinder = std::get<CylinderSelector>(file.mesh.surfaces[0].selectors.front());
+  const auto cylinder = std::get<ShapeSelector>(file.mesh.surfaces[0].selectors.front()).cylinder.value();
   CHECK(cylinder.point == Eigen::Vector3d(1, 2, 3));
   CHECK(cylinder.axis == Eigen::Vector3d(0, 0, 1));
   CHECK(cylinder.radius == 0.024);
@@ -125,10 +125,14 @@ TEST_CASE("surfaces by shape") {
            "gas: {surface: [{plane: {point: [0, 0, 1], normal: [1, 0, 0]}}, {box: [[1, 1, 1], [0, 2, 0]]}, crown],");
   CHECK(two.options.loads[0].group == "loads.gas");
   REQUIRE(two.mesh.surfaces[2].selectors.size() == 3);
-  CHECK(std::get<PlaneSelector>(two.mesh.surfaces[2].selectors[0]).normal == Eigen::Vector3d(1, 0, 0));
-  CHECK(std::get<BoxSelector>(two.mesh.surfaces[2].selectors[1]).low == Eigen::Vector3d(0, 1, 0));
-  CHECK(std::get<BoxSelector>(two.mesh.surfaces[2].selectors[1]).high == Eigen::Vector3d(1, 2, 1));
+  CHECK(std::get<ShapeSelector>(two.mesh.surfaces[2].selectors[0]).plane->normal == Eigen::Vector3d(1, 0, 0));
+  CHECK(std::get<ShapeSelector>(two.mesh.surfaces[2].selectors[1]).box->low == Eigen::Vector3d(0, 1, 0));
+  CHECK(std::get<ShapeSelector>(two.mesh.surfaces[2].selectors[1]).box->high == Eigen::Vector3d(1, 2, 1));
   CHECK(std::get<std::string>(two.mesh.surfaces[2].selectors[2]) == "crown");
+  const BodyFile both = read("surface: bore_big,",
+                             "surface: {plane: {point: [0, 0, 1], normal: [1, 0, 0]}, box: [[0, 0, 0], [1, 1, 1]]},");
+  const auto common = std::get<ShapeSelector>(both.mesh.surfaces[0].selectors.front());
+  CHECK((common.plane && common.box && !common.cylinder));
   // Shapes in lower-level keys are checked too.
   check("surface: bore_big,", "surface: {cylinder: {point: [1, 2, 3], axis: [0, 0, 2], raduis: 1}},",
         "9: interfaces.big_end.surface.cylinder: 'raduis' is not a key of a cylinder; did you mean 'radius'?");
@@ -142,7 +146,7 @@ TEST_CASE("surfaces by shape") {
   check("surface: bore_big,", "surface: {box: [[0, 0, 0]]},",
         "9: interfaces.big_end.surface.box: expected two opposite corners");
   check("surface: bore_big,", "surface: [],", "9: interfaces.big_end.surface: expected at least one surface");
-  check("surface: bore_big,", "surface: {},", "9: interfaces.big_end.surface: expected one shape");
+  check("surface: bore_big,", "surface: {},", "9: interfaces.big_end.surface: expected a shape");
 }
 
 TEST_CASE("interfaces keep directions, have axes, and may be free") {

@@ -50,7 +50,7 @@ std::string msh(const std::vector<std::string>& points, const std::vector<std::s
 
 void gmsh_convert(const std::string& source, const std::string& target, double size, int order) {
   GmshSession session;
-  session.run("test", [&] {
+  session.read("test", [&] {
     gmsh::option::setString("Geometry.OCCTargetUnit", "MM");  // what is written as STEP is in mm
     gmsh::open(source);
     gmsh::option::setNumber("Mesh.MeshSizeMax", size);

@@ -101,6 +101,28 @@ TEST_CASE("coincident nodes within one piece are a crack") {
   CHECK(coincident_nodes(sound, FaceTable(sound)).pairs == 0);
 }
 
+TEST_CASE("parts that hang together by an edge or a node only are doubted") {
+  // Two tetrahedra with a common edge.
+  Mesh mesh;
+  mesh.points.resize(3, 6);
+  mesh.points.col(0) << 0, 0, 0;
+  mesh.points.col(1) << 1, 0, 0;
+  mesh.points.col(2) << 0, 1, 0;
+  mesh.points.col(3) << 0, 0, 1;
+  mesh.points.col(4) << 0, -1, 0;
+  mesh.points.col(5) << 0, 0, -1;
+  Eigen::MatrixXi cells(4, 2);
+  cells << 0, 0, 1, 1, 2, 4, 3, 5;
+  mesh.blocks.push_back({CellType::tet4, cells});
+  CHECK_NOTHROW(check_elements(mesh, {}));
+  CHECK_NOTHROW(check_connected(mesh));
+  CHECK_THAT(loose_joints(mesh, FaceTable(mesh)),
+             StartsWith("2 parts of the body hang together by single nodes or edges only, about which they can turn: "
+                        "1 elements with 0.167 m^3 from"));
+  CHECK(
+      loose_joints(box_mesh({{1, 1, 1}, {2, 2, 2}, true}), FaceTable(box_mesh({{1, 1, 1}, {2, 2, 2}, true}))).empty());
+}
+
 TEST_CASE("cells that stand twice are refused") {
   CHECK_THAT(message_for(msh(corners, {"4 2 1 1 1 2 3 4", "4 2 1 1 1 2 3 4", "4 2 1 1 1 2 3 4"})),
              Contains("three or more cells share the face at (") && Contains("cells overlap or stand twice"));
@@ -124,6 +146,21 @@ TEST_CASE("linear and quadratic tetrahedra do not mix") {
                                            "0 .5 0", "0 0 .5", "0 .5 .5", ".5 0 .5", "1 1 1"};
   CHECK_THAT(message_for(msh(points, {"11 2 1 1 1 2 3 4 5 6 7 8 9 10", "4 2 1 1 2 3 4 11"})),
              Contains("mixes tetrahedra with 4 and with 10 nodes"));
+}
+
+TEST_CASE("surface cells that are no triangles, and triangles of two orders on one surface, are refused") {
+  const std::vector<std::string> cube = {"0 0 0", "1 0 0", "1 1 0", "0 1 0", "0 0 1", "1 0 1", "1 1 1", "0 1 1"};
+  CHECK_THAT(message_for(msh(cube, {"4 2 1 1 1 2 4 5", "3 2 9 1 1 2 3 4"})),
+             Contains("holds 1 surface cells of type 'Quadrilateral 4'; supported are triangles with 3 or 6 nodes"));
+  const std::vector<std::string> points = {"0 0 0",   "1 0 0",  "0 1 0",  "0 0 1",   ".5 0 0",
+                                           ".5 .5 0", "0 .5 0", "0 0 .5", "0 .5 .5", ".5 0 .5"};
+  CHECK_THAT(message_for(msh(points, {"11 2 1 1 1 2 3 4 5 6 7 8 9 10", "2 2 9 1 1 2 3", "9 2 9 1 1 3 4 7 9 8"})),
+             Contains("mixes triangles with 3 and with 6 nodes on one surface"));
+}
+
+TEST_CASE("an element that names a node which is not there is refused") {
+  CHECK_THAT(message_for(msh(corners, {"4 2 1 1 1 2 3 4", "4 2 1 1 1 2 3 77"})),
+             StartsWith("rod.yaml:2: geometry: '") && Contains("cannot be read"));
 }
 
 TEST_CASE("a triangle that is no face of a solid is refused when it belongs to a group") {

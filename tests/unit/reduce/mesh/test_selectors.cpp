@@ -68,6 +68,29 @@ TEST_CASE("one selection may unite several surfaces, and a physical one among th
   CHECK_THAT(corner_area(mesh, "both"), WithinRel(2 * std::numbers::pi * 0.05 * 0.02, 1e-2));
 }
 
+TEST_CASE("shapes given together select where all of them hold") {
+  // A fork: two coaxial bores of one radius, in two cheeks whose outer faces lie in parallel planes.
+  const TemporaryFolder folder;
+  MeshRequest wish = request(folder.file("fork.geo",
+                                         "SetFactory(\"OpenCASCADE\"); Box(1) = {0,0,0, .1,.04,.01}; Box(2) = "
+                                         "{0,0,.03, .1,.04,.01}; Box(3) = {0,0,0, .02,.04,.04};\n"
+                                         "Cylinder(4) = {.08,.02,-1, 0,0,2, .01};\n"
+                                         "BooleanUnion(5) = { Volume{1}; Delete; }{ Volume{2,3}; Delete; };\n"
+                                         "BooleanDifference(6) = { Volume{5}; Delete; }{ Volume{4}; Delete; };\n"));
+  wish.size = 0.004;
+  const CylinderSelector bores{{0.08, 0.02, 0}, {0, 0, 1}, 0.01};
+  const BoxSelector lower{{0, 0, 0}, {0.1, 0.04, 0.01}};
+  wish.surfaces = {selection("both", bores), selection("one", ShapeSelector(bores, {}, lower))};
+  const Mesh mesh = import(wish);
+  CHECK_THAT(corner_area(mesh, "one"), WithinRel(2 * std::numbers::pi * 0.01 * 0.01, 1e-2));
+  CHECK_THAT(corner_area(mesh, "both"), WithinRel(2 * corner_area(mesh, "one"), 1e-2));
+  wish.surfaces = {selection("none", ShapeSelector(bores, {}, BoxSelector{{0, 0, 0}, {0.1, 0.04, 0.009}}))};
+  CHECK_THAT(import_message(wish), Contains("lies on the cylinder with radius 0.01 m about (0.08, 0.02, 0) m along (0, "
+                                            "0, 1) and in the box from (0, 0, 0) m") &&
+                                       Contains("a surface must lie in the box as a whole; the nearest cylinders are: "
+                                                "a cylinder from (0.07, 0.01, 0) m to (0.09, 0.03, 0.01) m"));
+}
+
 TEST_CASE("a selector that finds nothing names the shapes that come nearest") {
   const TemporaryFolder folder;
   const std::string geo = folder.file("plate.geo", plate_geo);
@@ -75,8 +98,9 @@ TEST_CASE("a selector that finds nothing names the shapes that come nearest") {
   for (const std::string name : {"plate.geo", "plate.msh"}) {
     CAPTURE(name);
     MeshRequest wish = plate_request(folder / name, name.ends_with(".msh"));
-    wish.surfaces = {
-        {"bore", {CylinderSelector{{0.05, 0.05, 0}, {0, 0, 1}, 0.031}}, "plate.yaml:7: interfaces.bore.surface"}};
+    wish.surfaces = {{"bore",
+                      {ShapeSelector(CylinderSelector{{0.05, 0.05, 0}, {0, 0, 1}, 0.031})},
+                      "plate.yaml:7: interfaces.bore.surface"}};
     CHECK_THAT(
         import_message(wish),
         Catch::StartsWith(
