@@ -200,7 +200,7 @@ MeshQuality mesh_quality(const Mesh& mesh) {
   return quality;
 }
 
-std::string mesh_summary(const Mesh& mesh) {
+std::string summary(const Mesh& mesh) {
   const MeshQuality quality = mesh_quality(mesh);
   return fmt::format("{} nodes, {} {}, edges from {} to {}, least scaled Jacobian {:.2g} at {}", mesh.point_count(),
                      mesh.solid_count(), cell_name(mesh.solids().type), length_name(quality.shortest_edge),

@@ -42,6 +42,6 @@ struct MeshQuality {
 MeshQuality mesh_quality(const Mesh& mesh);
 
 /// "4321 nodes, 2345 tet10, edges from 0.9 mm to 3.2 mm, least scaled Jacobian 0.12 at (..) m"
-std::string mesh_summary(const Mesh& mesh);
+std::string summary(const Mesh& mesh);
 
 }  // namespace bielle::reduce

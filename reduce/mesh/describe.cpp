@@ -222,7 +222,7 @@ std::string mesh_text(GmshSession& session, const SourceFile& source) {
   } catch (const InputError& error) {
     return text + fmt::format("  not usable as it is: {}\n", error.what());
   }
-  text += fmt::format("  {}\n", mesh_summary(mesh));
+  text += fmt::format("  {}\n", summary(mesh));
 
   const FaceTable faces(mesh);
   const BodySurface surface = body_surface(model, faces, false);

@@ -139,7 +139,6 @@ Mesh import_mesh(const MeshRequest& request, Progress& progress) {
   placed(request.located, [&] { check_mesh(request, model, faces, mesh, progress); });
   add_volume_groups(model, mesh);
   add_surface_groups(request, model, geometry, faces, mesh);
-  progress.note(mesh_summary(mesh));
   return mesh;
 }
 
