@@ -8,9 +8,9 @@ from .plot_style import plt
 from .render import Scene
 
 
-def sheet(results, path, view=None, scale=1.0, superelements=None, pictures=6):
+def sheet(results, path, view=None, scale=1.0, span=(None, None), superelements=None, pictures=6):
     """Writes `pictures` moments of the motion side by side."""
-    scene, rows = _scene(results, view, scale, superelements, pictures)
+    scene, rows = _scene(results, view, scale, span, superelements, pictures)
     columns = min(3, len(rows))
     lines = -(-len(rows) // columns)
     width, height = scene.limits[1] - scene.limits[0]
@@ -22,7 +22,7 @@ def sheet(results, path, view=None, scale=1.0, superelements=None, pictures=6):
         panel.set_axis_off()
     for panel, row in zip(axes.flat, rows):
         coloured = scene.draw(panel, row) or coloured
-        panel.set_title(f"t = {results.time[row]:.4g} s")
+        panel.set_title(f"t = {results.time[row]:.4f} s")
     _colour_bar(fig, coloured, axes)
     fig.suptitle(_title(results, scale), x=0.01, ha="left", fontsize=12, fontweight="bold")
     fig.savefig(path)
@@ -30,9 +30,9 @@ def sheet(results, path, view=None, scale=1.0, superelements=None, pictures=6):
     return path
 
 
-def movie(results, path, view=None, scale=1.0, superelements=None, pictures=60, seconds=6.0):
+def movie(results, path, view=None, scale=1.0, span=(None, None), superelements=None, pictures=60, seconds=6.0):
     """Writes an animated GIF of about `pictures` pictures that plays for `seconds`."""
-    scene, rows = _scene(results, view, scale, superelements, pictures)
+    scene, rows = _scene(results, view, scale, span, superelements, pictures)
     width, height = scene.limits[1] - scene.limits[0]
     fig, panel = plt.subplots(figsize=(7.2, 7.2 * min(max(height / width, 0.35), 1.2) + 0.5), dpi=90)
     coloured = scene.draw(panel, rows[0])
@@ -49,13 +49,13 @@ def movie(results, path, view=None, scale=1.0, superelements=None, pictures=60, 
     return path
 
 
-def _scene(results, view, scale, superelements, pictures):
+def _scene(results, view, scale, span, superelements, pictures):
     if len(results.time) < 2:
         raise InputError(f"'{results.path}' holds no motion to show")
     scene = Scene(results, view, scale, superelements)
     if not (scene.bodies or scene.beams or scene.nodes):
         raise InputError(f"'{results.path}' records no nodes, beams or superelements")
-    rows = np.asarray(results.frames(count=pictures))
+    rows = np.asarray(results.frames(count=pictures, span=span))
     scene.prepare(rows)
     return scene, rows
 

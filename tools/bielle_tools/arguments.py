@@ -23,6 +23,13 @@ def results_parser(name, description):
     return parser
 
 
+def add_motion_options(parser):
+    """Options of the commands that show a motion."""
+    parser.add_argument("--scale", type=float, default=1.0, help="magnify elastic displacements of superelements (default 1)")
+    parser.add_argument("--from", type=float, dest="begin", metavar="T", help="first time to show [s]")
+    parser.add_argument("--to", type=float, dest="end", metavar="T", help="last time to show [s]")
+
+
 def superelement_paths(options):
     """{element: path} of the option --superelement. @raises InputError"""
     pairs = {}

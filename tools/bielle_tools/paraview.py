@@ -14,23 +14,23 @@ import shutil
 
 import numpy as np
 
-from .messages import InputError, note
+from .messages import InputError
 from .results_file import rotation_matrices
 from .superelement_body import SuperelementBody, find_superelement
 
 RESULTANTS = ["axial_force", "shear_force_y", "shear_force_z", "torque", "bending_moment_y", "bending_moment_z"]
 
 
-def export(results, folder, name, *, every=None, count=100, scale=1.0, volume=False, superelements=None):
+def export(results, folder, name, *, every=None, count=100, span=(None, None), scale=1.0, volume=False, superelements=None):
     """Writes `folder/name.pvd` and `folder/name/*.vtu`.
 
-    every: every so many recorded times, or count: about so many; scale: magnifies elastic displacements of
+    every: every so many recorded times, or count: about so many, within span = (from, to) [s]; scale: magnifies elastic displacements of
     superelements; volume: their tetrahedra, not only the surface; superelements: {element: path} to override.
     @returns path of the .pvd
     """
     if not len(results.time):
         raise InputError(f"'{results.path}' holds no motion to show")
-    rows = results.frames(every, count)
+    rows = results.frames(every, count, span)
     parts = [_superelement(results, element, superelements or {}, scale, volume)
              for element in results.elements_with("frame")]
     parts += [part for part in (_beams(results), _nodes(results), _joints(results)) if part]
@@ -147,7 +147,7 @@ def _file_name(part):
 
 
 def legend(results):
-    """Sentences that say which number in the files is which node, joint, beam."""
-    for title, names in (("node", results.names("nodes")), ("beam", results.elements_with("position", "rotation"))):
-        if names:
-            note(f"array '{title}': " + ", ".join(f"{k} {name}" for k, name in enumerate(names)))
+    """Lines that say which number in the files is which node or beam."""
+    numbered = (("node", results.names("nodes")), ("beam", results.elements_with("position", "rotation")))
+    return [f"array '{title}': " + ", ".join(f"{k} {name}" for k, name in enumerate(names))
+            for title, names in numbered if names]

@@ -14,7 +14,7 @@ plt.rcParams.update({
     "axes.grid": True, "grid.color": "#dddddd", "grid.linewidth": 0.6, "axes.axisbelow": True,
     "axes.spines.top": False, "axes.spines.right": False,
     "axes.prop_cycle": plt.cycler(color=COLOURS) + plt.cycler(linestyle=["-"] * len(COLOURS)), "lines.linewidth": 1.3,
-    "axes.formatter.limits": (-3, 4), "axes.formatter.use_mathtext": True, "image.cmap": "viridis",
+    "axes.formatter.limits": (-3, 4), "axes.formatter.use_mathtext": True, "image.cmap": "YlOrRd",
 })
 
 

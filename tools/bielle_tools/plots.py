@@ -154,7 +154,7 @@ def bodies(results, at, superelements):
         u = q @ body.displacement[3 * row:3 * row + 3].T
         has_stress = body.stress is not None and len(body.stress)
         fig, axes = style.figure(2 if has_stress else 1, f"{results.title}: {name}")
-        place = ", ".join(f"{1e3 * x:.4g}" for x in body.points[node])
+        place = ", ".join(f"{1e3 * x:.4g}" for x in body.points[node].round(9) + 0.0)
         axes[0, 0].set_title(f"elastic displacement of the node that moves most, at ({place}) mm in the body")
         for k in range(3):
             axes[0, 0].plot(results.time, 1e3 * u[:, k], label="xyz"[k])

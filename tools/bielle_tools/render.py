@@ -10,6 +10,7 @@ from matplotlib.colors import Normalize, to_rgb
 from .plot_style import COLOURS, plt
 from .superelement_body import SuperelementBody, find_superelement
 
+STRESS = plt.cm.YlOrRd  # pale to dark: shading shows on it, and so does the order without colours
 LIGHT = np.array([0.35, 0.5, 0.8])  # direction towards the light, in view axes (right, up, towards the viewer)
 VIEWS = {  # rows: right, up; the viewer looks from right x up
     "x": ([0, 1, 0], [0, 0, 1]), "y": ([-1, 0, 0], [0, 0, 1]), "z": ([1, 0, 0], [0, 1, 0]),
@@ -58,18 +59,25 @@ class Scene:
         panel.set_axis_off()
         panel.set_xlim(self.limits[0][0], self.limits[1][0])
         panel.set_ylim(self.limits[0][1], self.limits[1][1])
-        coloured = None
+        coloured, depths = None, []
         for (_, _, corners), (positions, stress) in zip(self.bodies, self._bodies_at(row)):
-            coloured = self._paint_body(panel, positions, stress, corners) or coloured
-        lines = [[self._node(carrier, row)[:2], self._node(name, row)[:2]] for carrier, name in self.links]
-        panel.add_collection(LineCollection(lines, colors="#8c8c8c", linewidths=5, capstyle="round", zorder=1))
+            artist, depth = self._paint_body(panel, positions, stress, corners)
+            coloured = coloured or (stress is not None and plt.cm.ScalarMappable(self.norm, STRESS))
+            depths.append((depth, artist))
+        for ends in self.links:
+            line = np.array([self._node(name, row) for name in ends])
+            depths.append((line[:, 2].mean(), self._paint_line(panel, line, "#8c8c8c", 6)))
         for name in self.beams:
-            line = self._project(self.results.rows(f"elements/{name}/position", row))[:, :2]
-            panel.plot(line[:, 0], line[:, 1], color=COLOURS[1], linewidth=3, solid_capstyle="round", zorder=3)
-        dots = np.array([self._node(name, row)[:2] for name in self.nodes])
-        if len(dots):
-            panel.plot(dots[:, 0], dots[:, 1], "o", color="white", markeredgecolor="black", markersize=4, zorder=4)
-        return coloured
+            line = self._project(self.results.rows(f"elements/{name}/position", row))
+            depths.append((line[:, 2].mean(), self._paint_line(panel, line, COLOURS[1], 4)))
+        nearer = 0.05 * (self.limits[1] - self.limits[0]).max()  # a dot in the middle of a body shows on it
+        for name in self.nodes:
+            x, y, depth = self._node(name, row)
+            dot, = panel.plot(x, y, "o", color="white", markeredgecolor="black", markersize=4)
+            depths.append((depth + nearer, dot))
+        for order, (_, artist) in enumerate(sorted(depths, key=lambda item: item[0])):
+            artist.set_zorder(2 + order)
+        return coloured or None
 
     def _paint_body(self, panel, positions, stress, corners):
         view = self._project(positions)
@@ -80,10 +88,13 @@ class Scene:
         order = np.flatnonzero(facing)[np.argsort(triangles[facing][:, :, 2].mean(axis=1))]
         shade = 0.65 + 0.35 * np.clip(normals[order] @ (LIGHT / np.linalg.norm(LIGHT)) / length[order], 0, 1)
         values = None if stress is None else 1e-6 * stress[corners[order]].mean(axis=1)
-        base = np.array([to_rgb("#7f9db9")]) if values is None else plt.cm.viridis(self.norm(np.nan_to_num(values)))[:, :3]
-        panel.add_collection(PolyCollection(triangles[order][:, :, :2], facecolors=base * shade[:, None], edgecolors="face",
-                                            linewidths=0.2, zorder=2))
-        return None if values is None else plt.cm.ScalarMappable(self.norm, "viridis")
+        base = np.array([to_rgb("#7f9db9")]) if values is None else STRESS(self.norm(np.nan_to_num(values)))[:, :3]
+        faces = PolyCollection(triangles[order][:, :, :2], facecolors=base * shade[:, None], edgecolors="face", linewidths=0.4)
+        return panel.add_collection(faces), view[:, 2].mean()
+
+    @staticmethod
+    def _paint_line(panel, line, colour, width):
+        return panel.add_collection(LineCollection([line[:, :2]], colors=colour, linewidths=width, capstyle="round"))
 
     def _bodies_at(self, row):
         for name, body, _ in self.bodies:

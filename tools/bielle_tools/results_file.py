@@ -68,14 +68,19 @@ class Results:
         """Elements that record all of these: `frame` is a superelement, `rotation` a beam."""
         return [name for name in self.names("elements") if all(d in self.root["elements"][name] for d in datasets)]
 
-    def frames(self, every=None, count=None):
-        """Row numbers of about `count` evenly spaced times, the last among them, or of every `every`-th."""
+    def frames(self, every=None, count=None, span=(None, None)):
+        """Row numbers of every `every`-th time, or of about `count` evenly spaced ones, within span = (from, to) [s]."""
+        begin, end = (-np.inf if span[0] is None else span[0], np.inf if span[1] is None else span[1])
+        rows = np.flatnonzero((self.time >= begin) & (self.time <= end))
+        if not len(rows):
+            raise InputError(f"'{self.path}' has no time from {begin:g} to {end:g} s; it has {self.time[0]:g} to "
+                             f"{self.time[-1]:g} s")
         if every:
-            return np.arange(0, len(self.time), every)
-        if count is None or len(self.time) <= count:
-            return np.arange(len(self.time))
-        wanted = np.linspace(self.time[0], self.time[-1], count)
-        return np.unique(np.abs(self.time[:, None] - wanted[None, :]).argmin(axis=0))
+            return rows[::every]
+        if count is None or len(rows) <= count:
+            return rows
+        wanted = np.linspace(self.time[rows[0]], self.time[rows[-1]], count)
+        return np.unique(rows[np.abs(self.time[rows, None] - wanted[None, :]).argmin(axis=0)])
 
 
 def open_hdf5(path, expected, meaning):

@@ -106,6 +106,12 @@ class ParaView(ResultsTool):
         np.testing.assert_allclose(nodes.point_data["axis_y"], [[-s, c, 0]], atol=1e-12)
         np.testing.assert_allclose(parts["joints"][0][1].point_data["reaction_force"], [[3, 4, 0]])
 
+    def test_a_span_of_time(self):
+        self.succeed("bielle-paraview", self.path("run.h5"), "--from", "0.02", "--to", "0.05", "--frames", "4")
+        times = [time for time, _ in self.parts(self.path("run.pvd"))["nodes"]]
+        np.testing.assert_allclose(times, [0.02, 0.03, 0.04, 0.05], atol=1e-9)
+        self.refuse("bielle-paraview", [self.path("run.h5"), "--from", "3"], "no time from 3", "it has 0 to 0.1 s")
+
     def test_an_earlier_export_leaves_no_frames_behind(self):
         self.succeed("bielle-paraview", self.path("run.h5"), "--frames", "20")
         self.succeed("bielle-paraview", self.path("run.h5"), "--frames", "2")
