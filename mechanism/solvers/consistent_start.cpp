@@ -4,38 +4,51 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/solvers/model_length.hpp"
 #include "mechanism/solvers/redundancy.hpp"
 
 namespace bielle::mechanism {
 namespace {
 
-double model_size(const State& state) {
-  double size = 0;
-  for (const NodeState& node : state.nodes) size = std::max(size, node.x.norm());
-  return size > 0 ? size : 1;
-}
-
-/// Adds a fraction of the mean diagonal of each kind of dof: regular where a dof has no mass or stiffness of its own.
-VectorX small_diagonal(const System& system, const LinearStep& linear, double fraction) {
-  std::array<double, kind_count> sum{}, count{};
+/// A fraction of the mean diagonal of each kind of dof. A kind without any takes it from the other by the model's
+/// length: inertia = mass * length^2.
+VectorX small_diagonal(const System& system, const LinearStep& linear, const State& state, double fraction) {
+  std::array<double, kind_count> mean{}, count{};
   for (int i = 0; i < system.dofs(); ++i) {
     const auto kind = static_cast<std::size_t>(system.kind(i));
-    sum[kind] += std::abs(linear.diagonal(i));
+    mean[kind] += std::abs(linear.diagonal(i));
     count[kind] += 1;
   }
+  for (std::size_t kind = 0; kind < kind_count; ++kind)
+    if (count[kind] > 0) mean[kind] /= count[kind];
+  double &translation = mean[static_cast<std::size_t>(Kind::translation)],
+         &rotation = mean[static_cast<std::size_t>(Kind::rotation)];
+  const double area = model_length(state) * model_length(state);
+  if (translation == 0) translation = rotation > 0 ? rotation / area : 1;
+  if (rotation == 0) rotation = translation * area;
   VectorX diagonal(system.dofs());
   for (int i = 0; i < system.dofs(); ++i) {
-    const auto kind = static_cast<std::size_t>(system.kind(i));
-    diagonal[i] = fraction * (sum[kind] > 0 ? sum[kind] / count[kind] : 1.0);
+    const double own = mean[static_cast<std::size_t>(system.kind(i))];
+    diagonal[i] = fraction * (own > 0 ? own : 1.0);
   }
   return diagonal;
 }
 
 }  // namespace
 
-void factor_mass_saddle(const System& system, const Environment& environment, const State& state, LinearStep& linear) {
+VectorX factor_mass_saddle(const System& system, const Environment& environment, const State& state,
+                           LinearStep& linear) {
   const TangentWeights weights{0, 0, 1, 1, 1, true};
-  if (linear.try_factor(state, environment, weights, nullptr)) return;
+  const auto regular = [&](const VectorX* extra) {
+    return linear.try_factor(state, environment, weights, nullptr, extra) && !linear.nearly_singular();
+  };
+  if (regular(nullptr)) return VectorX::Zero(system.dofs());
+  // Any small mass gives the same multipliers to its own size. Masses that there are stay as they are, if that helps.
+  constexpr double floor = 1e-12;
+  const VectorX everywhere = small_diagonal(system, linear, state, floor);
+  VectorX extra = everywhere;
+  for (int i = 0; i < system.dofs(); ++i)
+    if (linear.diagonal(i) > 0) extra[i] = 0;
   // A dof without mass, stiffness, damping and constraint has no equation at all.
   linear.try_factor(state, environment, TangentWeights{1, 1, 1, 1, 1}, nullptr);
   VectorX sums(system.size());
@@ -43,18 +56,16 @@ void factor_mass_saddle(const System& system, const Environment& environment, co
   for (int i = 0; i < system.dofs(); ++i)
     if (sums[i] == 0)
       throw ComputationError(fmt::format("{}: it has no mass, and nothing holds it", system.unknown_name(i)));
-  // Massless dofs that constraints hold together: any small mass gives the same multipliers to its own size.
-  constexpr double floor = 1e-12;
-  const VectorX extra = small_diagonal(system, linear, floor);
-  if (!linear.try_factor(state, environment, weights, nullptr, &extra)) linear.throw_singular(state.time);
+  if (linear.try_factor(state, environment, weights, nullptr, &extra)) return extra;
+  if (!linear.try_factor(state, environment, weights, nullptr, &everywhere)) linear.throw_singular(state.time);
+  return everywhere;
 }
 
 void assemble_positions(const System& system, const Environment& environment, State& state, StartReport& report) {
   if (system.multipliers() == 0) return;
   const int first = system.size() - system.multipliers();
-  const double size = model_size(state);
-  // Lengths beside the model's size, angles beside one radian: the same number for both serves.
-  constexpr double satisfied = 1e-13;
+  const VectorX sizes = constraint_sizes(system, environment, state);
+  constexpr double satisfied = 1e-13;  // beside the constraint's size
   constexpr int iterations = 50;
   LinearStep linear(system);
   VectorX r(system.size()), step(system.size());
@@ -69,7 +80,7 @@ void assemble_positions(const System& system, const Environment& environment, St
         r[first + i] = 0;
         continue;
       }
-      const double violation = std::abs(r[first + i]) / (system.equation_units(first + i) == "m" ? size : 1.0);
+      const double violation = std::abs(r[first + i]) / sizes[i];
       if (!(violation <= worst)) {
         worst = violation;
         worst_row = first + i;
@@ -86,8 +97,9 @@ void assemble_positions(const System& system, const Environment& environment, St
     unloaded.load_factor = environment.load_factor;
     State unstressed = state;
     unstressed.multiplier.setZero();
+    system.set_rates(unstressed, VectorX::Zero(system.dofs()), VectorX::Zero(system.dofs()));
     linear.try_factor(unstressed, unloaded, weights, nullptr);
-    const VectorX extra = small_diagonal(system, linear, 1e-4);
+    const VectorX extra = small_diagonal(system, linear, state, 1e-4);
     if (!linear.try_factor(unstressed, unloaded, weights, nullptr, &extra)) linear.throw_singular(state.time);
     r.head(first).setZero();
     linear.solve(r, step);
@@ -145,8 +157,14 @@ void make_accelerations_consistent(const System& system, const Environment& envi
   r.tail(m) = acceleration;
   for (const int multiplier : system.set_aside()) r[n + y + multiplier] = 0;
   LinearStep linear(system);
-  factor_mass_saddle(system, environment, state, linear);
+  const VectorX floor = factor_mass_saddle(system, environment, state, linear);
   linear.solve(r, step);
+  if ((floor.array() > 0).any()) {
+    // Forces that nothing but the floor balances would be accelerations without end. They equal floor times
+    // acceleration (to the size of the floor everywhere else): take them out.
+    r.head(n) += floor.cwiseProduct(step.head(n));
+    linear.solve(r, step);
+  }
   system.set_rates(state, v, step.head(n));
   state.first_order_rate = step.segment(n, y);
   state.multiplier = step.tail(m);

@@ -14,10 +14,12 @@
 
 namespace bielle::mechanism {
 
-/// Factorises [M B^T; B 0] at a state. Dofs without mass that constraints hold get a floor of 1e-12 of their kind's
-/// mean.
+/// Factorises [M B^T; B 0] at a state. Where dofs without mass make it singular, they get a floor of 1e-12 of their
+/// kind's mean.
+/// @returns the floor (dofs), zero where none was needed
 /// @throws ComputationError naming an unknown that has no mass and that nothing holds
-void factor_mass_saddle(const System& system, const Environment& environment, const State& state, LinearStep& linear);
+VectorX factor_mass_saddle(const System& system, const Environment& environment, const State& state,
+                           LinearStep& linear);
 
 /// What the start had to change.
 struct StartReport {
@@ -35,7 +37,9 @@ void assemble_positions(const System& system, const Environment& environment, St
 void make_velocities_consistent(const System& system, const Environment& environment, State& state,
                                 StartReport& report);
 
-/// Accelerations, multipliers and first-order rates in equilibrium with the state's positions and velocities.
+/// Accelerations, multipliers and first-order rates in equilibrium with the state's positions and velocities. What has
+/// neither mass nor constraint (a node between two springs) has no acceleration of its own: it gets zero, and the
+/// first step brings it to where its forces vanish.
 /// @throws ComputationError naming an unknown without mass
 void make_accelerations_consistent(const System& system, const Environment& environment, State& state);
 

@@ -5,13 +5,13 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/solvers/model_length.hpp"
+
 namespace bielle::mechanism {
 
 void Convergence::measure_rounding(const LinearStep& linear, const State& state) {
   const int n = system_.size();
-  double length = 0;
-  for (const NodeState& node : state.nodes) length = std::max(length, node.x.cwiseAbs().maxCoeff());
-  if (length == 0) length = 1;
+  const double length = model_length(state);
   const auto largest = [](const VectorX& v) { return v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0.0; };
   const double amplitude = largest(state.amplitude), first_order = largest(state.first_order),
                multiplier = largest(state.multiplier);

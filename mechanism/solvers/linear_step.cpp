@@ -22,20 +22,22 @@ LinearStep::LinearStep(const System& system) : system_(system), factors_(system.
 bool LinearStep::try_factor(const State& state, const Environment& environment, const TangentWeights& weights,
                             const VectorX* dq, const VectorX* extra) {
   system_.tangent(state, environment, weights, dq, values_);
-  double sum = 0;
-  int count = 0;
+  std::array<double, kind_count> sum{}, count{};
   for (int i = 0; i < system_.dofs(); ++i) {
     const int place = diagonal_[static_cast<std::size_t>(i)];
     if (place < 0) continue;
     if (extra) values_[static_cast<std::size_t>(place)] += (*extra)[i];
-    if (system_.kind(i) != Kind::translation) continue;
-    sum += std::abs(values_[static_cast<std::size_t>(place)]);
-    ++count;
+    const auto kind = static_cast<std::size_t>(system_.kind(i));
+    sum[kind] += std::abs(values_[static_cast<std::size_t>(place)]);
+    count[kind] += 1;
   }
-  scale_ = count > 0 && sum > 0 ? sum / count : 1;
+  // Of translations; of a system that only turns, of its rotations.
+  scale_ = 1;
+  for (const Kind kind : {Kind::amplitude, Kind::rotation, Kind::translation})
+    if (const auto k = static_cast<std::size_t>(kind); sum[k] > 0) scale_ = sum[k] / count[k];
   scaled_ = values_;
   for (std::size_t k = 0; k < scaled_.size(); ++k)
-    if (scale_power_[k] == 1) scaled_[k] *= scale_;
+    for (int power = 0; power < scale_power_[k]; ++power) scaled_[k] *= scale_;
   return factors_.factor(scaled_) == FactorStatus::good;
 }
 
@@ -43,6 +45,8 @@ void LinearStep::factor(const State& state, const Environment& environment, cons
                         const VectorX* dq) {
   if (!try_factor(state, environment, weights, dq)) throw_singular(state.time);
 }
+
+bool LinearStep::nearly_singular() const { return factors_.reciprocal_condition() < 1e-13; }
 
 void LinearStep::throw_singular(double time) const {
   const int column = factors_.singular_column();

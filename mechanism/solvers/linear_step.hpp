@@ -23,6 +23,8 @@ class LinearStep {
   /// delta = -J^-1 r. @param r,delta (size)
   void solve(const Eigen::Ref<const VectorX>& r, Eigen::Ref<VectorX> delta) const;
 
+  /// Whether the last factors hold a pivot that is made of rounding errors. They must exist.
+  bool nearly_singular() const;
   double scale() const { return scale_; }  ///< k
   /// Sum over columns |J_ij| s_j of the last (unscaled) tangent: what rounding of the unknowns does to equation i.
   void row_sums(const Eigen::Ref<const VectorX>& unknown_scale, Eigen::Ref<VectorX> sums) const;

@@ -1,21 +1,47 @@
 #include "mechanism/solvers/redundancy.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/SparseCore>
 #include <fmt/format.h>
 
 #include "mechanism/math/rank.hpp"
+#include "mechanism/solvers/model_length.hpp"
 
 namespace bielle::mechanism {
+namespace {
+
+/// The longest arm at which a constraint's force acts about a node [m]: the largest quotient of entries by rotations
+/// and by translations in a column of B^T. It depends on neither units nor the place of the origin. Where there is none
+/// but rounding of positions, translations and rotations do not mix, and any length will do.
+double longest_arm(const System& system, const std::vector<double>& values, double positions) {
+  const SparsePattern& pattern = system.pattern();
+  const int first = system.size() - system.multipliers();
+  double arm = 0;
+  for (int column = first; column < system.size(); ++column) {
+    double translation = 0, rotation = 0;
+    for (int k = pattern.column_start()[static_cast<std::size_t>(column)];
+         k < pattern.column_start()[static_cast<std::size_t>(column) + 1]; ++k) {
+      const int row = pattern.row()[static_cast<std::size_t>(k)];
+      if (row >= first) continue;
+      double& largest = system.kind(row) == Kind::translation ? translation : rotation;
+      if (system.kind(row) == Kind::translation || system.kind(row) == Kind::rotation)
+        largest = std::max(largest, std::abs(values[static_cast<std::size_t>(k)]));
+    }
+    if (translation > 0) arm = std::max(arm, rotation / translation);
+  }
+  return arm > 1e-12 * positions ? arm : positions;
+}
+
+}  // namespace
 
 std::vector<int> find_redundant(const System& system, const Environment& environment, const State& state) {
   if (system.multipliers() == 0) return {};
-  double length = 0;
-  for (const NodeState& node : state.nodes) length = std::max(length, node.x.norm());
-  if (length == 0) length = 1;
   std::vector<double> values;
   system.tangent(state, environment, TangentWeights{0, 0, 0, 0, 1, true}, nullptr, values);
+  const double positions = model_length(state), length = longest_arm(system, values, positions);
   const SparsePattern& pattern = system.pattern();
   const int first = system.size() - system.multipliers();
   std::vector<Eigen::Triplet<double>> entries;
@@ -24,7 +50,7 @@ std::vector<int> find_redundant(const System& system, const Environment& environ
     const auto end = static_cast<std::size_t>(pattern.column_start()[static_cast<std::size_t>(first + m + 1)]);
     double norm = 0;
     const auto scaled = [&](std::size_t k) {
-      // A translation's increment counts in lengths of the model.
+      // A translation's increment counts in arms.
       return values[k] * (system.kind(pattern.row()[k]) == Kind::translation ? length : 1.0);
     };
     for (std::size_t k = begin; k < end; ++k) norm += scaled(k) * scaled(k);
@@ -35,8 +61,8 @@ std::vector<int> find_redundant(const System& system, const Environment& environ
   }
   Eigen::SparseMatrix<double> transposed(first, system.multipliers());
   transposed.setFromTriplets(entries.begin(), entries.end());
-  // Far above rounding, far below what a loop that is nearly planar leaves.
-  constexpr double tolerance = 1e-9;
+  // Far above rounding (of positions beside the arms), far below what a loop that is nearly planar leaves.
+  const double tolerance = std::max(1e-9, 1e3 * std::numeric_limits<double>::epsilon() * positions / length);
   return dependent_columns(transposed, tolerance);
 }
 
@@ -44,8 +70,6 @@ void check_set_aside(const System& system, const Environment& environment, const
   if (system.set_aside().empty()) return;
   // Rounding and Newton's tolerance leave far less; a contradiction shows at once.
   constexpr double tolerance = 1e-6;
-  double length = 0;
-  for (const NodeState& node : state.nodes) length = std::max(length, node.x.norm());
   std::size_t member = 0;
   VectorX r;
   for (const int multiplier : system.set_aside()) {
@@ -54,9 +78,9 @@ void check_set_aside(const System& system, const Environment& environment, const
     r.setZero(slots.size());
     system.model().members()[member].component->add_residual(LocalState(state, slots, environment), r);
     const double violation = r[slots.multiplier_row() + multiplier - slots.multiplier_begin];
+    if (violation == 0 || std::abs(violation) <= tolerance * constraint_size(system, environment, state, multiplier))
+      continue;
     const int equation = system.size() - system.multipliers() + multiplier;
-    const bool is_length = system.equation_units(equation) == "m";
-    if (std::abs(violation) <= tolerance * (is_length ? length : 1.0)) continue;
     throw ComputationError(
         fmt::format("t = {:.6g} s: {} looked redundant at the start and was set aside, but is violated by {:.3g} {}: "
                     "it contradicts the "

@@ -1,9 +1,9 @@
 // Constraints that repeat what others hold already: found, named and set aside.
 //
 // A planar mechanism of hinges, closed in space, is the everyday case. The columns of B^T (one per multiplier, scaled
-// to length one in lengths of the model) are eliminated in the order of the file; a column that vanishes depends on
-// those before it. Its row leaves the equations and its multiplier stays zero: the motion is unaffected, and the
-// reactions are those of the joints that were written first.
+// to length one, translations in arms of the constraints) are eliminated in the order of the file; a column that
+// vanishes depends on those before it. Its row leaves the equations and its multiplier stays zero: the motion is
+// unaffected, and the reactions are those of the joints that were written first.
 #pragma once
 
 #include <vector>

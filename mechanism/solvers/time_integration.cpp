@@ -55,6 +55,7 @@ VectorX TimeIntegration::acceleration_rate(double h) {
     shifted.time = state_.time + k * e;
     system_.displace(shifted, state_, k * e * v_ + 0.5 * k * k * e * e * a_);
     system_.set_rates(shifted, v_ + k * e * a_, a_);
+    shifted.first_order = state_.first_order + k * e * state_.first_order_rate;
     make_accelerations_consistent(system_, environment_, shifted);
     VectorX unused(system_.dofs());
     ahead[k - 1].resize(system_.dofs());

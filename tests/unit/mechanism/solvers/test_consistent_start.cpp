@@ -83,3 +83,48 @@ elements:
   State state = system.start(0);
   CHECK_THROWS_WITH(make_consistent(system, file.model.environment, state), Catch::Contains("node '"));
 }
+
+TEST_CASE("a massless node beside a stiff spring leaves the accelerations of the masses alone") {
+  // The pin carries nothing and turns freely beside the body's oblique arm. Gravity alone acts: everything falls.
+  const MechanismFile file = read_mechanism_text(R"yaml(
+gravity: [0, 0, -9.81]
+nodes:
+  body: {position: [1, 0, 0], rotation_vector: [0.3, -0.8, 0.4]}
+  other: {position: [1, 2, 0]}
+  pin: {position: [1.3, 0.2, 0.7], rotation_vector: [0.3, 0.2, 0.1]}
+elements:
+  body: {type: rigid_body, node: body, mass: 1, inertia: [0.1, 0.1, 0.1]}
+  other: {type: rigid_body, node: other, mass: 1, inertia: [0.1, 0.1, 0.1]}
+  stiff: {type: spring_damper, nodes: [body, other], stiffness: 1e13}
+joints: {ball: {type: spherical, nodes: [body, pin], position: [1.5, 0.6, 0.1]}}
+)yaml",
+                                                 "stiff.yaml");
+  System system(file.model);
+  State state = system.start(0);
+  make_accelerations_consistent(system, file.model.environment, state);
+  for (const char* name : {"body", "other"}) {
+    const NodeState& node = state.nodes[static_cast<std::size_t>(*file.model.find_node(name))];
+    CHECK((node.a - Vector3(0, 0, -9.81)).norm() < 1e-8);
+    CHECK(node.Omegadot.norm() < 1e-8);
+  }
+}
+
+TEST_CASE("a node without mass on springs does not set off with an acceleration made of nothing") {
+  // Body - spring - massless middle - spring - ground, stretched unevenly: the middle has no acceleration of its own.
+  const MechanismFile file = read_mechanism_text(R"yaml(
+nodes:
+  body: {position: [2, 0, 0], fixed: [y, z, rx, ry, rz]}
+  middle: {position: [1, 0, 0], fixed: [y, z, rx, ry, rz]}
+elements:
+  body: {type: point_mass, node: body, mass: 1}
+  inner: {type: spring_damper, nodes: [ground, middle], stiffness: 100, length: 0.9}
+  outer: {type: spring_damper, nodes: [middle, body], stiffness: 100, length: 0.5}
+)yaml",
+                                                 "series.yaml");
+  System system(file.model);
+  State state = system.start(0);
+  make_accelerations_consistent(system, file.model.environment, state);
+  const NodeState &body = state.nodes[1], &middle = state.nodes[2];
+  CHECK(std::abs(middle.a.x()) < 1e-2);  // of 40 N over nothing: 1e-12 of the body's mass would leave 1e13 m/s^2
+  CHECK(body.a.x() == Approx(-100 * 0.5));
+}

@@ -1,0 +1,49 @@
+#include "mechanism/solvers/model_length.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bielle::mechanism {
+
+double model_length(const State& state) {
+  double length = 0;
+  for (const NodeState& node : state.nodes) length = std::max(length, node.x.norm());
+  return length > 0 ? length : 1;
+}
+
+VectorX constraint_sizes(const System& system, const Environment& environment, const State& state) {
+  const SparsePattern& pattern = system.pattern();
+  const int first = system.size() - system.multipliers();
+  const double length = model_length(state);
+  std::vector<double> values;
+  system.tangent(state, environment, TangentWeights{0, 0, 0, 0, 1, true}, nullptr, values);
+  VectorX sizes = VectorX::Zero(system.multipliers());
+  for (int column = 0; column < first; ++column)
+    for (int k = pattern.column_start()[static_cast<std::size_t>(column)];
+         k < pattern.column_start()[static_cast<std::size_t>(column) + 1]; ++k)
+      if (const int row = pattern.row()[static_cast<std::size_t>(k)]; row >= first)
+        sizes[row - first] +=
+            std::abs(values[static_cast<std::size_t>(k)]) * (system.kind(column) == Kind::translation ? length : 1.0);
+  return (sizes.array() > 0).select(sizes, 1.0);
+}
+
+double constraint_size(const System& system, const Environment& environment, const State& state, int multiplier) {
+  const auto owns = [&](const Slots& s) {
+    return multiplier >= s.multiplier_begin && multiplier < s.multiplier_begin + s.multipliers;
+  };
+  const auto owner = std::find_if(system.slots().begin(), system.slots().end(), owns);
+  const Slots& slots = *owner;
+  const int n = slots.size(), row = slots.multiplier_row() + multiplier - slots.multiplier_begin;
+  MatrixX K = MatrixX::Zero(n, n), C = K, M = K;
+  LocalTangent tangent{K, C, M};
+  system.model().members()[static_cast<std::size_t>(owner - system.slots().begin())].component->add_tangent(
+      LocalState(state, slots, environment), tangent);
+  const bool holonomic = system.constraint_kind(multiplier) == ConstraintKind::holonomic;
+  const VectorX B = (holonomic ? K : C).row(row).head(slots.amplitude_row()).cwiseAbs();
+  double size = 0;
+  for (Eigen::Index k = 0; k < B.size(); k += 6)
+    size += model_length(state) * B.segment<3>(k).sum() + B.segment<3>(k + 3).sum();
+  return size > 0 ? size : 1;
+}
+
+}  // namespace bielle::mechanism
