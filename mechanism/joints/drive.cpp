@@ -1,5 +1,7 @@
 #include "mechanism/joints/drive.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 namespace bielle::mechanism {
@@ -39,11 +41,16 @@ PositionDrive::PositionDrive(std::string name, const Joint& joint, std::size_t c
 
 Measure PositionDrive::measure(const LocalState& state) const {
   Measure m = joint_.calc_coordinate(coordinate_, state.node(0), state.node(1));
-  const double target = f_(state.time());
-  // An angle is wanted in the turn of its target: the drive counts turns by time, not by memory, so that steps of any
-  // size and restarts find the same.
-  if (joint_.coordinates()[coordinate_].kind == JointCoordinate::Kind::angle) m.value = unwrap_angle(m.value, target);
-  m.value -= target;
+  double target = f_(state.time());
+  const double s = state.environment().load_factor;
+  if (s != 1) target = s * target + (1 - s) * state.memory()[0];
+  // An angle is wanted modulo turns: the drive counts them by time, not by memory, so that steps of any size and
+  // restarts find the same. Whole turns are taken off the target by itself: rounding of large angles would otherwise
+  // keep Newton's method from its tolerance.
+  if (joint_.coordinates()[coordinate_].kind == JointCoordinate::Kind::angle)
+    m.value = std::remainder(m.value - std::remainder(target, 2 * M_PI), 2 * M_PI);
+  else
+    m.value -= target;
   return m;
 }
 
@@ -52,6 +59,7 @@ void PositionDrive::declare(Declaration& declaration) const {
   declaration.stiffness = true;
   const JointCoordinate& coordinate = joint_.coordinates()[coordinate_];
   declaration.multipliers.push_back({coordinate.name, force_units(coordinate)});
+  declaration.memory = {0};  // the coordinate under full load, for statics
 }
 
 void PositionDrive::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
@@ -83,6 +91,9 @@ void PositionDrive::add_energy(const LocalState& state, Energy& energy) const {
 std::vector<OutputField> PositionDrive::output_fields() const { return {force_field(joint_, coordinate_)}; }
 void PositionDrive::write_output(const LocalState& state, double* values) const {
   write_force(joint_, coordinate_, -state.multiplier()[0], values);
+}
+void PositionDrive::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {
+  if (state.environment().load_factor == 1) memory[0] = f_(state.time());
 }
 void PositionDrive::add_break_points(std::vector<double>& times) const { append_break_points(f_, times); }
 
@@ -179,7 +190,7 @@ void read_drive(const std::string& name, const YamlValue& entry, Model& model) {
   std::vector<std::string> keys = {"joint", "coordinate"};
   keys.insert(keys.end(), laws.begin(), laws.end());
   entry.check_keys(keys, "a drive");
-  const auto* joint = dynamic_cast<const Joint*>(&model.component_named_by(entry.at("joint"), "joints"));
+  auto* joint = dynamic_cast<Joint*>(&model.component_named_by(entry.at("joint"), "joints"));
   if (!joint) entry.at("joint").fail("is no joint with coordinates that can be driven");
 
   std::string law;
@@ -208,7 +219,14 @@ void read_drive(const std::string& name, const YamlValue& entry, Model& model) {
   std::size_t index = 0;
   while (joint->coordinates()[index].name != chosen) ++index;
 
+  const std::string group = "joints/" + joint->name();
+  for (const Member& member : model.members())
+    if (member.group == group && member.component->type() == "drive")
+      entry.at("joint").fail(
+          fmt::format("joint '{}' is driven by '{}' already", joint->name(), member.component->name()));
+
   Expression f = entry.at(law).expression({"t"});
+  if (law == "angle") joint->start_at(index, f(0));
   std::unique_ptr<Component> drive;
   if (law == "angle" || law == "displacement")
     drive = std::make_unique<PositionDrive>(name, *joint, index, std::move(f));
@@ -216,11 +234,6 @@ void read_drive(const std::string& name, const YamlValue& entry, Model& model) {
     drive = std::make_unique<RateDrive>(name, *joint, index, std::move(f));
   else
     drive = std::make_unique<ForceDrive>(name, *joint, index, std::move(f));
-  const std::string group = "joints/" + joint->name();
-  for (const Member& member : model.members())
-    if (member.group == group && member.component->type() == "drive")
-      entry.at("joint").fail(
-          fmt::format("joint '{}' is driven by '{}' already", joint->name(), member.component->name()));
   model.add(std::move(drive), group);
 }
 

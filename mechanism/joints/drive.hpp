@@ -1,11 +1,13 @@
 // Drives: what moves a joint's coordinate c.
 //
 //   angle or displacement (t):  constraint c(q) - f(t) = 0; its multiplier is the drive's torque or force on the
-//                               coordinate, negated (the residual holds + B^T lambda)
-//   rate or speed (t):          constraint cdot - f(t) = 0, non-holonomic
+//                               coordinate, negated (the residual holds + B^T lambda). In statics, with the load
+//                               factor s: c = (1 - s) c_0 + s f(t), c_0 from where the analysis before ended
+//   rate or speed (t):          constraint cdot - f(t) = 0, non-holonomic; in statics the joint stays where it is
 //   torque or force (t):        generalised force f(t) along +c: the second node is pushed, the first pulled
 //
-// A position drive begins where f(t_start) says: the assembly moves the joint there.
+// A position drive begins where f(t_start) says: the assembly moves the joint there, and the joint counts turns from
+// there.
 #pragma once
 
 #include "mechanism/joints/joint.hpp"
@@ -24,6 +26,7 @@ class PositionDrive final : public Component {
   void add_energy(const LocalState& state, Energy& energy) const override;
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
+  void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
   void add_break_points(std::vector<double>& times) const override;
 
  private:

@@ -1,6 +1,7 @@
 #include "mechanism/joints/joint.hpp"
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace bielle::mechanism {
@@ -10,6 +11,7 @@ Joint::Joint(std::string type, std::string name, JointFrames frames, std::vector
     : Component(std::move(type), std::move(name)),
       frames_(std::move(frames)),
       coordinates_(std::move(coordinates)),
+      start_(coordinates_.size(), 0.0),
       first_name_(model.node(frames_.first).name),
       second_name_(model.node(frames_.second).name) {}
 
@@ -32,20 +34,27 @@ Joint::ValueAndRate Joint::value_and_rate(std::size_t index, const LocalState& s
     return {log_so3(Matrix3(A.transpose() * B))[coordinate.axis], rate[coordinate.axis]};
   }
   const Measure m = calc_coordinate(index, first, second);
-  const double value = coordinate.kind == JointCoordinate::Kind::angle
-                           ? unwrap_angle(m.value, state.memory()[static_cast<Eigen::Index>(index)])
-                           : m.value;
-  return {value, m.rate(pair_rate(first, second))};
+  const double rate = m.rate(pair_rate(first, second));
+  if (coordinate.kind != JointCoordinate::Kind::angle) return {m.value, rate};
+  const auto memory = state.memory();
+  const auto at = 2 * static_cast<Eigen::Index>(index);
+  const double time_before = memory[memory.size() - 1];
+  const double turned = std::isnan(time_before) ? 0 : 0.5 * (memory[at + 1] + rate) * (state.time() - time_before);
+  return {unwrap_angle(m.value, memory[at] + turned), rate};
 }
 
 void Joint::declare(Declaration& declaration) const {
   declaration.nodes = {frames_.first, frames_.second};
-  declaration.memory.assign(coordinates_.size(), 0.0);
+  for (const double start : start_) declaration.memory.insert(declaration.memory.end(), {start, 0.0});
+  declaration.memory.push_back(std::numeric_limits<double>::quiet_NaN());  // no step was accepted yet
 }
 
 void Joint::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {
-  for (std::size_t k = 0; k < coordinates_.size(); ++k)
-    memory[static_cast<Eigen::Index>(k)] = value_and_rate(k, state).value;
+  for (std::size_t k = 0; k < coordinates_.size(); ++k) {
+    const auto [value, rate] = value_and_rate(k, state);
+    memory.segment<2>(2 * static_cast<Eigen::Index>(k)) << value, rate;
+  }
+  memory[memory.size() - 1] = state.time();
 }
 
 std::vector<OutputField> Joint::output_fields() const {

@@ -41,6 +41,9 @@ class Joint : public Component {
   /// A displacement or angle (in (-pi, pi]) of the two nodes, with its derivatives.
   Measure calc_coordinate(std::size_t index, const NodeState& first, const NodeState& second) const;
 
+  /// The value of an angle at the start [rad], to count turns from (a drive begins some turns away). Default 0.
+  void start_at(std::size_t coordinate, double value) { start_[coordinate] = value; }
+
   void declare(Declaration& declaration) const override;
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
@@ -51,10 +54,13 @@ class Joint : public Component {
   struct ValueAndRate {
     double value, rate;
   };
-  /// A coordinate of any kind; angles are unwrapped beside the joint's memory.
+  /// A coordinate of any kind; angles are unwrapped beside what the joint's memory and the rates let expect, so that a
+  /// step may turn by more than half a turn. Memory: [value, rate of each coordinate | time], of the last accepted
+  /// step.
   ValueAndRate value_and_rate(std::size_t index, const LocalState& state) const;
   JointFrames frames_;
   std::vector<JointCoordinate> coordinates_;
+  std::vector<double> start_;
   std::string first_name_, second_name_;
 };
 

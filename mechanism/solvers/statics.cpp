@@ -16,15 +16,20 @@ int equilibrate(const System& system, const Environment& environment, const Newt
   const State start = state;
   VectorX r(system.size()), delta(system.size());
   ResidualScale scale;
+  TangentWeights weights;
+  weights.acceleration_level = true;
   for (int iteration = 0;; ++iteration) {
     system.residual(state, environment, r, &scale);
+    // Nothing moves: what relates velocities keeps things where they are.
+    for (int i = 0; i < system.multipliers(); ++i)
+      if (system.constraint_kind(i) == ConstraintKind::nonholonomic) r[system.size() - system.multipliers() + i] = 0;
     if (iteration > 0 && convergence.reached(r, scale)) return iteration;
     if (iteration == options.iterations || !r.allFinite()) {
       convergence.reached(r, scale);
       state = start;
       return -1;
     }
-    linear.factor(state, environment, TangentWeights{}, nullptr);
+    linear.factor(state, environment, weights, nullptr);
     convergence.measure_rounding(linear, state);
     linear.solve(r, delta);
     const State base = state;
@@ -40,12 +45,13 @@ void solve_statics(const System& system, const Environment& environment, int ste
                    State& state, const std::function<void(const State&, double, int)>& record) {
   const VectorX zero = VectorX::Zero(system.dofs());
   system.set_rates(state, zero, zero);
+  state.first_order_rate.setZero();
   LinearStep linear(system);
   Convergence convergence(system, options);
   const double first_increment = 1.0 / steps, least_increment = first_increment / 1024;
   double factor = 0, increment = first_increment;
   while (factor < 1) {
-    const double target = std::min(1.0, factor + increment);
+    const double target = factor + increment > 1 - 1e-12 ? 1 : factor + increment;
     Environment loaded = environment;
     loaded.load_factor = target;
     loaded.gravity = target * environment.gravity;
@@ -70,7 +76,7 @@ void solve_statics(const System& system, const Environment& environment, int ste
       continue;
     }
     check_set_aside(system, loaded, state);
-    factor = target > 1 - 1e-12 ? 1 : target;
+    factor = target;
     system.accept(state, loaded);
     if (record) record(state, factor, iterations);
     if (iterations <= 5) increment = std::min(first_increment, 2 * increment);

@@ -65,7 +65,7 @@ std::vector<Component*> Model::components_in(const std::string& group) {
   return components;
 }
 
-const Component& Model::component_named_by(const YamlValue& value, const std::string& section) const {
+Component& Model::component_named_by(const YamlValue& value, const std::string& section) {
   const std::string name = value.text();
   for (const Member& member : members_)
     if (member.group == section + "/" + name) return *member.component;

@@ -66,7 +66,7 @@ class Model {
   const std::vector<Chain>& chains() const { return chains_; }
   /// The component recorded under `section`/`name` that a value of the input file names ("joints": drives name joints).
   /// @throws InputError with the nearest name
-  const Component& component_named_by(const YamlValue& value, const std::string& section) const;
+  Component& component_named_by(const YamlValue& value, const std::string& section);
   std::vector<std::string> names_in(const std::string& section) const;  ///< in the order of the file, each once
   /// The components recorded in a group ("elements/shaft").
   std::vector<Component*> components_in(const std::string& group);

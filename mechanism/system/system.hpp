@@ -29,7 +29,7 @@ struct ResidualScale {
 struct TangentWeights {
   double stiffness = 1, damping = 0, mass = 0, first_order = 0, constraint = 1;
   /// Rows of non-holonomic constraints hold their B (the part that multiplies velocities) alone: what relates
-  /// accelerations. For the systems [M B^T; B 0] of a consistent start.
+  /// accelerations. For the systems [M B^T; B 0] of a consistent start, and for statics.
   bool acceleration_level = false;
 };
 

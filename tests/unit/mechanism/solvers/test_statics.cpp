@@ -63,3 +63,59 @@ TEST_CASE("what a component refuses at every load step is the error of the analy
   CHECK_THROWS_WITH(rolled_up(1.49),
                     Catch::Contains("beam 'strip', element") && Catch::Contains("give the beam more `elements`"));
 }
+
+TEST_CASE("prescribed joint motions grow with the load factor as loads do") {
+  // The crank goes to its angle in equal parts, from where it stands; more than half a turn cannot be taken at once.
+  const MechanismFile file = read_mechanism_text(R"yaml(
+nodes: {arm: {position: [1, 0, 0]}}
+elements: {arm: {type: rigid_body, node: arm, mass: 2, inertia: [0.1, 0.1, 0.1]}}
+joints: {axle: {type: hinge, nodes: [ground, arm], axis: [0, 0, 1], position: [0, 0, 0]}}
+drives: {motor: {joint: axle, angle: "4"}}
+)yaml",
+                                                 "crank.yaml");
+  System system(file.model);
+  State state = system.start(0);
+  std::vector<double> angles;
+  solve_statics(system, file.model.environment, 8, NewtonOptions{}, state,
+                [&](const State& s, double, int) { angles.push_back(std::atan2(s.nodes[1].x.y(), s.nodes[1].x.x())); });
+  REQUIRE(angles.size() == 8);
+  for (std::size_t k = 0; k < 8; ++k)
+    CHECK(std::remainder(angles[k] - 0.5 * static_cast<double>(k + 1), 2 * M_PI) == Approx(0).margin(1e-10));
+}
+
+TEST_CASE("a second static analysis starts from where the first one took a drive") {
+  const MechanismFile file = read_mechanism_text(R"yaml(
+nodes: {arm: {position: [1, 0, 0]}}
+elements: {arm: {type: rigid_body, node: arm, mass: 2, inertia: [0.1, 0.1, 0.1]}}
+joints: {axle: {type: hinge, nodes: [ground, arm], axis: [0, 0, 1], position: [0, 0, 0]}}
+drives: {motor: {joint: axle, angle: "1 + t"}}
+)yaml",
+                                                 "crank.yaml");
+  System system(file.model);
+  State state = system.start(0);
+  solve_statics(system, file.model.environment, 2, NewtonOptions{}, state);
+  state.time = 0.5;
+  std::vector<double> angles;
+  solve_statics(system, file.model.environment, 2, NewtonOptions{}, state,
+                [&](const State& s, double, int) { angles.push_back(std::atan2(s.nodes[1].x.y(), s.nodes[1].x.x())); });
+  REQUIRE(angles.size() == 2);
+  CHECK(angles[0] == Approx(1.25).epsilon(1e-10));
+  CHECK(angles[1] == Approx(1.5).epsilon(1e-10));
+}
+
+TEST_CASE("in statics a joint with a given rate stays where it is") {
+  const MechanismFile file = read_mechanism_text(R"yaml(
+gravity: [0, -9.81, 0]
+nodes: {arm: {position: [1, 0, 0]}}
+elements: {arm: {type: rigid_body, node: arm, mass: 2, inertia: [0.1, 0.1, 0.1]}}
+joints: {axle: {type: hinge, nodes: [ground, arm], axis: [0, 0, 1], position: [0, 0, 0]}}
+drives: {motor: {joint: axle, rate: "3"}}
+)yaml",
+                                                 "crank.yaml");
+  System system(file.model);
+  State state = system.start(0);
+  solve_statics(system, file.model.environment, 2, NewtonOptions{}, state);
+  CHECK((state.nodes[1].x - Vector3(1, 0, 0)).norm() < 1e-12);
+  // The motor holds the weight at its arm: residual m g L + lambda = 0 about z.
+  CHECK(state.multiplier[system.multipliers() - 1] == Approx(-2 * 9.81).epsilon(1e-9));
+}
