@@ -106,6 +106,13 @@ void carry(const YamlValue& also, int carrier, const std::string& body, Model& m
     const bool held =
         std::any_of(node.freedom.begin(), node.freedom.end(), [](Freedom f) { return f != Freedom::free; });
     if (held) item.fail(fmt::format("node '{}' is fixed or moved, so '{}' cannot carry it", node.name, body));
+    if (!node.velocity.isZero() || !node.angular_velocity.isZero())
+      item.fail(fmt::format("node '{}' is given a velocity, but moves with node '{}': give that one the velocity",
+                            node.name, model.node(carrier).name));
+    for (std::optional<int> above = model.node(carrier).carrier; above; above = model.node(*above).carrier)
+      if (*above == index)
+        item.fail(fmt::format("node '{}' carries '{}' already: bodies cannot carry each other in a circle", node.name,
+                              model.node(carrier).name));
     node.carrier = carrier;
   }
 }

@@ -1,6 +1,7 @@
 #include "mechanism/io/mechanism_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -69,6 +70,26 @@ void read_holds(const YamlValue& entry, Node& node) {
   }
 }
 
+/// The rotations of a node can be held all, or two, or none.
+void check_holds(const YamlValue& entry, const Node& node) {
+  const auto rotations = node.freedom.begin() + 3;
+  if (std::count(rotations, node.freedom.end(), Freedom::fixed) == 1 &&
+      std::count(rotations, node.freedom.end(), Freedom::free) == 2)
+    entry.at("fixed").fail(
+        "all three rotations of a node can be held, or two, or none, but not one alone; a universal joint holds one");
+}
+
+/// What is held has no velocity of its own: to give one is a mistake, not to be forgotten.
+void check_velocities(const YamlValue& entry, const Node& node) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (node.velocity[static_cast<int>(k)] != 0 && node.freedom[k] != Freedom::free)
+      entry.at("velocity").fail(fmt::format("the node is held along {}", directions[k]));
+  const Vector3 omega = node.frame.R * node.angular_velocity;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (node.freedom[3 + k] != Freedom::free && std::abs(omega[static_cast<int>(k)]) > 1e-12 * omega.norm())
+      entry.at("angular_velocity").fail(fmt::format("the node is held against turning about {}", "xyz"[k]));
+}
+
 void read_node(const std::string& name, const YamlValue& entry, Model& model) {
   std::vector<std::string> keys = {"position", "velocity", "angular_velocity", "fixed", "motion"};
   keys.insert(keys.end(), orientation_keys().begin(), orientation_keys().end());
@@ -80,6 +101,8 @@ void read_node(const std::string& name, const YamlValue& entry, Model& model) {
   if (entry.has("velocity")) node.velocity = entry.at("velocity").vector3();
   if (entry.has("angular_velocity")) node.angular_velocity = entry.at("angular_velocity").vector3();
   read_holds(entry, node);
+  check_holds(entry, node);
+  check_velocities(entry, node);
   model.add_node(std::move(node));
 }
 

@@ -212,7 +212,7 @@ void ResultsFile::record(const State& state, const std::vector<Slots>& slots, co
   for (const ResultsColumn& column : stream.rows.columns())
     std::copy_n(stream.row.data() + column.begin, column.size,
                 block.values.data() + stream.block_rows * column.begin + block.rows * column.size);
-  block.times[block.rows++] = state.time;
+  block.times[block.rows++] = step.time.value_or(state.time);
   if (block.rows == stream.block_rows) stream.changed.notify_all();
 }
 

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,11 +23,12 @@ class Model;
 
 /// What a step has to report beside the state.
 struct StepRecord {
-  Energy energy;              ///< stored energies now; dissipation and input are integrals over the analysis [J]
-  double balance = 0;         ///< what is missing in the balance of energy [J]
-  double step = 0;            ///< size of the step [s]
-  int newton_iterations = 0;  ///< of the step
-  double error_estimate = 0;  ///< of the step, relative to the tolerance; 0 when the step is fixed
+  Energy energy;               ///< stored energies now; dissipation and input are integrals over the analysis [J]
+  double balance = 0;          ///< what is missing in the balance of energy [J]
+  double step = 0;             ///< size of the step [s]
+  int newton_iterations = 0;   ///< of the step
+  double error_estimate = 0;   ///< of the step, relative to the tolerance; 0 when the step is fixed
+  std::optional<double> time;  ///< reported in place of the state's: the load factor of a static analysis
 };
 
 class ResultsFile {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <csignal>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -77,8 +78,11 @@ class Run {
   }
 
  private:
-  void record(const Environment& environment, const EnergyBalance& books, double step, int iterations) {
+  /// @param time  reported in place of the state's
+  void record(const Environment& environment, const EnergyBalance& books, double step, int iterations,
+              std::optional<double> time = {}) {
     StepRecord row;
+    row.time = time;
     row.energy = books.totals();
     row.balance = books.balance();
     row.step = step;
@@ -120,13 +124,10 @@ class Run {
       Environment loaded = environment_;
       loaded.load_factor = factor;
       loaded.gravity *= factor;
-      const double time = state_.time;
       Energy energy = system_.energy(state, loaded);
       energy.input = energy.dissipation = 0;  // no rates in statics: there is no power to integrate
       books.start(factor, energy);
-      state_.time = factor;  // the contract reports the load factor as time
-      record(loaded, books, 0, iterations);
-      state_.time = time;
+      record(loaded, books, 0, iterations, factor);
       ++summary.steps;
       ++summary.records;
       summary.iterations += iterations;

@@ -1,0 +1,49 @@
+// What a mechanism file says and cannot mean is refused, with file, line and key.
+#include <catch2/catch.hpp>
+
+#include "mechanism/io/mechanism_file.hpp"
+#include "tests/support/messages.hpp"
+
+using namespace bielle::mechanism;
+using bielle::test::message_of;
+using Catch::Contains;
+
+namespace {
+
+std::string refusal(const std::string& nodes, const std::string& rest = "") {
+  const std::string text = R"yaml(nodes:
+)yaml" + nodes + R"yaml(
+elements:
+  body: {type: rigid_body, node: a, mass: 1, inertia: [0.1, 0.1, 0.1]}
+)yaml" + rest;
+  return message_of<bielle::InputError>([&] { read_mechanism_text(text, "model.yaml"); });
+}
+
+}  // namespace
+
+TEST_CASE("holds that cannot be are refused where they stand") {
+  CHECK_THAT(refusal("  a: {fixed: [rz]}"), Contains("model.yaml:2: nodes.a.fixed") && Contains("two"));
+  CHECK_THAT(refusal("  a: {fixed: [rx], motion: {rz: \"t\"}}"), Contains("model.yaml:2: nodes.a.motion"));
+}
+
+TEST_CASE("bodies that carry each other in a circle are refused where they stand") {
+  const std::string rest =
+      "  first: {type: rigid_body, node: b, mass: 1, inertia: [1, 1, 1], also: [c]}\n"
+      "  second: {type: rigid_body, node: c, mass: 1, inertia: [1, 1, 1], also: [b]}\n";
+  CHECK_THAT(refusal("  a: {}\n  b: {}\n  c: {}", rest),
+             Contains("model.yaml:8: elements.second.also") && Contains("circle"));
+}
+
+TEST_CASE("velocities of what is held are refused, not forgotten") {
+  CHECK_THAT(refusal("  a: {velocity: [0, 1, 0], fixed: [y]}"), Contains("nodes.a.velocity") && Contains("y"));
+  CHECK_THAT(refusal("  a: {velocity: [0, 1, 0], fixed: true}"), Contains("nodes.a.velocity"));
+  CHECK_THAT(refusal("  a: {velocity: [1, 0, 0], motion: {x: \"t\"}}"), Contains("nodes.a.velocity"));
+  CHECK_THAT(refusal("  a: {angular_velocity: [0, 0, 1], fixed: [rx, ry, rz]}"), Contains("nodes.a.angular_velocity"));
+  CHECK_THAT(refusal("  a: {angular_velocity: [0, 1, 0], fixed: [rx, ry]}"), Contains("nodes.a.angular_velocity"));
+  CHECK_THAT(refusal("  a: {}\n  b: {velocity: [1, 0, 0]}",
+                     "  two: {type: rigid_body, node: a, mass: 1, inertia: [1, 1, 1], also: [b]}\n"),
+             Contains("also") && Contains("velocity"));
+  // What is free has them; components may be zero.
+  CHECK(refusal("  a: {velocity: [1, 0, 0], angular_velocity: [0, 0, 2], fixed: [y, z, rx, ry]}") ==
+        "(nothing thrown)");
+}
