@@ -1,4 +1,10 @@
 # Warnings, one library per folder, one test program per folder of tests.
+
+# Templates compiled into our programs must not take the place of the same templates inside shared libraries: gmsh carries
+# an Eigen of its own, compiled with other alignment, and memory of one freed by the other is undefined behaviour.
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
+
 add_library(bielle_warnings INTERFACE)
 target_compile_options(bielle_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow)
 
