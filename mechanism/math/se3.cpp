@@ -34,6 +34,26 @@ Matrix6 adjoint(const Frame& H) {
   return Ad;
 }
 
+Matrix6 little_adjoint(const Vector6& d) {
+  Matrix6 ad;
+  const Matrix3 psi = skew(d.tail<3>());
+  ad << psi, skew(d.head<3>()), Matrix3::Zero(), psi;
+  return ad;
+}
+
+Matrix6 tangent_se3_derivative(const Vector6& d, const Vector6& e) {
+  const Vector3 u = d.head<3>(), psi = d.tail<3>(), du = e.head<3>(), dpsi = e.tail<3>();
+  const Matrix3 DT = tangent_derivative(psi, dpsi);
+  Matrix6 D;
+  D << DT, tangent_second_derivative(psi, u, dpsi) + tangent_derivative(psi, du), Matrix3::Zero(), DT;
+  return D;
+}
+
+Matrix6 tangent_se3_inverse_derivative(const Vector6& d, const Vector6& e) {
+  const Matrix6 inverse = tangent_se3_inverse(d);
+  return -(inverse * tangent_se3_derivative(d, e) * inverse);
+}
+
 Matrix6 inverse_transpose_gradient_se3(const Vector6& d, const Vector6& f) {
   const Vector3 u = d.head<3>(), psi = d.tail<3>(), n = f.head<3>(), m = f.tail<3>();
   const Matrix3 g = inverse_transpose_gradient(psi, n);

@@ -25,7 +25,14 @@ Vector6 log_se3(const Frame& H);  ///< relative rotation up to pi (principal val
 
 Matrix6 tangent_se3(const Vector6& d);          ///< T6(d)
 Matrix6 tangent_se3_inverse(const Vector6& d);  ///< T6^-1(d) = [[T^-1, DTinv(psi)[u]], [0, T^-1]]
-Matrix6 adjoint(const Frame& H);                ///< Ad_H
+Matrix6 adjoint(const Frame& H);                ///< Ad_H; Ad of exp6(d) is the matrix exponential of ad_d
+Matrix6 little_adjoint(const Vector6& d);       ///< ad_d = [[psi~, u~], [0, psi~]], with ad_d e = -ad_e d
+
+/// DT6(d)[e]: derivative of T6(d) along e = [u'; psi'], a matrix.
+Matrix6 tangent_se3_derivative(const Vector6& d, const Vector6& e);
+
+/// Derivative of T6^-1(d) along e = -T6^-1 DT6[e] T6^-1, a matrix. Singular as T^-1 is.
+Matrix6 tangent_se3_inverse_derivative(const Vector6& d, const Vector6& e);
 
 /// G(d,f) = d(T6^-T(d) f)/dd at fixed f.
 Matrix6 inverse_transpose_gradient_se3(const Vector6& d, const Vector6& f);

@@ -1,108 +1,10 @@
 #include "mechanism/math/so3.hpp"
 
-#include <array>
 #include <cmath>
-#include <stdexcept>
+
+#include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
-namespace {
-
-constexpr double series_limit = series_angle * series_angle;
-
-/// sum_k c_k x^k
-template <std::size_t N>
-double horner(const std::array<double, N>& c, double x) {
-  double sum = c[N - 1];
-  for (std::size_t k = N - 1; k-- > 0;) sum = sum * x + c[k];
-  return sum;
-}
-
-constexpr double factorial(int n) {
-  double f = 1;
-  for (int k = 2; k <= n; ++k) f *= k;
-  return f;
-}
-
-constexpr int exp_terms = 11;
-
-/// (-1)^k / (2k + offset)!
-constexpr std::array<double, exp_terms> exp_series(int offset) {
-  std::array<double, exp_terms> c{};
-  for (int k = 0; k < exp_terms; ++k) c[k] = (k % 2 ? -1.0 : 1.0) / factorial(2 * k + offset);
-  return c;
-}
-
-/// c1 (p = 1, w = 2) and c2 (p = 2, w = 3): sum_{k>=1} (-1)^k phi^(2k-2) (1/(2k+p)! - w/(2k+p+1)!)
-constexpr std::array<double, exp_terms> difference_series(int p, double w) {
-  std::array<double, exp_terms> c{};
-  for (int k = 1; k <= exp_terms; ++k)
-    c[k - 1] = (k % 2 ? -1.0 : 1.0) * (1 / factorial(2 * k + p) - w / factorial(2 * k + p + 1));
-  return c;
-}
-
-constexpr auto a1_series = exp_series(1), a2_series = exp_series(2), a3_series = exp_series(3);
-constexpr auto c1_series = difference_series(1, 2), c2_series = difference_series(2, 3);
-
-constexpr int inverse_terms = 21;
-
-/// beta_k = |B_{2k+2}| / (2k+2)! = 1/12, 1/720, 1/30240, ... by the recurrence (2k+3) beta_k = sum_{j<k} beta_j
-/// beta_{k-1-j}, which follows from cot' = -1 - cot^2 and has positive terms only.
-constexpr std::array<double, inverse_terms> beta_series() {
-  std::array<double, inverse_terms> beta{1.0 / 12};
-  for (int k = 1; k < inverse_terms; ++k) {
-    for (int j = 0; j < k; ++j) beta[k] += beta[j] * beta[k - 1 - j];
-    beta[k] /= 2 * k + 3;
-  }
-  return beta;
-}
-
-/// Coefficients of f'/phi from those of f, both in powers of phi^2.
-template <std::size_t N>
-constexpr std::array<double, N - 1> derivative_series(const std::array<double, N>& f) {
-  std::array<double, N - 1> d{};
-  for (std::size_t k = 1; k < N; ++k) d[k - 1] = 2.0 * k * f[k];
-  return d;
-}
-
-constexpr auto b_series = beta_series();
-constexpr auto bp_series = derivative_series(b_series);
-constexpr auto bpp_series = derivative_series(bp_series);
-
-}  // namespace
-
-ExpCoefficients::ExpCoefficients(double x) {
-  if (x < series_limit) {
-    a1 = horner(a1_series, x);
-    a2 = horner(a2_series, x);
-    a3 = horner(a3_series, x);
-    c1 = horner(c1_series, x);
-    c2 = horner(c2_series, x);
-    return;
-  }
-  const double phi = std::sqrt(x);
-  const double half = std::sin(phi / 2);
-  a1 = std::sin(phi) / phi;
-  a2 = 2 * half * half / x;
-  a3 = (phi - std::sin(phi)) / (phi * x);
-  c1 = (a1 - 2 * a2) / x;
-  c2 = (a2 - 3 * a3) / x;
-}
-
-InverseCoefficients::InverseCoefficients(double x) {
-  if (x < series_limit) {
-    b = horner(b_series, x);
-    bp = horner(bp_series, x);
-    bpp = horner(bpp_series, x);
-    return;
-  }
-  const double half = std::sqrt(x) / 2;
-  const double g = half / std::tan(half);
-  const double ratio = half / std::sin(half);
-  const double q = ratio * ratio;
-  b = (1 - g) / x;
-  bp = ((q - g) / x - 2 * b) / x;
-  bpp = ((2 * q * (1 - g) + g - q) - 4 * (q + g - 2)) / (x * x * x);
-}
 
 Matrix3 exp_so3(const Vector3& psi) {
   const ExpCoefficients c(psi.squaredNorm());
@@ -132,14 +34,16 @@ Eigen::Vector4d quaternion_of(const Matrix3& R) {
 
 Matrix3 rotation_of_quaternion(const Eigen::Vector4d& quaternion) {
   const double norm = quaternion.norm();
-  if (!(norm > 0)) throw std::domain_error("a quaternion of length zero is no rotation");
+  if (!(norm > 0 && std::isfinite(norm)))
+    throw ComputationError("a quaternion whose length is zero or not finite stands for no rotation");
   const Eigen::Vector4d q = quaternion / norm;
   const Vector3 e = q.tail<3>();
   return (2 * q[0] * q[0] - 1) * Matrix3::Identity() + 2 * e * e.transpose() + 2 * q[0] * skew(e);
 }
 
-Vector3 log_so3(const Matrix3& R) {
-  const Eigen::Vector4d q = quaternion_of(R);
+Vector3 log_so3(const Matrix3& R) { return log_quaternion(quaternion_of(R)); }
+
+Vector3 log_quaternion(const Eigen::Vector4d& q) {
   const Vector3 e = q.tail<3>();
   const double sine = e.norm();
   if (sine < 1e-8) return 2 * e;  // 2 asin(s)/s = 2 + s^2/3: exact to rounding here
@@ -162,6 +66,17 @@ Matrix3 tangent_derivative(const Vector3& psi, const Vector3& u) {
   const ExpCoefficients c(psi.squaredNorm());
   const Matrix3 s = skew(psi), v = skew(u);
   return -c.a2 * v + c.a3 * (s * v + v * s) - psi.dot(u) * (c.c1 * s - c.c2 * s * s);
+}
+
+Matrix3 tangent_second_derivative(const Vector3& psi, const Vector3& u, const Vector3& w) {
+  const ExpCoefficients c(psi.squaredNorm());
+  const ExpSecondCoefficients d(psi.squaredNorm());
+  const Matrix3 s = skew(psi), v = skew(u), z = skew(w);
+  const Matrix3 ss = s * s;
+  const double pu = psi.dot(u), pw = psi.dot(w);
+  return -c.c1 * (pw * v + pu * z + u.dot(w) * s) +
+         c.c2 * (pw * (s * v + v * s) + pu * (s * z + z * s) + u.dot(w) * ss) + c.a3 * (v * z + z * v) -
+         pu * pw * (d.d1 * s - d.d2 * ss);
 }
 
 Matrix3 tangent_inverse_derivative(const Vector3& psi, const Vector3& u) {

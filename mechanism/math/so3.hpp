@@ -5,9 +5,10 @@
 // with phi = |psi|, a1 = sin(phi)/phi, a2 = (1 - cos phi)/phi^2, a3 = (phi - sin phi)/phi^3,
 // b = (1 - (phi/2) cot(phi/2))/phi^2. R maps body components to inertial ones; R = R_ref exp(psi) has the body angular
 // velocity Omega = T(psi) psidot. Reference: M. Geradin, A. Cardona, Flexible Multibody Dynamics (Wiley, 2001), ch. 4.
-// Closed forms lose digits for small angles; below `series_angle` power series are summed instead.
+// The scalar functions of phi are those of rotation_coefficients.hpp: good to a few roundings at every angle.
 #pragma once
 
+#include "mechanism/math/rotation_coefficients.hpp"
 #include "mechanism/math/types.hpp"
 
 namespace bielle::mechanism {
@@ -24,23 +25,6 @@ inline Vector3 skew_vector(const Matrix3& A) {
   return 0.5 * Vector3(A(2, 1) - A(1, 2), A(0, 2) - A(2, 0), A(1, 0) - A(0, 1));
 }
 
-/// Angle [rad] below which the coefficients are summed as power series. Chosen by measured error: the closed forms of
-/// the derivative coefficients lose ten digits at 0.1, three at 1 and less than two here.
-inline constexpr double series_angle = 2.0;
-
-/// Coefficients of the exponential and of T: a1, a2, a3 and the derivative coefficients c1 = (a1 - 2 a2)/phi^2,
-/// c2 = (a2 - 3 a3)/phi^2, as functions of phi^2.
-struct ExpCoefficients {
-  double a1, a2, a3, c1, c2;
-  explicit ExpCoefficients(double phi_squared);
-};
-
-/// Coefficients of T^-1 and its derivatives: b, bp = b'/phi, bpp = bp'/phi, as functions of phi^2 (phi < 2 pi).
-struct InverseCoefficients {
-  double b, bp, bpp;
-  explicit InverseCoefficients(double phi_squared);
-};
-
 Matrix3 exp_so3(const Vector3& psi);
 
 /// Rotation vector of R, 0 <= |psi| <= pi, through the unit quaternion (Spurrier); at pi the sign of the axis is
@@ -53,6 +37,9 @@ Matrix3 tangent_inverse(const Vector3& psi);  ///< T^-1(psi); singular at |psi| 
 /// DT(psi)[u]: derivative of T(psi) along u, a matrix.
 Matrix3 tangent_derivative(const Vector3& psi, const Vector3& u);
 
+/// D2T(psi)[u, w]: derivative of DT(psi)[u] along w, symmetric in u and w.
+Matrix3 tangent_second_derivative(const Vector3& psi, const Vector3& u, const Vector3& w);
+
 /// DTinv(psi)[u]: derivative of T^-1(psi) along u = -T^-1 DT[u] T^-1, a matrix.
 Matrix3 tangent_inverse_derivative(const Vector3& psi, const Vector3& u);
 
@@ -64,7 +51,9 @@ Matrix3 inverse_transpose_hessian(const Vector3& psi, const Vector3& u, const Ve
 
 /// Unit quaternion (w, x, y, z) of R, w >= 0.
 Eigen::Vector4d quaternion_of(const Matrix3& R);
-/// R of a quaternion (w, x, y, z), normalised first. @throws std::domain_error when it is zero
+/// R of a quaternion (w, x, y, z), normalised first. @throws ComputationError when its length is zero or not finite
 Matrix3 rotation_of_quaternion(const Eigen::Vector4d& quaternion);
+/// Rotation vector of a unit quaternion with w >= 0.
+Vector3 log_quaternion(const Eigen::Vector4d& q);
 
 }  // namespace bielle::mechanism

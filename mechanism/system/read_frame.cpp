@@ -1,12 +1,22 @@
 #include "mechanism/system/read_frame.hpp"
 
+#include <Eigen/LU>
+#include <Eigen/SVD>
 #include <fmt/format.h>
+
+#include "mechanism/math/rotation_parameters.hpp"
 
 namespace bielle::mechanism {
 namespace {
 
-Matrix3 about(int axis, double angle) { return exp_so3(angle * Vector3::Unit(axis)); }
+Matrix3 read_quaternion(const YamlValue& value) {
+  const VectorX q = value.vector();
+  if (q.size() != 4) value.fail(fmt::format("expected the four numbers w x y z of a quaternion, found {}", q.size()));
+  if (q.norm() == 0) value.fail("a quaternion of length zero is no rotation");
+  return rotation_of_quaternion(q);
+}
 
+/// Two of the axes: the first as given, the second made orthogonal to it.
 Matrix3 read_axes(const YamlValue& value) {
   value.check_keys({"x", "y", "z"}, "`axes`");
   const std::vector<std::pair<std::string, YamlValue>> entries = value.entries();
@@ -26,10 +36,26 @@ Matrix3 read_axes(const YamlValue& value) {
   return R;
 }
 
+/// Files give a few digits: the rotation nearest to the matrix is taken, unless it is farther than rounding explains.
+Matrix3 read_matrix(const YamlValue& value) {
+  constexpr double margin = 1e-3;
+  const Matrix3 given = value.matrix(3, 3);
+  const std::string expected =
+      "expected a rotation matrix, whose columns are the node's axes in inertial components: of length one, orthogonal "
+      "and right-handed";
+  const double fault = (given.transpose() * given - Matrix3::Identity()).cwiseAbs().maxCoeff();
+  if (!(fault <= margin))
+    value.fail(fmt::format("{}; lengths and angles of these are off by up to {:.2g}", expected, fault));
+  if (given.determinant() < 0) value.fail(expected + "; these are left-handed");
+  const Eigen::JacobiSVD<Matrix3> svd(given, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return svd.matrixU() * svd.matrixV().transpose();
+}
+
 }  // namespace
 
 const std::vector<std::string>& orientation_keys() {
-  static const std::vector<std::string> keys = {"rotation_vector", "quaternion", "bryant", "euler", "axes"};
+  static const std::vector<std::string> keys = {"rotation_vector", "quaternion", "bryant",   "euler", "axes",
+                                                "matrix",          "rodrigues",  "conformal"};
   return keys;
 }
 
@@ -42,17 +68,15 @@ Matrix3 read_orientation(const YamlValue& entry) {
   }
   if (given.empty()) return Matrix3::Identity();
   const YamlValue value = entry.at(given);
+  if (given == "quaternion") return read_quaternion(value);
   if (given == "axes") return read_axes(value);
-  if (given == "quaternion") {
-    const VectorX q = value.vector();
-    if (q.size() != 4) value.fail(fmt::format("expected the four numbers w x y z of a quaternion, found {}", q.size()));
-    if (q.norm() == 0) value.fail("a quaternion of length zero is no rotation");
-    return rotation_of_quaternion(q);
-  }
-  const Vector3 a = value.vector3();
-  if (given == "rotation_vector") return exp_so3(a);
-  if (given == "bryant") return about(0, a[0]) * about(1, a[1]) * about(2, a[2]);
-  return about(2, a[0]) * about(0, a[1]) * about(2, a[2]);
+  if (given == "matrix") return read_matrix(value);
+  const Vector3 p = value.vector3();
+  if (given == "rotation_vector") return RotationVector::rotation(p);
+  if (given == "bryant") return BryantAngles::rotation(p);
+  if (given == "euler") return EulerAngles::rotation(p);
+  if (given == "rodrigues") return RodriguesVector::rotation(p);
+  return ConformalVector::rotation(p);
 }
 
 Frame read_frame(const YamlValue& entry) {

@@ -15,6 +15,9 @@ namespace bielle::mechanism {
 ///   bryant: [a, b, c]                  R = R_x(a) R_y(b) R_z(c) [rad]
 ///   euler: [a, b, c]                   R = R_z(a) R_x(b) R_z(c) [rad]
 ///   axes: {x: [..], y: [..]}           two of x, y, z; the second is made orthogonal to the first
+///   matrix: [[..], [..], [..]]         R itself: columns are the own axes; made orthonormal when off by less than 1e-3
+///   rodrigues: [..]                    tan(angle/2) times the axis
+///   conformal: [..]                    4 tan(angle/4) times the axis (Wiener-Milenkovic)
 const std::vector<std::string>& orientation_keys();
 
 /// Rotation (own axes -> inertial axes) of an entry; identity when it has none of the keys.

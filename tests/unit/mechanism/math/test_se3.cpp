@@ -30,13 +30,6 @@ Vector6 motion(Random& random, double angle) {
   return d;
 }
 
-/// ad_d with ad_d e = the Lie bracket of rigid-body velocities.
-Matrix6 little_adjoint(const Vector6& d) {
-  Matrix6 ad;
-  ad << skew(d.tail<3>()), skew(d.head<3>()), Matrix3::Zero(), skew(d.tail<3>());
-  return ad;
-}
-
 }  // namespace
 
 TEST_CASE("frames compose, invert, and transform velocities by the adjoint") {
@@ -113,4 +106,31 @@ TEST_CASE("gradients of the inverse tangent operator are those of finite differe
     CHECK(error(G, G_difference) < difference);
     CHECK(error(D, D_difference) < difference);
   }
+}
+
+TEST_CASE("derivatives of T6 and its inverse are those of finite differences") {
+  Random random(6);
+  for (double angle : angles) {
+    CAPTURE(angle);
+    const Vector6 d = motion(random, angle), e = random.vector(6), f = random.vector(6);
+    const Matrix6 D = tangent_se3_derivative(d, e), Dinv = tangent_se3_inverse_derivative(d, e);
+    CHECK(error(D, derivative([&](double s) { return tangent_se3(d + s * e); })) < difference);
+    CHECK(error(Dinv, derivative([&](double s) { return tangent_se3_inverse(d + s * e); })) < difference);
+    // The gradient by d at fixed w is the same derivative seen the other way.
+    CHECK(error(Dinv * f, tangent_se3_inverse_gradient(d, f) * e) < 1e-13);
+    // Compatibility of velocities and variations (Maurer-Cartan): D[e] f - D[f] e = ad of the two body velocities.
+    const Vector6 left = D * f - tangent_se3_derivative(d, f) * e;
+    CHECK(error(left, -little_adjoint(tangent_se3(d) * e) * (tangent_se3(d) * f)) < 1e-13);
+  }
+}
+
+TEST_CASE("ad is the rate of Ad, antisymmetric, and obeys Jacobi's identity") {
+  Random random(7);
+  const Vector6 a = random.vector(6), b = random.vector(6), c = random.vector(6);
+  CHECK(error(little_adjoint(a), derivative([&](double s) { return adjoint(exp_se3(s * a)); })) < difference);
+  CHECK(error(little_adjoint(a) * b, -little_adjoint(b) * a) < 1e-15);
+  const Matrix6 A = little_adjoint(a), B = little_adjoint(b);
+  CHECK(error(little_adjoint(A * b), A * B - B * A) < rounding);
+  CHECK(error(little_adjoint(a) * (B * c) + B * (little_adjoint(c) * a) + little_adjoint(c) * (A * b),
+              VectorX::Zero(6)) < rounding);
 }
