@@ -4,8 +4,6 @@
 
 namespace bielle::mechanism {
 
-Matrix3 MassProperties::inertia_about_origin() const { return inertia - mass * skew(centre) * skew(centre); }
-
 RigidBody::RigidBody(std::string type, std::string name, int node, const MassProperties& properties)
     : Component(std::move(type), std::move(name)),
       node_(node),

@@ -10,18 +10,11 @@
 
 #include <string>
 
+#include "mechanism/elements/mass_properties.hpp"
 #include "mechanism/system/component.hpp"
 #include "mechanism/system/model.hpp"
 
 namespace bielle::mechanism {
-
-/// What a rigid body is made of.
-struct MassProperties {
-  double mass = 0;                       ///< [kg]
-  Vector3 centre = Vector3::Zero();      ///< of mass [m], in the node's axes from its origin
-  Matrix3 inertia = Matrix3::Zero();     ///< about the centre of mass [kg m^2], in the node's axes
-  Matrix3 inertia_about_origin() const;  ///< about the node's origin [kg m^2] (Steiner)
-};
 
 /// Mass, centre and inertia rigidly tied to one node; gravity acts at the centre. Exact tangents.
 class RigidBody : public Component {
@@ -45,9 +38,10 @@ class RigidBody : public Component {
   Matrix3 J_;  ///< about the node's origin
 };
 
-/// `{type: rigid_body, node, mass, centre, inertia, also}` or with `solid` in place of mass and inertia.
+/// `{type: rigid_body, node, mass, centre, inertia, inertia_about, inertia_axes, also}`, or with `solid` in place of
+/// mass and inertia.
 void read_rigid_body(const std::string& name, const YamlValue& entry, Model& model);
-/// `{type: point_mass, node, mass}`
+/// `{type: point_mass, node, mass, centre}`
 void read_point_mass(const std::string& name, const YamlValue& entry, Model& model);
 
 }  // namespace bielle::mechanism

@@ -1,13 +1,13 @@
-// Rigid bodies and point masses in the mechanism file, and the checks that a mass distribution must pass.
+// Rigid bodies and point masses in the mechanism file.
 #include <algorithm>
 #include <memory>
-#include <numbers>
 #include <optional>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "mechanism/elements/rigid_body.hpp"
+#include "mechanism/elements/solid_reader.hpp"
+#include "mechanism/system/read_frame.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -21,7 +21,7 @@ Matrix3 symmetric(double xx, double yy, double zz, double xy, double xz, double 
 /// Three principal values, six entries of the symmetric tensor, or 3x3.
 Matrix3 inertia_entries(const YamlValue& value) {
   const std::string expected =
-      "expected the inertia tensor about the centre of mass as [xx, yy, zz], [xx, yy, zz, xy, xz, yz] or three rows of "
+      "expected the inertia tensor as [xx, yy, zz], [xx, yy, zz, xy, xz, yz] or three rows of "
       "three";
   if (!value.is_sequence()) value.fail(expected);
   if (value.size() == 6) {
@@ -38,61 +38,26 @@ Matrix3 inertia_entries(const YamlValue& value) {
   return 0.5 * (J + J.transpose());
 }
 
-/// A distribution of positive mass has principal moments > 0 of which none exceeds the sum of the two others. Moments
-/// of thin plates and rods lie on that bound and are rounded in input files, hence the margin.
-Matrix3 read_inertia(const YamlValue& value) {
-  const Matrix3 J = inertia_entries(value);
-  const Vector3 p = Eigen::SelfAdjointEigenSolver<Matrix3>(J, Eigen::EigenvaluesOnly).eigenvalues();
-  const std::string found = fmt::format("its principal moments are {:.6g}, {:.6g} and {:.6g} kg m^2", p[0], p[1], p[2]);
-  if (!(p[0] > 0)) value.fail("the inertia tensor must be positive definite; " + found);
-  if (p[2] > (p[0] + p[1]) * (1 + 1e-3))
-    value.fail("no body has this inertia: the largest principal moment exceeds the sum of the two others; " + found +
-               ". Is the tensor about the centre of mass, and are the products of inertia entries of the tensor?");
-  return J;
-}
-
-Vector3 lengths3(const YamlValue& value, const std::string& expected) {
-  if (!value.is_sequence() || value.size() != 3) value.fail(expected);
-  for (const YamlValue& item : value.items()) item.positive_number();
-  return value.vector3();
-}
-
-/// A homogeneous solid about its centre: `box: [a, b, c]` edges along x y z, `sphere: r`, `cylinder: [r, length]` and
-/// `tube: [outer, inner, length]` about z.
-MassProperties read_solid(const YamlValue& solid) {
-  const std::vector<std::string> shapes = {"box", "sphere", "cylinder", "tube"};
-  std::vector<std::string> keys = shapes;
-  keys.emplace_back("density");
-  solid.check_keys(keys, "a solid");
-  const auto given = std::count_if(shapes.begin(), shapes.end(), [&](const std::string& s) { return solid.has(s); });
-  if (given != 1) solid.fail("expected exactly one of 'box', 'sphere', 'cylinder', 'tube'");
-  const double density = solid.at("density").positive_number();
-  MassProperties p;
-  const auto tube = [&](double outer, double inner, double length) {
-    p.mass = density * std::numbers::pi * (outer * outer - inner * inner) * length;
-    const double polar = 0.5 * p.mass * (outer * outer + inner * inner);
-    const double across = 0.5 * polar + p.mass * length * length / 12;
-    p.inertia = symmetric(across, across, polar, 0, 0, 0);
-  };
-  if (const auto box = solid.find("box")) {
-    const Vector3 e = lengths3(*box, "expected three edges [a, b, c]");
-    p.mass = density * e.prod();
-    const Vector3 s = p.mass / 12 * e.cwiseAbs2();
-    p.inertia = symmetric(s.y() + s.z(), s.x() + s.z(), s.x() + s.y(), 0, 0, 0);
-  } else if (const auto sphere = solid.find("sphere")) {
-    const double r = sphere->positive_number();
-    p.mass = density * 4 / 3 * std::numbers::pi * r * r * r;
-    p.inertia = 0.4 * p.mass * r * r * Matrix3::Identity();
-  } else if (const auto cylinder = solid.find("cylinder")) {
-    if (!cylinder->is_sequence() || cylinder->size() != 2) cylinder->fail("expected [radius, length]");
-    tube(cylinder->at(std::size_t{0}).positive_number(), 0, cylinder->at(std::size_t{1}).positive_number());
-  } else {
-    const YamlValue value = solid.at("tube");
-    const Vector3 e = lengths3(value, "expected [outer radius, inner radius, length]");
-    if (e[1] >= e[0]) value.fail("the inner radius must be smaller than the outer one");
-    tube(e[0], e[1], e[2]);
+/// `inertia`, about the centre of mass or, with `inertia_about: node`, about the node; in the node's axes or, with
+/// `inertia_axes: {orientation}`, in axes turned against them.
+Matrix3 read_inertia(const YamlValue& entry, double mass, const Vector3& centre) {
+  const YamlValue value = entry.at("inertia");
+  Matrix3 J = inertia_entries(value);
+  if (const auto axes = entry.find("inertia_axes")) {
+    axes->check_keys(orientation_keys(), "`inertia_axes`");
+    const Matrix3 R = read_orientation(*axes);
+    J = R * J * R.transpose();
   }
-  return p;
+  const bool about_node = entry.has("inertia_about") &&
+                          entry.at("inertia_about").word({"centre", "node"}, "a point for the inertia") == "node";
+  if (about_node) J += mass * skew(centre) * skew(centre);
+  const std::string fault = inertia_fault(J);
+  if (!fault.empty())
+    value.fail(fault + (about_node
+                            ? ". Is the tensor about the node? (`inertia_about: centre` is the default)"
+                            : ". Is the tensor about the centre of mass (else: `inertia_about: node`), and are the "
+                              "products of inertia entries of the tensor?"));
+  return J;
 }
 
 /// Further nodes that the body carries: they follow its node and must not be held or carried otherwise.
@@ -120,26 +85,32 @@ void carry(const YamlValue& also, int carrier, const std::string& body, Model& m
 }  // namespace
 
 void read_rigid_body(const std::string& name, const YamlValue& entry, Model& model) {
-  entry.check_keys({"type", "node", "mass", "centre", "inertia", "solid", "also"}, "a rigid_body");
+  entry.check_keys({"type", "node", "mass", "centre", "inertia", "inertia_about", "inertia_axes", "solid", "also"},
+                   "a rigid_body");
   const int node = model.node_named_by(entry.at("node"));
   MassProperties p;
   if (const auto solid = entry.find("solid")) {
-    for (const char* key : {"mass", "inertia"})
+    for (const char* key : {"mass", "inertia", "inertia_about", "inertia_axes"})
       if (const auto other = entry.find(key)) other->fail("give either `solid` or `mass` and `inertia`");
-    p = read_solid(*solid);
+    p = read_solids(*solid);
+    if (const auto centre = entry.find("centre")) {
+      if (solids_are_placed(*solid)) centre->fail("the solids have positions of their own; leave `centre` out");
+      p.centre = centre->vector3();
+    }
   } else {
     p.mass = entry.at("mass").positive_number();
-    p.inertia = read_inertia(entry.at("inertia"));
+    if (const auto centre = entry.find("centre")) p.centre = centre->vector3();
+    p.inertia = read_inertia(entry, p.mass, p.centre);
   }
-  if (const auto centre = entry.find("centre")) p.centre = centre->vector3();
   if (const auto also = entry.find("also")) carry(*also, node, name, model);
   model.add(std::make_unique<RigidBody>("rigid_body", name, node, p), "elements/" + name);
 }
 
 void read_point_mass(const std::string& name, const YamlValue& entry, Model& model) {
-  entry.check_keys({"type", "node", "mass"}, "a point_mass");
+  entry.check_keys({"type", "node", "mass", "centre"}, "a point_mass");
   MassProperties p;
   p.mass = entry.at("mass").positive_number();
+  if (const auto centre = entry.find("centre")) p.centre = centre->vector3();
   model.add(std::make_unique<RigidBody>("point_mass", name, model.node_named_by(entry.at("node")), p),
             "elements/" + name);
 }

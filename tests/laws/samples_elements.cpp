@@ -30,7 +30,32 @@ elements:
            {"inertia", "[1, 1, 3]", "exceeds the sum"},
            {"inertia", "[-1, 1, 1]", "positive definite"},
            {"inertia", "", ""},
+           {"inertia_about", "origin", "'centre'"},
+           {"inertia_axes", "{x: [1, 0, 0]}", "'x'"},
            {"also", "[a]", "own node"}}};
+}
+
+Sample turned_body() {
+  return {Section::elements,
+          "rigid_body",
+          "inertia about the node, in axes of its own",
+          two_nodes + R"yaml(
+elements:
+  it:
+    type: rigid_body
+    node: a
+    mass: 2
+    centre: [0.2, -0.1, 0.3]
+    inertia: [1, 1.5, 2]
+    inertia_about: node
+    inertia_axes: {bryant: [0.3, -0.2, 0.5]}
+)yaml",
+          {{"node", "", ""},
+           {"mass", "-1", "greater than 0"},
+           {"inertia", "[0.1, 0.1, 0.1]", "positive definite"},
+           {"inertia_about", "body", "'node'"},
+           {"centre", "[5, 0, 0]", "inertia"},
+           {"inertia_axes", "{bryant: [1, 2]}", ""}}};
 }
 
 Sample solid_body() {
@@ -43,8 +68,29 @@ elements:
 )yaml",
           {{"solid.density", "-1", "greater than 0"},
            {"solid.box", "[1, 2, 0]", "greater than 0"},
+           {"solid.position", "[1, 2, 0]", "positions of their own"},
            {"centre", "x", ""},
            {"node", "", ""}}};
+}
+
+Sample drilled_body() {
+  return {Section::elements,
+          "rigid_body",
+          "solids added up and cut out",
+          two_nodes + R"yaml(
+elements:
+  it:
+    type: rigid_body
+    node: b
+    solid:
+      - {box: [1, 2, 0.5], density: 2, position: [0.1, 0, 0], bryant: [0.1, 0.2, 0.3]}
+      - {cone: [0.5, 0.2, 1], mass: 0.7, position: [0, 0, 0.7]}
+      - {cylinder: [0.1, 0.5], density: 2, cut: true}
+)yaml",
+          {{"node", "c", "no node 'c'"},
+           {"solid", "[]", "at least one"},
+           {"solid", "[{sphere: 1, density: 1, cut: true}]", "no mass"},
+           {"solid", "[{sphere: 0, density: 1}]", "greater than 0"}}};
 }
 
 Sample point_mass() {
@@ -53,9 +99,9 @@ Sample point_mass() {
           "",
           two_nodes + R"yaml(
 elements:
-  it: {type: point_mass, node: b, mass: 2}
+  it: {type: point_mass, node: b, mass: 2, centre: [0.3, 0.1, -0.2]}
 )yaml",
-          {{"mass", "-2", "greater than 0"}, {"node", "c", "no node 'c'"}}};
+          {{"mass", "-2", "greater than 0"}, {"centre", "[1, 2]", ""}, {"node", "c", "no node 'c'"}}};
 }
 
 const std::vector<BadValue> bad_beam = {{"nodes", "[a, a]", "two different nodes"},
@@ -285,7 +331,9 @@ loads:
 
 std::vector<Sample> element_samples() {
   return {rigid_body(),
+          turned_body(),
           solid_body(),
+          drilled_body(),
           point_mass(),
           beam(),
           curved_beam(),

@@ -9,7 +9,7 @@ using namespace bielle::mechanism;
 
 namespace {
 
-const char *const model_text = R"yaml(
+const char* const model_text = R"yaml(
 gravity: [1, -2, -9.81]
 nodes:
   a: {position: [0.1, 0.2, -0.3], rotation_vector: [0.3, -0.5, 0.2]}
@@ -17,16 +17,21 @@ nodes:
   c: {position: [1.5, -0.2, 0.3], fixed: [y, rx, ry]}
   d: {position: [0.2, 0.9, 0.5], rotation_vector: [1, 0.2, 0]}
   e: {position: [2.0, 0.3, 0.6], rotation_vector: [0.2, 0.2, 0.3]}
-  f: {position: [2.2, 0.1, 0.4], motion: {x: "0.1*sin(3*t)",
-                  rx : "0.2*t", ry : "t^2", rz : "0.3*sin(t)"
-}
-}
+  f: {position: [2.2, 0.1, 0.4], motion: {x: "0.1*sin(3*t)", rx: "0.2*t", ry: "t^2", rz: "0.3*sin(t)"}}
+  g: {position: [0.4, 1.1, 0.2], rotation_vector: [0, 0.4, 1]}
+  h: {position: [2.4, 0.3, 0.1], rotation_vector: [0.1, 0.4, 1]}
+  i: {position: [1.7, 0.1, 0.2], rotation_vector: [0.5, 0.4, 1]}
 elements:
   body_a: {type: rigid_body, node: a, mass: 2, centre: [0.1, 0.2, 0.05], inertia: [0.3, 0.4, 0.5], also: [d]}
   body_b: {type: rigid_body, node: b, mass: 1, centre: [0.1, -0.1, 0.2], inertia: [0.1, 0.12, 0.15], also: [e]}
-  body_c: {type: rigid_body, node: c, mass: 3, centre: [0.1, -0.1, 0.2], inertia: [0.1, 0.12, 0.15]}
-  body_d: {type: rigid_body, node: d, mass: 0.7, centre: [-0.1, 0.1, 0.2], inertia: [0.1, 0.12, 0.15]}
-  body_f: {type: rigid_body, node: f, mass: 0.4, centre: [0.2, 0.1, 0.1], inertia: [0.1, 0.12, 0.15]}
+  body_c: {type: rigid_body, node: c, mass: 3, centre: [0.1, -0.1, 0.2], inertia: [0.1, 0.12, 0.15], also: [i]}
+  body_d: {type: rigid_body, node: d, mass: 0.7, centre: [-0.1, 0.1, 0.2], inertia: [0.1, 0.12, 0.15], also: [g]}
+  body_f: {type: rigid_body, node: f, mass: 0.4, centre: [0.2, 0.1, 0.1], inertia: [0.1, 0.12, 0.15], also: [h]}
+  body_g: {type: rigid_body, node: g, mass: 0.3, centre: [0.2, 0.1, 0.1], inertia: [0.1, 0.12, 0.15]}
+  body_h: {type: rigid_body, node: h, mass: 0.6, centre: [0.2, 0.1, 0.1], inertia: [0.1, 0.12, 0.15]}
+  body_i: {type: rigid_body, node: i, mass: 0.5, centre: [0.2, 0.1, 0.1], inertia: [0.1, 0.12, 0.15]}
+  spring_gh: {type: spring_damper, nodes: [g, h], stiffness: 20, damping: 1, at: [[0.1, 0, 0.2], [0, 0.2, 0.1]]}
+  spring_gi: {type: spring_damper, nodes: [i, g], stiffness: 10, damping: 3, at: [[0.1, 0, 0.2], [0, 0.2, 0.1]]}
   spring: {type: spring_damper, nodes: [d, e], stiffness: 30, damping: 2, at: [[0.1, 0, 0], [0, 0.2, 0]]}
 joints:
   pivot: {type: hinge, nodes: [d, e], axis: [0.2, 0.3, 1], position: [0.5, 0.5, 0.5]}

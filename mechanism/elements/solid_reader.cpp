@@ -1,0 +1,116 @@
+#include "mechanism/elements/solid_reader.hpp"
+
+#include <algorithm>
+#include <functional>
+
+#include <fmt/format.h>
+
+#include "mechanism/system/read_frame.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+/// `count` lengths, all positive. @param expected  what they are: "[radius, length]"
+VectorX lengths(const YamlValue& value, std::size_t count, const std::string& expected) {
+  if (!value.is_sequence() || value.size() != count) value.fail("expected " + expected);
+  for (const YamlValue& item : value.items()) item.positive_number();
+  return value.vector();
+}
+
+MassProperties read_tube(const YamlValue& value) {
+  const VectorX e = lengths(value, 3, "[outer radius, inner radius, length]");
+  if (e[1] >= e[0]) value.fail("the inner radius must be smaller than the outer one");
+  return tube(e[0], e[1], e[2]);
+}
+
+MassProperties read_cone(const YamlValue& value) {
+  if (!value.is_sequence() || value.size() != 3) value.fail("expected [radius below, radius above, length]");
+  const double below = value.at(std::size_t{0}).non_negative_number();
+  const double above = value.at(std::size_t{1}).non_negative_number();
+  if (below == 0 && above == 0) value.fail("one of the two radii must be greater than 0");
+  return cone(below, above, value.at(std::size_t{2}).positive_number());
+}
+
+MassProperties read_ring(const YamlValue& value) {
+  const VectorX e = lengths(value, 2, "[radius of the centre line, radius of the section]");
+  if (e[1] > e[0]) value.fail("the radius of the section must not exceed that of the centre line");
+  return ring(e[0], e[1]);
+}
+
+struct Shape {
+  const char* name;
+  std::function<MassProperties(const YamlValue&)> read;  ///< of density 1
+};
+
+const std::vector<Shape>& shapes() {
+  static const std::vector<Shape> all = {
+      {"box", [](const YamlValue& v) { return box(lengths(v, 3, "three edges [a, b, c]")); }},
+      {"sphere", [](const YamlValue& v) { return sphere(v.positive_number()); }},
+      {"cylinder",
+       [](const YamlValue& v) {
+         const VectorX e = lengths(v, 2, "[radius, length]");
+         return cylinder(e[0], e[1]);
+       }},
+      {"tube", read_tube},
+      {"cone", read_cone},
+      {"ring", read_ring},
+  };
+  return all;
+}
+
+MassProperties read_solid(const YamlValue& solid) {
+  std::vector<std::string> keys = {"density", "mass", "position", "cut"};
+  keys.insert(keys.end(), orientation_keys().begin(), orientation_keys().end());
+  std::string names;
+  const Shape* given = nullptr;
+  int count = 0;
+  for (const Shape& shape : shapes()) {
+    keys.emplace_back(shape.name);
+    names += fmt::format("{}'{}'", names.empty() ? "" : ", ", shape.name);
+    if (!solid.has(shape.name)) continue;
+    given = &shape;
+    ++count;
+  }
+  solid.check_keys(keys, "a solid");
+  if (count != 1) solid.fail("expected exactly one of " + names);
+  const MassProperties unit = given->read(solid.at(given->name));
+  if (solid.has("mass") && solid.has("density")) solid.at("mass").fail("give either `density` or `mass` of a solid");
+  double factor =
+      solid.has("mass") ? solid.at("mass").positive_number() / unit.mass : solid.at("density").positive_number();
+  if (solid.has("cut") && solid.at("cut").boolean()) factor = -factor;
+  return placed(read_frame(solid), factor * unit);
+}
+
+}  // namespace
+
+MassProperties read_solids(const YamlValue& value) {
+  if (!value.is_sequence()) {
+    const MassProperties solid = read_solid(value);
+    if (solid.mass < 0) value.at("cut").fail("there is nothing that this solid is cut out of");
+    return solid;
+  }
+  if (value.size() == 0) value.fail("expected at least one solid");
+  std::vector<MassProperties> solids;
+  double mass = 0, solid_mass = 0;
+  for (const YamlValue& item : value.items()) {
+    solids.push_back(read_solid(item));
+    mass += solids.back().mass;
+    solid_mass += std::max(0.0, solids.back().mass);
+  }
+  if (!(mass > 1e-9 * solid_mass))
+    value.fail(fmt::format("what is cut out leaves no mass: {:.6g} of {:.6g} kg", mass, solid_mass));
+  // Those with mass first: no partial sum is without mass.
+  std::stable_partition(solids.begin(), solids.end(), [](const MassProperties& p) { return p.mass > 0; });
+  MassProperties sum = solids.front();
+  for (std::size_t k = 1; k < solids.size(); ++k) sum = sum + solids[k];
+  const std::string fault = inertia_fault(sum.inertia);
+  if (!fault.empty()) value.fail(fault + ". Is all that is cut out inside of the other solids?");
+  return sum;
+}
+
+bool solids_are_placed(const YamlValue& value) {
+  if (value.is_sequence()) return true;
+  return value.has("position");
+}
+
+}  // namespace bielle::mechanism
