@@ -9,6 +9,7 @@
 
 #include "mechanism/elements/beam_element.hpp"
 #include "mechanism/elements/beam_geometry.hpp"
+#include "mechanism/elements/distributed_load.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -44,7 +45,7 @@ std::vector<int> make_nodes(const std::string& name, const YamlValue& entry, con
 
 void read_beam(const std::string& name, const YamlValue& entry, Model& model) {
   entry.check_keys({"type", "nodes", "section", "elements", "orientation", "twist", "damping", "bending", "arc_centre",
-                    "arc_through"},
+                    "arc_through", "distributed"},
                    "a beam");
   const std::vector<int> ends = model.nodes_named_by(entry.at("nodes"), 2);
   if (ends[0] == ends[1]) entry.at("nodes").fail("a beam joins two different nodes");
@@ -57,6 +58,8 @@ void read_beam(const std::string& name, const YamlValue& entry, Model& model) {
                               : BeamBending::residual;
   const double damping_time = damping ? damping->non_negative_number() : 0;
   const SectionLaw section(entry.at("section"));
+  const auto distributed = entry.find("distributed");
+  const std::vector<LineLoad> loads = distributed ? read_line_loads(*distributed) : std::vector<LineLoad>{};
 
   const double total_twist = twist ? twist->number() : 0;
   const BeamLine line = read_beam_line(entry, model.node(ends[0]).frame.x, model.node(ends[1]).frame.x);
@@ -76,9 +79,18 @@ void read_beam(const std::string& name, const YamlValue& entry, Model& model) {
     const Vector6 d0 = log_se3(inverse(sections[i]) * sections[i + 1]);
     const Matrix3 R_A = model.node(nodes[i]).frame.R.transpose() * sections[i].R;
     const Matrix3 R_B = model.node(nodes[i + 1]).frame.R.transpose() * sections[i + 1].R;
-    model.add(std::make_unique<BeamElement>(name, BeamPlace{k + 1, count}, nodes[i], nodes[i + 1], R_A, R_B, d0,
-                                            section.at((k + 0.5) / count), damping_time, law),
+    model.add(std::make_unique<BeamElement>(
+                  name, BeamPlace{k + 1, count}, nodes[i], nodes[i + 1], R_A, R_B, d0,
+                  section.over(static_cast<double>(k) / count, static_cast<double>(k + 1) / count), damping_time, law),
               "elements/" + name, true);
+    const BeamSpan span{nodes[i],
+                        nodes[i + 1],
+                        R_A,
+                        R_B,
+                        d0.head<3>(),
+                        static_cast<double>(k) / count,
+                        static_cast<double>(k + 1) / count};
+    for (const LineLoad& load : loads) model.add(std::make_unique<DistributedLoad>(name, span, load), "");
   }
   model.add_chain("elements/" + name, nodes);
 }

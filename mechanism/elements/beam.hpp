@@ -7,12 +7,14 @@
 
 namespace bielle::mechanism {
 
-/// `{type: beam, nodes: [a, b], section, elements, orientation, twist, damping, bending, arc_centre | arc_through}`
+/// `{type: beam, nodes: [a, b], section, elements, orientation, twist, damping, bending, arc_centre | arc_through,
+/// distributed}`
 ///
 /// Makes elements - 1 internal nodes `<name>.1`, `<name>.2`, ..., whose axes are the section's, and one BeamElement
-/// each between them, recorded together under elements/<name>. The end nodes keep their own axes: section frames are
-/// attached to them as placed. The initial shape is free of stress. A tapered section is taken in the middle of each
-/// element. Start velocities of the internal nodes go over from the rigid motion of one end to that of the other.
+/// each between them, recorded together under elements/<name>, and a DistributedLoad for each load per length. The end
+/// nodes keep their own axes: section frames are attached to them as placed. The initial shape is free of stress. A
+/// tapered section goes on along each element (ElementSections). Start velocities of the internal nodes go over from
+/// the rigid motion of one end to that of the other.
 void read_beam(const std::string& name, const YamlValue& entry, Model& model);
 
 }  // namespace bielle::mechanism

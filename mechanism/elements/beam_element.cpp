@@ -1,5 +1,6 @@
 #include "mechanism/elements/beam_element.hpp"
 
+#include <cmath>
 #include <numbers>
 #include <utility>
 
@@ -16,20 +17,26 @@ using Matrix12 = Eigen::Matrix<double, 12, 12>;
 using Matrix6x12 = Eigen::Matrix<double, 6, 12>;
 using Matrix12x6 = Eigen::Matrix<double, 12, 6>;
 
-Matrix6 element_stiffness(const Matrix6& section_flexibility, const Matrix6& section_stiffness, const Vector3& chord,
-                          BeamBending bending) {
-  if (bending == BeamBending::constant) return section_stiffness;
-  const Matrix3 t = skew(chord.normalized());
-  Matrix6 S = section_flexibility;
-  S.topLeftCorner<3, 3>() += chord.squaredNorm() / 12 * t.transpose() * S.bottomRightCorner<3, 3>() * t;
-  const Matrix6 C = S.llt().solve(Matrix6::Identity());
-  return 0.5 * (C + C.transpose());
+Matrix6 inverse(const Matrix6& A) {
+  const Matrix6 B = A.llt().solve(Matrix6::Identity());
+  return 0.5 * (B + B.transpose());
+}
+
+Matrix6 element_stiffness(const ElementSections& sections, const Vector3& chord, BeamBending bending) {
+  Matrix6 sum = Matrix6::Zero();
+  for (std::size_t g = 0; g < 3; ++g) {
+    const Matrix6& C = sections.at[g].stiffness;
+    Matrix6 A = Matrix6::Identity();
+    A.bottomLeftCorner<3, 3>() = (0.5 - ElementSections::place[g]) * skew(chord);
+    sum += ElementSections::weight[g] * (bending == BeamBending::constant ? C : A.transpose() * inverse(C) * A);
+  }
+  return bending == BeamBending::constant ? sum : inverse(sum);
 }
 
 }  // namespace
 
 BeamElement::BeamElement(std::string name, BeamPlace place, int node_a, int node_b, const Matrix3& R_A,
-                         const Matrix3& R_B, const Vector6& d0, const BeamSection& section, double damping,
+                         const Matrix3& R_B, const Vector6& d0, const ElementSections& sections, double damping,
                          BeamBending bending)
     : Component("beam", std::move(name)),
       place_(place),
@@ -39,11 +46,11 @@ BeamElement::BeamElement(std::string name, BeamPlace place, int node_a, int node
       R_B_(R_B),
       d0_(d0),
       L_(d0.head<3>().norm()),
-      flexibility_(section.stiffness.llt().solve(Matrix6::Identity())),
+      stiffness_(element_stiffness(sections, d0.head<3>(), bending)),
+      flexibility_(inverse(sections.middle().stiffness)),
+      stress_(sections.middle().stress),
       damping_(damping),
-      inertia_(section, R_A, R_B, d0.head<3>()) {
-  stiffness_ = element_stiffness(flexibility_, section.stiffness, d0.head<3>(), bending);
-}
+      inertia_(sections, R_A, R_B, d0.head<3>()) {}
 
 void BeamElement::declare(Declaration& declaration) const {
   declaration.nodes = {node_a_, node_b_};
@@ -175,14 +182,29 @@ void BeamElement::add_energy(const LocalState& state, Energy& energy) const {
 }
 
 std::vector<OutputField> BeamElement::output_fields() const {
-  return {{"strain", {6}, "1, 1/m", "stretch and shears [1], twist and curvatures [1/m] in the middle, section frame"},
-          {"resultants", {6}, "N, N m", "forces [N] and moments [N m] in the middle, section frame"}};
+  std::vector<OutputField> fields{
+      {"strain", {6}, "1, 1/m", "stretch and shears [1], twist and curvatures [1/m] in the middle, section frame"},
+      {"resultants", {6}, "N, N m", "forces [N] and moments [N m] in the middle, section frame"}};
+  if (!stress_.empty()) {
+    fields.push_back(
+        {"stress", {stress_.size(), 3}, "Pa", "sigma xx, tau xy, tau xz at the stress points, in the middle"});
+    fields.push_back(
+        {"von_mises", {stress_.size()}, "Pa", "sqrt(sigma^2 + 3 tau^2) at the stress points, in the middle"});
+  }
+  return fields;
 }
 
 void BeamElement::write_output(const LocalState& state, double* values) const {
   const Deformation D = deformation(state);
   Eigen::Map<Vector12> out(values);
   out << flexibility_ * stiffness_ * D.eps, D.f;
+  double* stress = values + 12;
+  double* von_mises = stress + 3 * stress_.size();
+  for (std::size_t p = 0; p < stress_.size(); ++p) {
+    Eigen::Map<Vector3> sigma(stress + 3 * p);
+    sigma = stress_[p] * D.f;
+    von_mises[p] = std::sqrt(sigma[0] * sigma[0] + 3 * sigma.tail<2>().squaredNorm());
+  }
 }
 
 }  // namespace bielle::mechanism

@@ -9,10 +9,13 @@
 //
 // Residual bending flexibility (default). Constant strain alone is too stiff in bending with shear (25 % in the tip
 // deflection of a cantilever of one element). The flexibility that the linear variation of the bending moment adds is
-// put into the section (R. MacNeal, Comput. Struct. 8 (1978) 175):
-//     C_e^-1 = C^-1 + L^2/12 diag(t~^T S t~, 0),   t = d0_u/L,   S the lower right 3x3 of C^-1;
-// the stiffness at the reference is then exact for a straight element and any 6x6 C. f = (n, m) are the physical
-// resultants in the middle of the element; the physical strain there is C^-1 f.
+// put into the section (R. MacNeal, Comput. Struct. 8 (1978) 175): with the resultants A(x) f at a distance x from the
+// middle,
+//     C_e^-1 = 1/L int A^T C^-1 A dx,   A = [I 0; -x t~ I],   t = d0_u/L,      by three Gauss points
+//            = C^-1 + L^2/12 diag(t~^T S t~, 0),   S the lower right 3x3 of C^-1,   for a uniform section;
+// the stiffness at the reference is then exact for a straight element and any 6x6 C, and but for the quadrature with
+// taper. f = (n, m) are the physical resultants in the middle of the element; the physical strain there is C^-1 f,
+// which is what the results hold. (Without it, `bending: constant`: C_e the mean of C; eps itself is the strain.)
 //
 // Limits: the ends of one element turn by less than 180 degrees against each other (`largest_turn` at the end of a
 // step); an error advises to refine. The relative rotation may well grow over several elements. Strains are small
@@ -48,13 +51,14 @@ class BeamElement : public Component {
   /// @param d0             stress-free relative frame log6(H_A^-1 H_B); |d0_u| is the element's length
   /// @param damping        Kelvin-Voigt time [s]: C_d = damping * C_e
   BeamElement(std::string name, BeamPlace place, int node_a, int node_b, const Matrix3& R_A, const Matrix3& R_B,
-              const Vector6& d0, const BeamSection& section, double damping, BeamBending bending);
+              const Vector6& d0, const ElementSections& sections, double damping, BeamBending bending);
 
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   void add_energy(const LocalState& state, Energy& energy) const override;
-  /// `strain` (6) [Gamma; Kappa] and `resultants` (6) [n; m] in the middle of the element, section frame.
+  /// `strain` (6) [Gamma; Kappa] and `resultants` (6) [n; m] in the middle of the element, section frame; with stress
+  /// points there `stress` (points, 3) and `von_mises` (points).
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
   /// Remembers psi, from which the next step must not leap over 180 degrees. @throws ComputationError beyond
@@ -73,8 +77,9 @@ class BeamElement : public Component {
   Matrix3 R_A_, R_B_;
   Vector6 d0_;
   double L_;
-  Matrix6 stiffness_;    ///< C_e
-  Matrix6 flexibility_;  ///< C^-1 of the section
+  Matrix6 stiffness_;                                ///< C_e
+  Matrix6 flexibility_;                              ///< C^-1 in the middle
+  std::vector<Eigen::Matrix<double, 3, 6>> stress_;  ///< at the stress points, of unit resultants
   double damping_;
   BeamInertia inertia_;
 };

@@ -13,22 +13,30 @@ constexpr Eigen::Index first_row(std::size_t node) { return 6 * static_cast<Eige
 
 }  // namespace
 
-BeamInertia::BeamInertia(const BeamSection& section, const Matrix3& R_A, const Matrix3& R_B, const Vector3& chord)
-    : massless_(section.mass == 0 && section.inertia.isZero(0)) {
-  const double L = chord.norm(), mass = section.mass * L;
-  const Vector3& c = section.mass_offset;
-  const double offset = 0.5 * std::sqrt(0.6);
-  const std::array<double, 3> z{0.5 - offset, 0.5, 0.5 + offset}, weight{5.0 / 18, 8.0 / 18, 5.0 / 18};
-  for (std::size_t g = 0; g < 3; ++g) {
-    const Vector3 bubble = 0.5 * z[g] * (1 - z[g]) * chord;
-    points_[g] = {mass * weight[g], {1 - z[g], z[g]}, {R_A * ((1 - z[g]) * c + bubble), R_B * (z[g] * c - bubble)}};
-  }
-  points_[3] = {mass / 12, {-1, 1}, {R_A * (-c - 0.5 * chord), R_B * (c - 0.5 * chord)}};
+BeamInertia::BeamInertia(const ElementSections& sections, const Matrix3& R_A, const Matrix3& R_B,
+                         const Vector3& chord) {
+  const double L = chord.norm();
   const Vector3 t = chord / L;
-  const Matrix3 torsional = L / 12 * t.dot(section.inertia * t) * t * t.transpose();
-  const Matrix3 own = L / 2 * section.inertia - torsional;
-  J_[0] = {R_A * own * R_A.transpose(), R_A * torsional * R_B.transpose()};
-  J_[1] = {R_B * torsional * R_A.transpose(), R_B * own * R_B.transpose()};
+  double mass = 0;  // per length, mean
+  Vector3 moment = Vector3::Zero();
+  Matrix3 J_A = Matrix3::Zero(), J_B = Matrix3::Zero();
+  for (std::size_t g = 0; g < 3; ++g) {
+    const BeamSection& section = sections.at[g];
+    const Vector3& c = section.mass_offset;
+    const double z = ElementSections::place[g], w = ElementSections::weight[g];
+    const Vector3 bubble = 0.5 * z * (1 - z) * chord;
+    points_[g] = {section.mass * L * w, {1 - z, z}, {R_A * ((1 - z) * c + bubble), R_B * (z * c - bubble)}};
+    mass += w * section.mass;
+    moment += w * section.mass * c;
+    J_A += w * (1 - z) * L * section.inertia;
+    J_B += w * z * L * section.inertia;
+  }
+  const Vector3 c = mass > 0 ? Vector3(moment / mass) : Vector3::Zero();
+  points_[3] = {mass * L / 12, {-1, 1}, {R_A * (-c - 0.5 * chord), R_B * (c - 0.5 * chord)}};
+  const Matrix3 torsional = t.dot((J_A + J_B) * t) / 12 * t * t.transpose();
+  J_[0] = {R_A * (J_A - torsional) * R_A.transpose(), R_A * torsional * R_B.transpose()};
+  J_[1] = {R_B * torsional * R_A.transpose(), R_B * (J_B - torsional) * R_B.transpose()};
+  massless_ = mass == 0 && J_A.isZero(0) && J_B.isZero(0);
 }
 
 void BeamInertia::add_force(const LocalState& state, Eigen::Ref<VectorX> r) const {

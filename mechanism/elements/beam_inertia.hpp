@@ -15,7 +15,8 @@
 // right one. Together with the residual bending flexibility of BeamElement the frequencies of straight beams converge
 // with the fourth power of L, but for a part E/(k_s G) (k r)^2 (k L)^2/24 in bending (wave number k, radius of gyration
 // r, shear factor k_s): the line does not see how the shear varies along it. Everything turns with the nodes, and y
-// sees no translation: energy and momenta are conserved exactly. No term depends on the deformation.
+// sees no translation: energy and momenta are conserved exactly. No term depends on the deformation. In a tapered beam
+// m, c and J are those of the Gauss points; J goes to the ends by linear shares, and the terms with 1/12 take means.
 #pragma once
 
 #include <array>
@@ -31,7 +32,7 @@ class BeamInertia {
  public:
   /// @param R_A,R_B  section frames in the axes of nodes A and B
   /// @param chord    d0_u [m], the chord in section axes of the reference (length L)
-  BeamInertia(const BeamSection& section, const Matrix3& R_A, const Matrix3& R_B, const Vector3& chord);
+  BeamInertia(const ElementSections& sections, const Matrix3& R_A, const Matrix3& R_B, const Vector3& chord);
 
   bool is_massless() const { return massless_; }
   void add_force(const LocalState& state, Eigen::Ref<VectorX> r) const;

@@ -1,50 +1,27 @@
 #include "mechanism/elements/beam_section.hpp"
 
-#include <cmath>
-#include <numbers>
-
 #include "mechanism/math/so3.hpp"
 
 namespace bielle::mechanism {
 
-SectionConstants rectangle_constants(double width_y, double height_z) {
-  const double a = std::max(width_y, height_z), c = std::min(width_y, height_z);
-  const double pi = std::numbers::pi;
-  double sum = 0;
-  // Terms fall like n^-5: behind 2001 the rest is below 1e-15 of the first.
-  for (int n = 2001; n >= 1; n -= 2) sum += std::tanh(n * pi * a / (2 * c)) / std::pow(n, 5);
-  SectionConstants k;
-  k.A = a * c;
-  k.I_y = width_y * std::pow(height_z, 3) / 12;
-  k.I_z = height_z * std::pow(width_y, 3) / 12;
-  k.J = a * c * c * c * (1.0 / 3 - 64 / std::pow(pi, 5) * (c / a) * sum);
-  k.k_y = k.k_z = 5.0 / 6;
-  return k;
-}
-
-SectionConstants tube_constants(double outer_radius, double inner_radius) {
-  const double ro2 = outer_radius * outer_radius, ri2 = inner_radius * inner_radius, m2 = ri2 / ro2;
-  SectionConstants k;
-  k.A = std::numbers::pi * (ro2 - ri2);
-  k.I_y = k.I_z = k.A * (ro2 + ri2) / 4;
-  k.J = 2 * k.I_y;
-  k.k_y = k.k_z = 6 * (1 + m2) * (1 + m2) / (7 + 34 * m2 + 7 * m2 * m2);
-  return k;
-}
-
 BeamSection BeamSection::homogeneous(const SectionConstants& k, double young, double shear, double density,
-                                     double offset_y, double offset_z) {
+                                     const Vector2& offset) {
   BeamSection section;
-  const Vector3 o(0, offset_y, offset_z);
-  Vector6 diagonal;
-  diagonal << young * k.A, shear * k.k_y * k.A, shear * k.k_z * k.A, shear * k.J, young * k.I_y, young * k.I_z;
-  // Strains at the centroid: Gamma_c = Gamma + Kappa x o.
-  Matrix6 shift = Matrix6::Identity();
-  shift.topRightCorner<3, 3>() = -skew(o);
-  section.stiffness = shift.transpose() * diagonal.asDiagonal() * shift;
+  const Vector3 o(0, offset.x(), offset.y()), s = o + Vector3(0, k.shear_centre.x(), k.shear_centre.y());
+  // Strains (gamma_x at the centroid, gamma_y and gamma_z at the shear centre, Kappa) from those at the node line.
+  Matrix6 strains = Matrix6::Identity();
+  strains.block<1, 3>(0, 3) = -skew(o).row(0);
+  strains.block<2, 3>(1, 3) = -skew(s).bottomRows<2>();
+  Matrix6 C = Matrix6::Zero();
+  C(0, 0) = young * k.A;
+  C.block<2, 2>(1, 1) = shear * k.shear_area;
+  C(3, 3) = shear * k.J;
+  C.block<2, 2>(4, 4) << young * k.I_y, -young * k.I_yz, -young * k.I_yz, young * k.I_z;
+  section.stiffness = strains.transpose() * C * strains;
   section.mass = density * k.A;
   section.mass_offset = o;
-  section.inertia = density * Vector3(k.I_y + k.I_z, k.I_y, k.I_z).asDiagonal().toDenseMatrix();
+  section.inertia << k.I_y + k.I_z, 0, 0, 0, k.I_y, -k.I_yz, 0, -k.I_yz, k.I_z;
+  section.inertia *= density;
   return section;
 }
 

@@ -1,31 +1,23 @@
 // Cross sections of beams: stiffness and mass per length in the section frame, x along the beam, y and z across.
 //
 // Resultants (n, m) = stiffness (Gamma, Kappa), in the order forces x y z, moments x y z; the origin of the section is
-// the node line. Constants of shapes:
-//   rectangle b (along y) x h (along z): torsion constant by the series of Saint-Venant's problem
-//       J = a c^3 [1/3 - 64/pi^5 (c/a) sum_{n odd} tanh(n pi a/(2c))/n^5],  a >= c its sides
-//     (S. Timoshenko, J. Goodier, Theory of Elasticity, art. 109); shear factors 5/6;
-//   circle and tube, m = inner/outer radius: polar moment; shear factor 6 (1+m^2)^2/(7+34 m^2+7 m^4), 6/7 for a full
-//   circle.
-// The shear factors are those of Saint-Venant's flexure without lateral contraction (G. Cowper, J. Appl. Mech. 33
-// (1966) 335, with nu = 0), so that they do not depend on the material; an input file may give others.
+// the node line. A homogeneous shape (section_shape.hpp) with its centroid at o and its shear centre at o + s has
+//     N = E A Gamma_c,   V = G K_s gamma_s,   (M_y, M_z)_c = E [I_y -I_yz; -I_yz I_z] (kappa_y, kappa_z),   T_s = G J
+//     kappa_x
+// with the strains Gamma + Kappa x o at the centroid and Gamma + Kappa x (o + s) at the shear centre, which couples all
+// six. Its mass is at the centroid.
 #pragma once
 
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mechanism/elements/section_shape.hpp"
 #include "mechanism/math/types.hpp"
 #include "reduce/common/yaml_file.hpp"
 
 namespace bielle::mechanism {
-
-/// Geometric constants of a cross section about its centroid, on principal axes y and z.
-struct SectionConstants {
-  double A = 0;             ///< area [m^2]
-  double I_y = 0, I_z = 0;  ///< second moments of area about y: integral of z^2, and about z [m^4]
-  double J = 0;             ///< torsion constant [m^4]
-  double k_y = 1, k_z = 1;  ///< shear factors for forces along y and z
-};
-
-SectionConstants rectangle_constants(double width_y, double height_z);
-SectionConstants tube_constants(double outer_radius, double inner_radius);  ///< inner radius 0: a circle
 
 /// What one beam element needs to know of its section.
 struct BeamSection {
@@ -33,11 +25,24 @@ struct BeamSection {
   double mass = 0;                        ///< per length [kg/m]; zero: the beam has no inertia
   Vector3 mass_offset = Vector3::Zero();  ///< centre of mass from the node line [m], section frame
   Matrix3 inertia = Matrix3::Zero();      ///< about the centre of mass, per length [kg m]
+  /// At each stress point: sigma_xx, tau_xy, tau_xz [Pa] (rows) of unit resultants (columns).
+  std::vector<Eigen::Matrix<double, 3, 6>> stress;
 
   /// A homogeneous section. @param young,shear  moduli [Pa] @param density [kg/m^3]
-  /// @param offset_y,offset_z  of the centroid from the node line [m]
+  /// @param offset  of the centroid from the node line [m]
   static BeamSection homogeneous(const SectionConstants& constants, double young, double shear, double density,
-                                 double offset_y = 0, double offset_z = 0);
+                                 const Vector2& offset = Vector2::Zero());
+};
+
+/// The sections of one element: at the three Gauss points of its length. One section: the same everywhere.
+struct ElementSections {
+  static constexpr std::array<double, 3> place{0.1127016653792583, 0.5, 0.8872983346207417};  ///< from A (0) to B (1)
+  static constexpr std::array<double, 3> weight{5.0 / 18, 8.0 / 18, 5.0 / 18};
+  std::array<BeamSection, 3> at;
+
+  ElementSections(const BeamSection& uniform) : at{uniform, uniform, uniform} {}  // NOLINT: a section is one
+  explicit ElementSections(std::array<BeamSection, 3> sections) : at(std::move(sections)) {}
+  const BeamSection& middle() const { return at[1]; }
 };
 
 /// Section along a beam: s in [0, 1] from start to end. A pair [start, end] tapers linearly in its dimensions and
@@ -47,16 +52,26 @@ class SectionLaw {
   /// @throws InputError naming the key that is missing, unknown or out of range
   explicit SectionLaw(const YamlValue& value);
   BeamSection at(double s) const;
+  ElementSections over(double s_A, double s_B) const;  ///< of the element from s_A to s_B
+  std::size_t stress_points() const { return static_cast<std::size_t>(start_.points.size() / 2); }
 
  private:
-  /// One section as a list of numbers that may be interpolated.
+  /// One section as lists of numbers that may be interpolated.
   struct Definition {
-    std::string kind;  ///< the key that names it: "rectangle", ..., "EA", "stiffness"
-    VectorX numbers;
+    std::string kind;       ///< the key that names it: "rectangle", ..., "EA", "stiffness"
+    VectorX numbers;        ///< dimensions of a shape, constants, or matrices
+    VectorX material;       ///< of a shape: Young's modulus, shear modulus, density
+    VectorX offset;         ///< (2)
+    VectorX shear_factors;  ///< (2), or empty: those of the shape
+    VectorX points;         ///< y and z of each stress point, from the centroid
   };
   static Definition read(const YamlValue& value);
-  static BeamSection evaluate(const std::string& kind, const VectorX& numbers);
+  static Definition read_shape(const std::string& kind, const YamlValue& value);
+  Definition between(double s) const;
+  BeamSection evaluate(const Definition& definition) const;
+  YamlValue value_;  ///< for messages
   Definition start_, end_;
+  std::optional<BeamSection> uniform_;  ///< without taper
 };
 
 }  // namespace bielle::mechanism

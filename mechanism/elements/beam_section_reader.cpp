@@ -11,9 +11,6 @@
 namespace bielle::mechanism {
 namespace {
 
-// Order of the numbers of a homogeneous shape: dimensions, then these.
-enum Tail { young, shear, density, shear_y, shear_z, offset_y, offset_z, tail_size };
-
 constexpr std::array constants_keys{"EA", "GAy", "GAz", "GJ", "EIy", "EIz"};
 constexpr std::array mass_keys{"mass_per_length", "Jx", "Jy", "Jz"};
 
@@ -27,48 +24,9 @@ double shear_modulus(const YamlValue& value, double young_modulus) {
   return young_modulus / (2 * (1 + nu));
 }
 
-VectorX positive_list(const YamlValue& value, std::size_t count, const std::string& expected) {
-  if (!value.is_sequence() || value.size() != count) value.fail("expected " + expected);
-  VectorX numbers(static_cast<Eigen::Index>(count));
-  for (std::size_t k = 0; k < count; ++k) numbers[static_cast<Eigen::Index>(k)] = value.at(k).positive_number();
-  return numbers;
-}
-
-VectorX shape_dimensions(const std::string& kind, const YamlValue& value) {
-  if (kind == "rectangle") return positive_list(value, 2, "[width_y, height_z]");
-  if (kind == "circle") return VectorX::Constant(1, value.positive_number());
-  const VectorX radii = positive_list(value, 2, "[outer radius, inner radius]");
-  if (radii[1] >= radii[0]) value.fail("the inner radius must be smaller than the outer one");
-  return radii;
-}
-
-SectionConstants shape_constants(const std::string& kind, const VectorX& numbers) {
-  if (kind == "rectangle") return rectangle_constants(numbers[0], numbers[1]);
-  if (kind == "circle") return tube_constants(numbers[0], 0);
-  return tube_constants(numbers[0], numbers[1]);
-}
-
-VectorX read_shape(const std::string& kind, const YamlValue& value) {
-  value.check_keys({kind, "young", "poisson", "shear", "density", "shear_factors", "offset"},
-                   "a section '" + kind + "'");
-  const VectorX dimensions = shape_dimensions(kind, value.at(kind));
-  VectorX tail = VectorX::Zero(tail_size);
-  tail[young] = value.at("young").positive_number();
-  tail[shear] = shear_modulus(value, tail[young]);
-  if (const auto rho = value.find("density")) tail[density] = rho->non_negative_number();
-  const SectionConstants k = shape_constants(kind, dimensions);
-  tail[shear_y] = k.k_y;
-  tail[shear_z] = k.k_z;
-  if (const auto factors = value.find("shear_factors"))
-    tail.segment<2>(shear_y) = positive_list(*factors, 2, "[k_y, k_z]");
-  if (const auto offset = value.find("offset")) {
-    const Eigen::VectorXd o = offset->vector();
-    if (o.size() != 2) offset->fail("expected the centroid [y, z] from the node line");
-    tail.segment<2>(offset_y) = o;
-  }
-  VectorX numbers(dimensions.size() + tail_size);
-  numbers << dimensions, tail;
-  return numbers;
+Vector2 positive_pair(const YamlValue& value, const std::string& expected) {
+  if (!value.is_sequence() || value.size() != 2) value.fail("expected " + expected);
+  return {value.at(std::size_t{0}).positive_number(), value.at(std::size_t{1}).positive_number()};
 }
 
 VectorX read_constants(const YamlValue& value) {
@@ -141,43 +99,85 @@ VectorX read_matrices(const YamlValue& value) {
 
 }  // namespace
 
+SectionLaw::Definition SectionLaw::read_shape(const std::string& kind, const YamlValue& value) {
+  value.check_keys({kind, "young", "poisson", "shear", "density", "shear_factors", "offset", "stress_points"},
+                   "a section '" + kind + "'");
+  Definition d;
+  d.kind = kind;
+  d.numbers = read_shape_dimensions(kind, value.at(kind));
+  const double young = value.at("young").positive_number();
+  const auto density = value.find("density");
+  d.material = Vector3(young, shear_modulus(value, young), density ? density->non_negative_number() : 0);
+  d.offset = Vector2::Zero();
+  if (const auto offset = value.find("offset")) {
+    d.offset = offset->vector();
+    if (d.offset.size() != 2) offset->fail("expected the centroid [y, z] from the node line");
+  }
+  if (const auto factors = value.find("shear_factors")) d.shear_factors = positive_pair(*factors, "[k_y, k_z]");
+  if (const auto points = value.find("stress_points")) {
+    const auto shape = make_section_shape(kind, d.numbers);
+    d.points.resize(static_cast<Eigen::Index>(2 * points->items().size()));
+    Eigen::Index k = 0;
+    for (const YamlValue& item : points->items()) {
+      const Eigen::VectorXd point = item.vector();
+      if (point.size() != 2) item.fail("expected a point [y, z] of the section, from its centroid");
+      if (!shape->contains(point)) item.fail("the point lies outside of the section; y and z count from its centroid");
+      d.points.segment<2>(k) = point;
+      k += 2;
+    }
+  }
+  return d;
+}
+
 SectionLaw::Definition SectionLaw::read(const YamlValue& value) {
-  const std::vector<std::string> kinds = {"rectangle", "circle", "tube", "EA", "stiffness"};
-  std::vector<std::string> given;
   if (!value.is_map()) value.fail("expected a section: a map, or a pair [start, end] of maps");
+  std::vector<std::string> kinds = section_shape_names(), given;
+  kinds.insert(kinds.end(), {"EA", "stiffness"});
   std::copy_if(kinds.begin(), kinds.end(), std::back_inserter(given),
                [&](const std::string& k) { return value.has(k); });
   if (given.size() != 1)
     value.fail(
-        "expected exactly one of `rectangle`, `circle`, `tube`, the constants `EA`, `GAy`, ..., or a 6x6 `stiffness`");
+        "expected exactly one of `rectangle`, `circle`, `tube`, `i`, `t`, `l`, `box`, the constants `EA`, `GAy`, ..., "
+        "or a "
+        "6x6 `stiffness`");
   const std::string& kind = given.front();
-  if (kind == "EA") return {kind, read_constants(value)};
-  if (kind == "stiffness") return {kind, read_matrices(value)};
-  return {kind, read_shape(kind, value)};
+  if (kind == "EA") return {kind, read_constants(value), {}, {}, {}, {}};
+  if (kind == "stiffness") return {kind, read_matrices(value), {}, {}, {}, {}};
+  return read_shape(kind, value);
 }
 
-BeamSection SectionLaw::evaluate(const std::string& kind, const VectorX& numbers) {
+BeamSection SectionLaw::evaluate(const Definition& d) const {
   BeamSection section;
-  if (kind == "EA") {
-    section.stiffness = numbers.head<6>().asDiagonal();
-    section.mass = numbers[6];
-    section.inertia = numbers.segment<3>(7).asDiagonal();
-  } else if (kind == "stiffness") {
-    section.stiffness = numbers.head<36>().reshaped(6, 6);
-    take_apart(numbers.tail<36>().reshaped(6, 6), section);
-  } else {
-    const VectorX tail = numbers.tail<tail_size>();
-    SectionConstants k = shape_constants(kind, numbers);
-    k.k_y = tail[shear_y];
-    k.k_z = tail[shear_z];
-    return BeamSection::homogeneous(k, tail[young], tail[shear], tail[density], tail[offset_y], tail[offset_z]);
+  if (d.kind == "EA") {
+    section.stiffness = d.numbers.head<6>().asDiagonal();
+    section.mass = d.numbers[6];
+    section.inertia = d.numbers.segment<3>(7).asDiagonal();
+    return section;
+  }
+  if (d.kind == "stiffness") {
+    section.stiffness = d.numbers.head<36>().reshaped(6, 6);
+    take_apart(d.numbers.tail<36>().reshaped(6, 6), section);
+    return section;
+  }
+  const auto shape = make_section_shape(d.kind, d.numbers);
+  SectionConstants k = shape->constants();
+  if (d.shear_factors.size() == 2) k.shear_area = k.A * d.shear_factors.asDiagonal().toDenseMatrix();
+  section = BeamSection::homogeneous(k, d.material[0], d.material[1], d.material[2], d.offset);
+  for (Eigen::Index p = 0; p < d.points.size(); p += 2) {
+    const Vector2 point = d.points.segment<2>(p);
+    // The centroid of a tapered t or l does not move linearly.
+    if (!shape->contains(point))
+      value_.fail(
+          fmt::format("stress point {} lies outside of the section somewhere between start and end", p / 2 + 1));
+    section.stress.push_back(shape->stress(point, d.offset));
   }
   return section;
 }
 
-SectionLaw::SectionLaw(const YamlValue& value) {
+SectionLaw::SectionLaw(const YamlValue& value) : value_(value) {
   if (!value.is_sequence()) {
     start_ = end_ = read(value);
+    uniform_ = evaluate(start_);
     return;
   }
   if (value.size() != 2) value.fail("expected a section or a pair [start, end]");
@@ -186,10 +186,28 @@ SectionLaw::SectionLaw(const YamlValue& value) {
   if (start_.kind != end_.kind)
     value.fail(
         fmt::format("a beam cannot taper from '{}' to '{}': both ends must be of one kind", start_.kind, end_.kind));
+  if (start_.shear_factors.size() != end_.shear_factors.size())
+    value.fail("give `shear_factors` at both ends, or at none");
+  if (start_.points.size() != end_.points.size()) value.fail("give as many `stress_points` at the end as at the start");
 }
 
-BeamSection SectionLaw::at(double s) const {
-  return evaluate(start_.kind, (1 - s) * start_.numbers + s * end_.numbers);
+SectionLaw::Definition SectionLaw::between(double s) const {
+  const auto mix = [s](const VectorX& a, const VectorX& b) { return VectorX((1 - s) * a + s * b); };
+  return {start_.kind,
+          mix(start_.numbers, end_.numbers),
+          mix(start_.material, end_.material),
+          mix(start_.offset, end_.offset),
+          mix(start_.shear_factors, end_.shear_factors),
+          mix(start_.points, end_.points)};
+}
+
+BeamSection SectionLaw::at(double s) const { return uniform_ ? *uniform_ : evaluate(between(s)); }
+
+ElementSections SectionLaw::over(double s_A, double s_B) const {
+  if (uniform_) return *uniform_;
+  std::array<BeamSection, 3> sections;
+  for (std::size_t g = 0; g < 3; ++g) sections[g] = at(s_A + ElementSections::place[g] * (s_B - s_A));
+  return ElementSections(std::move(sections));
 }
 
 }  // namespace bielle::mechanism

@@ -185,6 +185,74 @@ elements:
            {"section", "[{circle: 1, young: 1, shear: 1}]", "pair"}}};
 }
 
+/// Inclined principal axes, a shear centre of its own, taper.
+Sample tapered_shape() {
+  return {Section::elements,
+          "beam",
+          "tapered l section",
+          two_nodes + R"yaml(
+elements:
+  it:
+    type: beam
+    nodes: [a, b]
+    elements: 2
+    section:
+      - {l: {width: 1.2, height: 1, thickness: [0.3, 0.2]}, young: 2, poisson: 0.2, density: 1.5, stress_points: [[0, -0.2]]}
+      - {l: {width: 1, height: 1.1, thickness: 0.3}, young: 2, poisson: 0.2, density: 1.5, stress_points: [[0, -0.2]]}
+)yaml",
+          {{"nodes", "[a, c]", "no node 'c'"},
+           {"elements", "0", "at least one"},
+           {"section", "{l: {width: 1, height: 1, thickness: 2}, young: 1, shear: 1}", "thinner"},
+           {"section", "{l: {width: 1, height: 1, thicknes: 0.2}, young: 1, shear: 1}", "did you mean 'thickness'"},
+           {"section", "{circle: 1, young: 1, shear: 1, stress_points: [[2, 0]]}", "outside of the section"},
+           {"section", "{circle: 1, young: 1, shear: 1, stress_points: [[0]]}", "a point [y, z]"}}};
+}
+
+/// Loads per length, dead and follower, beside the centre of a curved and twisted beam.
+Sample loaded_beam(const std::string& variant, const std::string& load, bool inertial) {
+  Sample sample{Section::elements,
+                "beam",
+                variant,
+                two_nodes + R"yaml(
+elements:
+  it:
+    type: beam
+    nodes: [a, b]
+    elements: 2
+    arc_through: [0.7, 0.5, 0.3]
+    twist: 0.4
+    section: {EA: 4, GAy: 2, GAz: 3, GJ: 1, EIy: 2, EIz: 1}
+    distributed: )yaml" +
+                    load + "\n",
+                {{"nodes", "[a, c]", "no node 'c'"},
+                 {"elements", "0", "at least one"},
+                 {"arc_through", "[0.7, 0.3, 0.1]", "one line"},
+                 {"twist", "100", "more `elements`"},
+                 {"section", "[1, 2]", ""},
+                 {"distributed.force", "[1, 2]", "three components"},
+                 {"distributed.force", "[x, 1, 2]", "x"},
+                 {"distributed.moment", "1", "three components"},
+                 {"distributed.at", "[1, 2, 3]", "[y, z]"},
+                 {"distributed.follower", "maybe", ""},
+                 {"distributed", "{at: [1, 2]}", "`force` or `moment`"}}};
+  sample.inertial = inertial;
+  return sample;
+}
+
+Sample dead_line_load() {
+  return loaded_beam(
+      "dead line load",
+      R"yaml({force: ["1 + s*t", "2*cos(3*s)", "if(s < 0.3, -1, 0.5)"], moment: ["0.3 + s", "s^2", "0.7"], at: [0.1, -0.2], follower: false})yaml",
+      true);
+}
+
+Sample follower_line_load() {
+  return loaded_beam(
+      "follower line load",
+      R"yaml({force: ["1 + s*t", "2*cos(3*s)", "if(s < 0.3, -1, 0.5)"], moment: ["0.3 + s", "s^2", "0.7"], at: [0.1, -0.2], follower: true})yaml",
+      false);
+}
+
 Sample spring() {
   return {Section::elements,
           "spring_damper",
@@ -338,6 +406,9 @@ std::vector<Sample> element_samples() {
           beam(),
           curved_beam(),
           tapered_beam(),
+          tapered_shape(),
+          dead_line_load(),
+          follower_line_load(),
           spring(),
           spring_by_formula(),
           timed_spring(),

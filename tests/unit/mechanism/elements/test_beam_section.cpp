@@ -36,16 +36,17 @@ TEST_CASE("rectangles, circles and tubes have their moments about y and z") {
   CHECK_THAT(r.A, WithinRel(0.03, 1e-15));
   CHECK_THAT(r.I_y, WithinRel(0.3 * 0.001 / 12, 1e-14));
   CHECK_THAT(r.I_z, WithinRel(0.1 * 0.027 / 12, 1e-14));
-  CHECK(r.k_y == 5.0 / 6);
+  CHECK_THAT(r.shear_area(0, 0), WithinRel(0.025, 1e-15));
   const SectionConstants c = tube_constants(2, 0);
   CHECK_THAT(c.A, WithinRel(4 * pi, 1e-15));
   CHECK_THAT(c.I_y, WithinRel(4 * pi, 1e-15));
   CHECK_THAT(c.J, WithinRel(8 * pi, 1e-15));
-  CHECK_THAT(c.k_y, WithinRel(6.0 / 7, 1e-15));
+  CHECK_THAT(c.shear_area(1, 1), WithinRel(6.0 / 7 * 4 * pi, 1e-15));
   const SectionConstants t = tube_constants(2, 1);
   CHECK_THAT(t.I_z, WithinRel(15 * pi / 4, 1e-14));
   // A thin tube carries shear with half its area.
-  CHECK_THAT(tube_constants(1, 0.9999).k_y, WithinRel(0.5, 1e-4));
+  const SectionConstants thin = tube_constants(1, 0.9999);
+  CHECK_THAT(thin.shear_area(0, 0), WithinRel(0.5 * thin.A, 1e-4));
 }
 
 TEST_CASE("a shape with its material becomes stiffness and mass per length") {

@@ -1,0 +1,195 @@
+#include "mechanism/elements/distributed_load.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "mechanism/math/so3.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+constexpr std::size_t along_beam = 0, in_time = 1;  // arguments of the formulas
+
+Vector3 evaluate(const std::array<Expression, 3>& vector, double s, double t) {
+  const std::array<double, 2> values{s, t};
+  return {vector[0](values), vector[1](values), vector[2](values)};
+}
+
+/// Places inside an element, 0 < z < 1, where a formula of s jumps or has a kink; 0 and 1 beside them.
+std::vector<double> pieces(const LineLoad& load, const BeamSpan& span) {
+  std::vector<double> ends{0, 1};
+  for (const auto* vector : {&load.force, &load.moment})
+    for (const Expression& component : *vector)
+      for (double s : component.break_points(along_beam)) {
+        const double z = (s - span.s_A) / (span.s_B - span.s_A);
+        if (z > 1e-9 && z < 1 - 1e-9) ends.push_back(z);
+      }
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  return ends;
+}
+
+/// W_B: what a small rotation of end B turns the section at z by.
+Matrix3 end_share(double z, const Vector3& psi) { return z * tangent(z * psi) * tangent_inverse(psi); }
+
+/// d(W_B^T n)/dpsi with n fixed:  W_B^T n = z T^-T(psi) p,   p = T(z psi)^T n.
+Matrix3 end_share_gradient(double z, const Vector3& psi, const Vector3& n) {
+  const Matrix3 T = tangent(z * psi);
+  Matrix3 p_gradient;
+  for (int j = 0; j < 3; ++j) p_gradient.col(j) = z * tangent_derivative(z * psi, Vector3::Unit(j)).transpose() * n;
+  return z * (inverse_transpose_gradient(psi, T.transpose() * n) + tangent_inverse(psi).transpose() * p_gradient);
+}
+
+}  // namespace
+
+DistributedLoad::DistributedLoad(std::string name, const BeamSpan& span, LineLoad load)
+    : Component("beam", std::move(name)), span_(span), load_(std::move(load)) {
+  const double L = span.chord.norm(), offset = 0.5 * std::sqrt(0.6);
+  const std::array<double, 3> place{0.5 - offset, 0.5, 0.5 + offset}, weight{5.0 / 18, 8.0 / 18, 5.0 / 18};
+  const std::vector<double> ends = pieces(load_, span);
+  for (std::size_t k = 0; k + 1 < ends.size(); ++k)
+    for (std::size_t g = 0; g < 3; ++g) {
+      const double part = ends[k + 1] - ends[k], z = ends[k] + part * place[g];
+      const Vector3 bubble = 0.5 * z * (1 - z) * span.chord;
+      points_.push_back({L * part * weight[g], z, {1 - z, z}, {span.R_A * bubble, -(span.R_B * bubble)}});
+    }
+}
+
+void DistributedLoad::declare(Declaration& declaration) const {
+  declaration.nodes = {span_.node_a, span_.node_b};
+  declaration.stiffness = true;
+}
+
+/// The section at a point: its axes and load.
+struct DistributedLoad::Section {
+  Vector3 psi;
+  Matrix3 S;                 ///< section axes -> inertial
+  std::array<Matrix3, 2> W;  ///< dTheta of the section from those of the section frames at the ends
+  Vector3 F, M;              ///< as given, with the load factor
+  Vector3 f, n;              ///< force (inertial) and moment about the line (section axes), per length
+};
+
+DistributedLoad::Section DistributedLoad::section(const LocalState& state, const Point& p) const {
+  Section at;
+  const Matrix3 S_A = state.node(0).R * span_.R_A, S_B = state.node(1).R * span_.R_B;
+  at.psi = log_so3(S_A.transpose() * S_B);
+  at.S = S_A * exp_so3(p.z * at.psi);
+  at.W = {end_share(1 - p.z, -at.psi), end_share(p.z, at.psi)};
+  const double s = span_.s_A + p.z * (span_.s_B - span_.s_A), factor = state.environment().load_factor;
+  at.F = factor * evaluate(load_.force, s, state.time());
+  at.M = factor * evaluate(load_.moment, s, state.time());
+  at.f = load_.follower ? Vector3(at.S * at.F) : at.F;
+  at.n = (load_.follower ? at.M : Vector3(at.S.transpose() * at.M)) + load_.at.cross(at.S.transpose() * at.f);
+  return at;
+}
+
+void DistributedLoad::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
+  const std::array<Matrix3, 2> R_S{span_.R_A, span_.R_B};
+  for (const Point& p : points_) {
+    const Section at = section(state, p);
+    for (std::size_t k = 0; k < 2; ++k) {
+      const auto x = static_cast<Eigen::Index>(6 * k);
+      r.segment<3>(x) -= p.w * p.N[k] * at.f;
+      r.segment<3>(x + 3) -= p.w * (p.a[k].cross(state.node(static_cast<int>(k)).R.transpose() * at.f) +
+                                    R_S[k] * at.W[k].transpose() * at.n);
+    }
+  }
+}
+
+// Columns dTheta_j, with  dTheta(z) = W_j R_Sj^T dTheta_j  and  dpsi = -T^-T R_SA^T dTheta_A + T^-1 R_SB^T dTheta_B:
+//   row x_i       -w N_i df                                                     df = -S F~ dTheta(z)  for followers,
+//   else 0 row Theta_i   -w [ a_i~ (R_i^T f)~ dTheta_i + a_i~ R_i^T df + R_Si (W_i^T dn + d(W_i^T n)/dpsi dpsi) ]
+//                                            dn = ((S^T M)~ + c~ (S^T F)~) dTheta(z)  for dead loads, else 0
+void DistributedLoad::add_tangent(const LocalState& state, LocalTangent& tangent) const {
+  if (!tangent.wants_K) return;
+  const std::array<Matrix3, 2> R_S{span_.R_A, span_.R_B};
+  for (const Point& p : points_) {
+    const Section at = section(state, p);
+    Matrix3 f_gradient = Matrix3::Zero(), n_gradient = Matrix3::Zero();
+    if (load_.follower)
+      f_gradient = -at.S * skew(at.F);
+    else
+      n_gradient = skew(at.S.transpose() * at.M) + skew(load_.at) * skew(at.S.transpose() * at.F);
+    const Matrix3 T_inverse = tangent_inverse(at.psi);
+    const std::array<Matrix3, 2> psi_gradient{-T_inverse.transpose(), T_inverse};
+    const std::array<Matrix3, 2> W_gradient{-end_share_gradient(1 - p.z, -at.psi, at.n),
+                                            end_share_gradient(p.z, at.psi, at.n)};
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto x_i = static_cast<Eigen::Index>(6 * i), Theta_i = x_i + 3;
+      const Matrix3& R_i = state.node(static_cast<int>(i)).R;
+      const Matrix3 a_i = skew(p.a[i]);
+      for (std::size_t j = 0; j < 2; ++j) {
+        const auto Theta_j = static_cast<Eigen::Index>(6 * j + 3);
+        const Matrix3 section_turn = at.W[j] * R_S[j].transpose();
+        tangent.K.block<3, 3>(x_i, Theta_j) -= p.w * p.N[i] * f_gradient * section_turn;
+        tangent.K.block<3, 3>(Theta_i, Theta_j) -=
+            p.w * (a_i * R_i.transpose() * f_gradient * section_turn +
+                   R_S[i] * (at.W[i].transpose() * n_gradient * at.W[j] + W_gradient[i] * psi_gradient[j]) *
+                       R_S[j].transpose());
+      }
+      tangent.K.block<3, 3>(Theta_i, Theta_i) -= p.w * a_i * skew(R_i.transpose() * at.f);
+    }
+  }
+}
+
+void DistributedLoad::add_energy(const LocalState& state, Energy& energy) const {
+  const std::array<Matrix3, 2> R_S{span_.R_A, span_.R_B};
+  for (const Point& p : points_) {
+    const Section at = section(state, p);
+    Vector3 v = Vector3::Zero(), Omega = Vector3::Zero();
+    for (std::size_t k = 0; k < 2; ++k) {
+      const NodeState& node = state.node(static_cast<int>(k));
+      v += p.N[k] * node.v + node.R * node.Omega.cross(p.a[k]);
+      Omega += at.W[k] * R_S[k].transpose() * node.Omega;
+    }
+    energy.input += p.w * (at.f.dot(v) + at.n.dot(Omega));
+  }
+}
+
+void DistributedLoad::add_break_points(std::vector<double>& times) const {
+  for (const auto* vector : {&load_.force, &load_.moment})
+    for (const Expression& component : *vector) {
+      const std::vector<double> own = component.break_points(in_time);
+      times.insert(times.end(), own.begin(), own.end());
+    }
+}
+
+namespace {
+
+std::array<Expression, 3> vector_along(const YamlValue& value) {
+  if (!value.is_sequence() || value.size() != 3)
+    value.fail("expected three components per length, numbers or expressions of s (0 to 1 along the beam) and t");
+  std::array<Expression, 3> vector;
+  for (std::size_t k = 0; k < 3; ++k) vector[k] = value.at(k).expression({"s", "t"});
+  return vector;
+}
+
+LineLoad read_line_load(const YamlValue& value) {
+  value.check_keys({"force", "moment", "at", "follower"}, "a distributed load");
+  const auto force = value.find("force"), moment = value.find("moment"), at = value.find("at"),
+             follower = value.find("follower");
+  if (!force && !moment) value.fail("a distributed load needs `force` or `moment`, per length");
+  LineLoad load;
+  if (force) load.force = vector_along(*force);
+  if (moment) load.moment = vector_along(*moment);
+  if (at) {
+    if (!force) at->fail("`at` is the point of the section where a `force` acts, and there is none");
+    const Eigen::VectorXd point = at->vector();
+    if (point.size() != 2) at->fail("expected the point [y, z] of the section, from the node line");
+    load.at = {0, point[0], point[1]};
+  }
+  load.follower = follower && follower->boolean();
+  return load;
+}
+
+}  // namespace
+
+std::vector<LineLoad> read_line_loads(const YamlValue& value) {
+  std::vector<LineLoad> loads;
+  if (!value.is_sequence()) return {read_line_load(value)};
+  for (const YamlValue& item : value.items()) loads.push_back(read_line_load(item));
+  return loads;
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,80 @@
+// A model from text at rest, solved by dense algebra: for tests of beams that compare shapes.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <Eigen/LU>
+
+#include "tests/support/dense_model.hpp"
+#include "tests/support/model_text.hpp"
+
+namespace bielle::test {
+
+/// Nodes `fixed: true` (and `ground`) are held; the other unknowns are free, but for those of `hold`.
+struct StaticModel {
+  std::unique_ptr<Model> model;
+  DenseModel dense;
+  State state;
+  std::vector<int> free;
+
+  explicit StaticModel(const std::string& yaml) : model(model_from_text(yaml)), dense(*model), state(dense.start()) {
+    for (int k = 0; k < dense.nodes(); ++k)
+      for (int d = 0; d < 6; ++d)
+        if (model->node(k).freedom[static_cast<std::size_t>(d)] == mechanism::Freedom::free) free.push_back(6 * k + d);
+  }
+  const mechanism::NodeState& node(const std::string& name) const {
+    return state.nodes[static_cast<std::size_t>(*model->find_node(name))];
+  }
+  /// Keeps only the given directions of each node (0..5: dx dy dz, rotations about the node's axes).
+  void keep_directions(const std::vector<int>& directions) {
+    const auto other = [&](int i) {
+      return std::find(directions.begin(), directions.end(), i % 6) == directions.end();
+    };
+    free.erase(std::remove_if(free.begin(), free.end(), other), free.end());
+  }
+  int unknown(const std::string& name, int direction) const { return 6 * *model->find_node(name) + direction; }
+  void hold(const std::string& name, int direction) { std::erase(free, unknown(name, direction)); }
+  mechanism::MatrixX stiffness() const { return dense.tangent(state, DenseModel::Part::K)(free, free); }
+
+  /// Sign of the determinant of the stiffness, which changes at a critical load.
+  int stiffness_sign() const {
+    const Eigen::PartialPivLU<mechanism::MatrixX> lu(stiffness());
+    int sign = lu.permutationP().determinant() > 0 ? 1 : -1;
+    for (const double pivot : lu.matrixLU().diagonal())
+      if (pivot < 0) sign = -sign;
+    return sign;
+  }
+
+  /// The load factor between `low` and `high` where the stiffness becomes singular, by bisection; the state follows.
+  double critical_load(double low, double high, double tolerance, double width) {
+    const auto sign_at = [&](double factor) {
+      if (load(1, tolerance, factor) < 0) throw std::runtime_error("no equilibrium at the load factor of a bisection");
+      return stiffness_sign();
+    };
+    const int sign = sign_at(low);
+    if (sign_at(high) == sign) throw std::runtime_error("no sign change of the determinant in the bracket");
+    while (high - low > width) {
+      const double middle = 0.5 * (low + high);
+      (sign_at(middle) == sign ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+  }
+
+  /// Goes to a load factor in equal steps from where it is. @returns the most iterations of a step; -1: none
+  int load(int steps, double tolerance, double factor = 1, double from = 0) {
+    int most = 0;
+    for (int k = 1; k <= steps; ++k) {
+      dense.environment.load_factor = from + (factor - from) * k / steps;
+      const int iterations = solve_static(dense, state, free, tolerance);
+      if (iterations < 0) return -1;
+      most = std::max(most, iterations);
+    }
+    return most;
+  }
+};
+
+}  // namespace bielle::test
