@@ -82,6 +82,18 @@ std::string describe_model(const MechanismFile& file) {
   return text;
 }
 
+/// What steps were refused or cut short; nothing about a motion that went without.
+std::string format_march(const MarchLog& log) {
+  std::string text;
+  if (log.steps > 0 && log.largest > log.smallest * (1 + 1e-6))
+    text += fmt::format("  steps from {:.3g} to {:.3g} s\n", log.smallest, log.largest);
+  if (log.refused_by_error > 0) text += fmt::format("  {} steps refused for their local error\n", log.refused_by_error);
+  if (log.refused_by_newton > 0)
+    text += fmt::format("  {} steps refused because they could not be solved; the last: {}\n", log.refused_by_newton,
+                        log.hardest);
+  return text;
+}
+
 std::string format_summary(const MechanismFile& file, const std::vector<AnalysisSummary>& summaries,
                            const std::vector<PhaseReport>& phases, const std::string& results_path) {
   std::string text = fmt::format("{}\n", file.model.title.empty() ? "mechanism" : file.model.title);
@@ -93,6 +105,7 @@ std::string format_summary(const MechanismFile& file, const std::vector<Analysis
     text +=
         fmt::format("  {} steps, {:.2f} Newton iterations per step, {} rows recorded, until t = {:.6g} s\n", s.steps,
                     static_cast<double>(s.iterations) / static_cast<double>(s.steps), s.records, s.end_time);
+    text += format_march(s.march);
     if (s.largest_energy > 0)
       text += fmt::format(
           "  energy at the end [J]: kinetic {:.6g}, elastic {:.6g}, gravity {:.6g}; input {:.6g}, dissipated {:.6g}\n"

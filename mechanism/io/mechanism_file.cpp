@@ -137,6 +137,24 @@ Scheme read_scheme(const YamlValue& entry, std::string& description) {
   return Scheme::newmark();
 }
 
+/// `step` alone: fixed steps. With `tolerance`: adaptive ones, of which `step` is the first.
+StepOptions read_stepping(const YamlValue& entry, double duration) {
+  StepOptions options;
+  if (entry.has("tolerance")) {
+    options.tolerance = entry.at("tolerance").positive_number();
+    if (options.tolerance >= 1)
+      entry.at("tolerance").fail("expected less than 1: it is relative to the mechanism's size");
+    options.size = entry.has("step") ? entry.at("step").positive_number() : 1e-4 * duration;
+    if (entry.has("largest_step")) options.largest = entry.at("largest_step").positive_number();
+    if (options.size > options.largest) entry.at("step").fail("is longer than the largest step");
+  } else {
+    options.size = entry.at("step").positive_number();
+    if (entry.has("largest_step")) entry.at("largest_step").fail("is for adaptive steps: give a `tolerance` as well");
+  }
+  if (options.size > duration) entry.at("step").fail("is longer than the duration");
+  return options;
+}
+
 Analysis read_analysis(const YamlValue& entry) {
   const std::vector<std::string> planned = {"kinematic", "eigen", "inverse_dynamics", "frequency_response",
                                             "state_space"};
@@ -155,11 +173,11 @@ Analysis read_analysis(const YamlValue& entry) {
     if (entry.has("steps")) analysis.steps = entry.at("steps").integer();
     if (analysis.steps < 1) entry.at("steps").fail("expected at least one load step");
   } else {
-    entry.check_keys({"type", "duration", "step", "scheme", "rho", "alpha"}, "the analysis 'dynamic'");
+    entry.check_keys({"type", "duration", "step", "tolerance", "largest_step", "scheme", "rho", "alpha"},
+                     "the analysis 'dynamic'");
     analysis.type = Analysis::Type::dynamics;
     analysis.duration = entry.at("duration").positive_number();
-    analysis.step = entry.at("step").positive_number();
-    if (analysis.step > analysis.duration) entry.at("step").fail("is longer than the duration");
+    analysis.stepping = read_stepping(entry, analysis.duration);
     analysis.scheme = read_scheme(entry, analysis.scheme_name);
   }
   return analysis;
@@ -186,9 +204,27 @@ void read_fields(const YamlValue& fields, Model& model) {
   }
 }
 
-OutputOptions read_output(const YamlValue& entry, Model& model) {
-  entry.check_keys({"every", "fields"}, "`output`");
+/// Times to record, ascending. @param end  of the last dynamic analysis [s]
+std::vector<double> read_times(const YamlValue& entry, double end) {
+  std::vector<double> times;
+  for (const YamlValue& item : entry.items()) {
+    const double time = item.number();
+    if (!(time >= 0 && time <= end * (1 + 1e-12)))
+      item.fail(fmt::format("the dynamic analyses run from t = 0 to {:.6g} s", end));
+    if (!times.empty() && time <= times.back()) item.fail("expected times in ascending order, each once");
+    times.push_back(time);
+  }
+  if (times.empty()) entry.fail("expected a list of times [s]");
+  return times;
+}
+
+OutputOptions read_output(const YamlValue& entry, double end, Model& model) {
+  entry.check_keys({"every", "times", "fields"}, "`output`");
   OutputOptions output;
+  if (entry.has("times")) {
+    if (entry.has("every")) entry.at("every").fail("either `every` or `times`, not both");
+    output.times = read_times(entry.at("times"), end);
+  }
   if (entry.has("every")) output.every = entry.at("every").integer();
   if (output.every < 1) entry.at("every").fail("expected at least 1");
   if (const auto fields = entry.find("fields")) read_fields(*fields, model);
@@ -216,7 +252,9 @@ MechanismFile read_mechanism(YamlValue root, const std::map<std::string, std::st
 
   if (const auto analyses = root.find("analysis"))
     for (const YamlValue& entry : analyses->items()) file.analyses.push_back(read_analysis(entry));
-  if (const auto output = root.find("output")) file.output = read_output(*output, file.model);
+  double end = 0;
+  for (const Analysis& analysis : file.analyses) end += analysis.duration;
+  if (const auto output = root.find("output")) file.output = read_output(*output, end, file.model);
   return file;
 }
 

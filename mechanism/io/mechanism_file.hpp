@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "mechanism/solvers/time_integration.hpp"
+#include "mechanism/solvers/march.hpp"
 #include "mechanism/system/model.hpp"
 
 namespace bielle::mechanism {
@@ -16,13 +16,15 @@ struct Analysis {
   std::string name;         ///< as in the file: "dynamic"
   int steps = 1;            ///< statics
   double duration = 0;      ///< [s] dynamics
-  double step = 0;          ///< [s]
+  StepOptions stepping;     ///< without break points
   Scheme scheme{};          ///< dynamics
   std::string scheme_name;  ///< for the summary
 };
 
 struct OutputOptions {
   int every = 1;  ///< steps between records; the first and the last are always recorded
+  /// [s], ascending: if any, dynamic analyses record their start and these times in place of steps.
+  std::vector<double> times;
 };
 
 struct MechanismFile {

@@ -1,5 +1,6 @@
 #include "mechanism/io/run_analyses.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <optional>
@@ -90,14 +91,27 @@ class Run {
     results_.record(state_, system_.slots(), environment, row);
   }
 
-  static long steps_of(const Analysis& dynamics) {
-    return std::max(1L, std::lround(std::ceil(dynamics.duration / dynamics.step * (1 - 1e-12))));
+  void record(const MarchStep& step, const EnergyBalance& books) {
+    StepRecord row;
+    row.energy = books.totals();
+    row.balance = books.balance();
+    row.step = step.report.size;
+    row.newton_iterations = step.report.iterations;
+    row.error_estimate = step.error;
+    results_.record(state_, system_.slots(), environment_, row);
   }
 
+  static long grid_steps(const Analysis& dynamics) {
+    return std::max(1L, std::lround(std::ceil(dynamics.duration / dynamics.stepping.size * (1 - 1e-12))));
+  }
+
+  /// 0: unknown.
   std::size_t expected_rows(const Analysis& analysis) const {
     if (analysis.type == Analysis::Type::assembly) return 1;
     if (analysis.type == Analysis::Type::statics) return static_cast<std::size_t>(analysis.steps) + 1;
-    return static_cast<std::size_t>(steps_of(analysis) / file_.output.every) + 2;  // and the first, and the last
+    if (!file_.output.times.empty()) return file_.output.times.size() + 1;
+    if (analysis.stepping.tolerance > 0) return 0;
+    return static_cast<std::size_t>(grid_steps(analysis) / file_.output.every) + 2;  // and the first, and the last
   }
 
   AnalysisSummary assemble(const Analysis& analysis) {
@@ -139,40 +153,65 @@ class Run {
     return summary;
   }
 
+  /// The analysis's steps with the kinks of the model, a whole number of fixed ones.
+  StepOptions stepping_of(const Analysis& analysis, double begin) {
+    StepOptions options = analysis.stepping;
+    for (const double time : system_.break_points())
+      if (time >= begin && time < begin + analysis.duration) options.break_points.push_back(time);
+    if (options.tolerance > 0) return options;
+    const long steps = grid_steps(analysis);
+    options.size = analysis.duration / static_cast<double>(steps);
+    if (std::abs(options.size - analysis.stepping.size) > 1e-9 * options.size)
+      progress_.note(fmt::format("step {:.6g} s in place of {:.6g} s, so that {} steps fill the duration", options.size,
+                                 analysis.stepping.size, steps));
+    if (static_cast<long>(options.break_points.size()) > steps) {
+      progress_.note(fmt::format("{} kinks (points of tables) in {} steps: steps do not end on them",
+                                 options.break_points.size(), steps));
+      options.break_points.clear();
+    }
+    return options;
+  }
+
   AnalysisSummary integrate(const Analysis& analysis) {
     AnalysisSummary summary;
     summary.name = fmt::format("dynamic, {}", analysis.scheme_name);
     const double begin = state_.time, end = begin + analysis.duration;
-    const long steps = steps_of(analysis);
-    const double h = analysis.duration / static_cast<double>(steps);
-    if (std::abs(h - analysis.step) > 1e-9 * h)
-      progress_.note(fmt::format("step {:.6g} s in place of {:.6g} s, so that {} steps fill the duration", h,
-                                 analysis.step, steps));
+    const StepOptions stepping = stepping_of(analysis, begin);
     TimeIntegration integration(system_, environment_, analysis.scheme, std::move(state_));
     summary.start = integration.start_report();
     state_ = integration.state();
     EnergyBalance books;
     books.start(begin, system_.energy(state_, environment_));
-    record(environment_, books, h, 0);
+    record(environment_, books, stepping.size, 0);
     summary.records = 1;
-    integration.start(h);
-    for (long k = 1; k <= steps; ++k) {
-      // Counted, not summed: the last step ends on the end.
-      const double target = k == steps ? end : begin + static_cast<double>(k) * h;
-      const StepReport report = integration.step(target - integration.state().time);
-      summary.iterations += report.iterations;
-      ++summary.steps;
-      books.advance(integration.state().time, system_.energy(integration.state(), environment_));
-      if (k % file_.output.every == 0 || k == steps) {
-        state_ = integration.state();
-        record(environment_, books, h, report.iterations);
+    const std::vector<double>& times = file_.output.times;
+    auto next_time = std::upper_bound(times.begin(), times.end(), begin);
+    long steps = 0;
+    const auto after_step = [&](const MarchStep& step) {
+      const State& now = integration.state();
+      const EnergyBalance before = books;
+      books.advance(now.time, system_.energy(now, environment_));
+      if (step.on_grid) ++steps;
+      if (!times.empty()) {
+        for (; next_time != times.end() && *next_time <= now.time; ++next_time) {
+          state_ = *next_time == now.time ? now : integration.interpolated(*next_time);
+          EnergyBalance then = before;
+          then.advance(*next_time, system_.energy(state_, environment_));
+          record(step, then);
+          ++summary.records;
+        }
+      } else if ((step.on_grid && steps % file_.output.every == 0) || now.time >= end) {
+        state_ = now;
+        record(step, books);
         ++summary.records;
       }
-      progress_.update(static_cast<double>(k) / static_cast<double>(steps),
-                       fmt::format("t = {:.4g} s", integration.state().time));
-      guard_.check(integration.state().time);
-    }
+      progress_.update((now.time - begin) / analysis.duration, fmt::format("t = {:.4g} s", now.time));
+      guard_.check(now.time);
+    };
+    summary.march = march(integration, end, stepping, after_step);
     state_ = integration.state();
+    summary.steps = summary.march.steps;
+    summary.iterations = summary.march.iterations;
     summary.end_time = state_.time;
     summary.energy = books.totals();
     summary.energy_start = books.energy_at_start();

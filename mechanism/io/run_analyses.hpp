@@ -15,6 +15,7 @@ struct AnalysisSummary {
   double end_time = 0;  ///< [s]
   long steps = 0;
   long iterations = 0;                 ///< linear solves
+  MarchLog march;                      ///< dynamics
   long records = 0;                    ///< rows written
   std::vector<std::string> redundant;  ///< constraints set aside
   StartReport start;                   ///< dynamics: what the consistent start had to change

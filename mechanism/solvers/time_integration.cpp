@@ -1,27 +1,19 @@
 #include "mechanism/solvers/time_integration.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
 #include "mechanism/solvers/redundancy.hpp"
 
 namespace bielle::mechanism {
+namespace {
 
-Scheme Scheme::generalized_alpha(double rho) {
-  if (!(rho >= 0 && rho <= 1)) throw InputError(fmt::format("rho = {} is outside of [0, 1]", rho));
-  Scheme s{(2 * rho - 1) / (rho + 1), rho / (rho + 1), 0, 0};
-  s.gamma = 0.5 + s.alpha_f - s.alpha_m;
-  s.beta = 0.25 * (s.gamma + 0.5) * (s.gamma + 0.5);
-  return s;
-}
+/// Distance from a kink at which its two sides are told apart in spite of rounding [s].
+double beside(double time, double h) { return 1e-12 * h + 8 * std::numeric_limits<double>::epsilon() * std::abs(time); }
 
-Scheme Scheme::hht(double alpha) {
-  if (!(alpha >= 0 && alpha <= 1.0 / 3)) throw InputError(fmt::format("alpha = {} is outside of [0, 1/3]", alpha));
-  return {0, alpha, 0.5 + alpha, 0.25 * (1 + alpha) * (1 + alpha)};
-}
-
-Scheme Scheme::newmark() { return {0, 0, 0.5, 0.25}; }
+}  // namespace
 
 TimeIntegration::TimeIntegration(const System& system, const Environment& environment, const Scheme& scheme,
                                  State state, const NewtonOptions& options)
@@ -34,15 +26,19 @@ TimeIntegration::TimeIntegration(const System& system, const Environment& enviro
       convergence_(system, options) {
   start_report_ = make_consistent(system_, environment_, state_);
   const int n = system.dofs();
-  for (VectorX* vector : {&v_, &a_, &A_, &dq_, &v_new_, &a_new_, &A_new_}) vector->setZero(n);
+  for (VectorX* vector : {&v_, &a_, &dq_, &v_new_, &a_new_, &j_, &last_dq_}) vector->setZero(n);
   r_.setZero(system.size());
   delta_.setZero(system.size());
+  take_rates();
+  system_.accept(state_, environment_);
+  next_ = state_;
+}
+
+void TimeIntegration::take_rates() {
   system_.get_rates(state_, v_, a_);
   A_ = a_;
   Y_ = state_.first_order_rate;
-  Y_new_ = Y_;
-  system_.accept(state_, environment_);
-  next_ = state_;
+  Y_rate_.resize(0);
 }
 
 VectorX TimeIntegration::acceleration_rate(double h) {
@@ -65,14 +61,18 @@ VectorX TimeIntegration::acceleration_rate(double h) {
 }
 
 bool TimeIntegration::resolved(const VectorX& j, double h) const {
-  std::array<double, kind_count> acceleration{}, change{};
+  // Per kind: the accelerations change by less than themselves, or the velocities by little where accelerations happen
+  // to vanish (an oscillator on its way through the middle: h^2 j / v = (omega h)^2).
+  constexpr double little = 0.01;
+  std::array<double, kind_count> velocity{}, acceleration{}, rate{};
   for (int i = 0; i < system_.dofs(); ++i) {
     const auto kind = static_cast<std::size_t>(system_.kind(i));
+    velocity[kind] = std::max(velocity[kind], std::abs(v_[i]));
     acceleration[kind] = std::max(acceleration[kind], std::abs(a_[i]));
-    change[kind] = std::max(change[kind], std::abs(h * j[i]));
+    rate[kind] = std::max(rate[kind], std::abs(j[i]));
   }
   for (std::size_t kind = 0; kind < kind_count; ++kind)
-    if (change[kind] > acceleration[kind]) return false;
+    if (h * rate[kind] > acceleration[kind] && h * h * rate[kind] > little * velocity[kind]) return false;
   return true;
 }
 
@@ -100,16 +100,63 @@ void TimeIntegration::perturb_velocity(const VectorX& j, double factor) {
 }
 
 void TimeIntegration::start(double h) {
-  const VectorX j = acceleration_rate(h);
+  h_ = h;
+  j_ = acceleration_rate(h);
   // The corrections are terms of a series in h. Where the accelerations change by their own size within a step (stiff
   // bodies set off suddenly), they would add what the scheme then has to damp.
-  if (!resolved(j, h)) return;
-  A_ = a_ + scheme_.delta() * h * j;
-  perturb_velocity(j, h * h);
+  if (!resolved(j_, h)) return;
+  A_ = a_ + scheme_.delta() * h * j_;
+  perturb_velocity(j_, h * h);
   system_.set_rates(state_, v_, a_);
 }
 
-StepReport TimeIntegration::step(double h) {
+void TimeIntegration::change_step(double h) {
+  // Sizes that differ by rounding are the same.
+  if (std::abs(h - h_) <= 1e-9 * h_) return;
+  if (resolved(j_, std::max(h, h_))) {
+    A_ += scheme_.delta() * (h - h_) * j_;
+    perturb_velocity(j_, h * h - h_ * h_);
+    system_.set_rates(state_, v_, a_);
+  }
+  h_ = h;
+}
+
+void TimeIntegration::restart(double h) {
+  const double time = state_.time;
+  state_.time += beside(time, h);
+  StartReport unused;
+  make_velocities_consistent(system_, environment_, state_, unused);
+  make_accelerations_consistent(system_, environment_, state_);
+  take_rates();
+  start(h);
+  state_.time = time;
+}
+
+VectorX TimeIntegration::algorithmic_acceleration() const {
+  const auto& [alpha_m, alpha_f, gamma, beta] = scheme_;
+  return ((1 - alpha_f) * a_new_ + alpha_f * a_ - alpha_m * A_) / (1 - alpha_m);
+}
+
+VectorX TimeIntegration::algorithmic_rate() const {
+  const auto& [alpha_m, alpha_f, gamma, beta] = scheme_;
+  return ((1 - alpha_f) * next_.first_order_rate + alpha_f * state_.first_order_rate - alpha_m * Y_) / (1 - alpha_m);
+}
+
+void TimeIntegration::predict(double h, double end) {
+  const double gamma = scheme_.gamma, beta = scheme_.beta;
+  // The accelerations stay.
+  a_new_ = a_;
+  const VectorX A = algorithmic_acceleration();
+  dq_ = h * v_ + h * h * ((0.5 - beta) * A_ + beta * A);
+  v_new_ = v_ + h * ((1 - gamma) * A_ + gamma * A);
+  next_.time = end;
+  next_.multiplier = state_.multiplier;
+  next_.memory = state_.memory;
+  next_.first_order_rate = state_.first_order_rate;
+  next_.first_order = state_.first_order + h * ((1 - gamma) * Y_ + gamma * algorithmic_rate());
+}
+
+StepReport TimeIntegration::attempt(double h, double end, bool kink) {
   const auto [alpha_m, alpha_f, gamma, beta] = scheme_;
   const double rate_factor = gamma / (beta * h);                                      // gamma'
   const double acceleration_factor = (1 - alpha_m) / ((1 - alpha_f) * beta * h * h);  // beta'
@@ -117,50 +164,115 @@ StepReport TimeIntegration::step(double h) {
   const TangentWeights weights{1, rate_factor, acceleration_factor, first_order_factor, 1};
   const int n = system_.dofs(), y = system_.first_orders(), m = system_.multipliers();
 
-  // Predict: the accelerations stay.
-  a_new_ = a_;
-  A_new_ = ((1 - alpha_f) * a_new_ + alpha_f * a_ - alpha_m * A_) / (1 - alpha_m);
-  dq_ = h * v_ + h * h * ((0.5 - beta) * A_ + beta * A_new_);
-  v_new_ = v_ + h * ((1 - gamma) * A_ + gamma * A_new_);
-  next_.time = state_.time + h;
-  next_.multiplier = state_.multiplier;
-  next_.memory = state_.memory;
-  next_.first_order_rate = state_.first_order_rate;
-  Y_new_ = (next_.first_order_rate * (1 - alpha_f) + alpha_f * state_.first_order_rate - alpha_m * Y_) / (1 - alpha_m);
-  next_.first_order = state_.first_order + h * ((1 - gamma) * Y_ + gamma * Y_new_);
-
+  attempted_ = h;
+  end_ = end;
   StepReport report;
+  report.size = h;
   ResidualScale scale;
-  for (;; ++report.iterations) {
-    system_.displace(next_, state_, dq_);
-    system_.set_rates(next_, v_new_, a_new_);
-    system_.residual(next_, environment_, r_, &scale);
-    if (report.iterations > 0 && convergence_.reached(r_, scale)) break;
-    if (report.iterations == options_.iterations || !r_.allFinite()) {
-      convergence_.reached(r_, scale);
-      throw ComputationError(fmt::format("t = {:.6g} s: Newton did not converge in {} iterations; largest residual: {}",
-                                         next_.time, report.iterations, convergence_.worst()));
+  try {
+    predict(h, kink ? end - beside(end, h) : end);
+    for (;; ++report.iterations) {
+      system_.displace(next_, state_, dq_);
+      system_.set_rates(next_, v_new_, a_new_);
+      system_.residual(next_, environment_, r_, &scale);
+      const bool reached = report.iterations > 0 && convergence_.reached(r_, scale);
+      report.worst_ratio = convergence_.worst_ratio();
+      if (reached) return report;
+      if (report.iterations == options_.iterations || !r_.allFinite()) {
+        convergence_.reached(r_, scale);
+        report.refusal = fmt::format("t = {:.6g} s: Newton did not converge in {} iterations; largest residual: {}",
+                                     next_.time, report.iterations, convergence_.worst());
+        return report;
+      }
+      linear_.factor(next_, environment_, weights, &dq_);
+      if (report.iterations == 0) convergence_.measure_rounding(linear_, next_);
+      linear_.solve(r_, delta_);
+      dq_ += delta_.head(n);
+      v_new_ += rate_factor * delta_.head(n);
+      a_new_ += acceleration_factor * delta_.head(n);
+      next_.first_order += delta_.segment(n, y);
+      next_.first_order_rate += first_order_factor * delta_.segment(n, y);
+      next_.multiplier += delta_.tail(m);
     }
-    linear_.factor(next_, environment_, weights, &dq_);
-    if (report.iterations == 0) convergence_.measure_rounding(linear_, next_);
-    linear_.solve(r_, delta_);
-    dq_ += delta_.head(n);
-    v_new_ += rate_factor * delta_.head(n);
-    a_new_ += acceleration_factor * delta_.head(n);
-    next_.first_order += delta_.segment(n, y);
-    next_.first_order_rate += first_order_factor * delta_.segment(n, y);
-    next_.multiplier += delta_.tail(m);
+  } catch (const ComputationError& error) {
+    // A component refuses what it was asked for (a beam whose ends turn too far), or the equations are singular. Nearer
+    // to the last state that may not be so.
+    report.refusal = error.what();
   }
-  report.worst_ratio = convergence_.worst_ratio();
-  check_set_aside(system_, environment_, next_);
+  return report;
+}
 
-  A_ = ((1 - alpha_f) * a_new_ + alpha_f * a_ - alpha_m * A_) / (1 - alpha_m);
-  Y_ = ((1 - alpha_f) * next_.first_order_rate + alpha_f * state_.first_order_rate - alpha_m * Y_) / (1 - alpha_m);
+void TimeIntegration::accept() {
+  check_set_aside(system_, environment_, next_);
+  const VectorX A = algorithmic_acceleration(), Y = algorithmic_rate();
+  j_ = (A - A_) / attempted_;
+  Y_rate_ = (Y - Y_) / attempted_;
+  A_ = A;
+  Y_ = Y;
   v_ = v_new_;
   a_ = a_new_;
+  last_dq_ = dq_;
+  h_ = attempted_;
   system_.accept(next_, environment_);
+  next_.time = end_;
   std::swap(state_, next_);
+}
+
+StepReport TimeIntegration::step(double h) {
+  const StepReport report = attempt(h);
+  if (!report.converged()) throw ComputationError(report.refusal);
+  accept();
   return report;
+}
+
+State TimeIntegration::interpolated(double time) const {
+  const State &before = next_, &after = state_;
+  const double h = after.time - before.time, s = (time - before.time) / h;
+  // Cubic polynomials in the chart of the step, from the values and rates at its ends.
+  const double f0 = s * (1 - s) * (1 - s), f1 = s * s * (3 - 2 * s), f2 = s * s * (s - 1);
+  const double d0 = (1 - s) * (1 - 3 * s), d1 = 6 * s * (1 - s), d2 = s * (3 * s - 2);
+  VectorX v_before(system_.dofs()), a_before(system_.dofs());
+  system_.get_rates(before, v_before, a_before);
+  VectorX end_rate = v_;
+  const auto rotations = [&](const auto& act) {
+    for (std::size_t i = 0; i < before.nodes.size(); ++i) {
+      const NodeFreedom& f = system_.kinematics().freedom(static_cast<int>(i));
+      if (f.rotations == 3) act(f.begin + f.count - 3);
+    }
+  };
+  rotations([&](int k) { end_rate.segment<3>(k) = tangent_inverse(last_dq_.segment<3>(k)) * v_.segment<3>(k); });
+  const VectorX dq = f0 * h * v_before + f1 * last_dq_ + f2 * h * end_rate;
+  VectorX v = d0 * v_before + d1 / h * last_dq_ + d2 * end_rate;
+  rotations([&](int k) { v.segment<3>(k) = tangent(dq.segment<3>(k)) * Vector3(v.segment<3>(k)); });
+
+  State state = before;
+  state.time = time;
+  system_.displace(state, before, dq);
+  system_.set_rates(state, v, (1 - s) * a_before + s * a_);
+  state.first_order = before.first_order + f0 * h * before.first_order_rate +
+                      f1 * (after.first_order - before.first_order) + f2 * h * after.first_order_rate;
+  state.first_order_rate = (1 - s) * before.first_order_rate + s * after.first_order_rate;
+  state.multiplier = (1 - s) * before.multiplier + s * after.multiplier;
+  return state;
+}
+
+VectorX TimeIntegration::position_error() const {
+  const double h = attempted_;
+  VectorX error = scheme_.position_error() * h * h * (algorithmic_acceleration() - A_);
+  for (std::size_t i = 0; i < next_.nodes.size(); ++i) {
+    const NodeFreedom& f = system_.kinematics().freedom(static_cast<int>(i));
+    if (f.rotations == 3)
+      error.segment<3>(f.begin + f.count - 3) += h * h * h / 12 * next_.nodes[i].Omega.cross(next_.nodes[i].Omegadot);
+  }
+  return error;
+}
+
+VectorX TimeIntegration::first_order_error() const {
+  const double h = attempted_;
+  if (Y_rate_.size() == 0) return VectorX::Zero(system_.first_orders());
+  const VectorX rate = (algorithmic_rate() - Y_) / h;
+  // The two rates stand at the middles of the two steps.
+  return scheme_.velocity_error() * h * h * h * (rate - Y_rate_) / (0.5 * (h + h_));
 }
 
 }  // namespace bielle::mechanism

@@ -11,36 +11,27 @@
 // values
 //   A_0 = a_0 + delta h j,   v_0 <- v_0 + h^2 w,   [M B^T; B 0][w; mu] = [0; B c],   c = C_q j + [0; Omega x
 //   Omegadot]/12,
-// delta = alpha_m - alpha_f, C_q = -(1 + 3 delta^2)/12, j the rate of the consistent acceleration.
+// delta = alpha_m - alpha_f, C_q = -(1 + 3 delta^2)/12, j the rate of the consistent acceleration. Across a change of
+// the step from h to h' likewise: A_n += delta (h' - h) j, v_n += (h'^2 - h^2) w, j = (A_n - A_{n-1})/h.
 //
 // O. Bruls, A. Cardona, M. Arnold, Mech. Mach. Theory 48 (2012) 121; M. Arnold, O. Bruls, A. Cardona, Numer. Math. 129
 // (2015) 149 (order of the multipliers).
 #pragma once
 
-#include <functional>
 #include <string>
 
 #include "mechanism/solvers/consistent_start.hpp"
+#include "mechanism/solvers/scheme.hpp"
 
 namespace bielle::mechanism {
 
-/// Constants of a member of the family.
-struct Scheme {
-  double alpha_m, alpha_f, gamma, beta;
-
-  /// @param rho  spectral radius at infinite frequency, in [0, 1]: 0 annihilates, 1 keeps
-  static Scheme generalized_alpha(double rho);
-  /// @param alpha  in [0, 1/3]: 0 is Newmark's trapezoidal rule
-  static Scheme hht(double alpha);
-  /// gamma = 1/2, beta = 1/4: weakly unstable with constraints at every step size
-  static Scheme newmark();
-  double delta() const { return alpha_m - alpha_f; }
-};
-
 /// What a step did.
 struct StepReport {
+  double size = 0;         ///< h [s]
   int iterations = 0;      ///< linear solves of Newton's method
   double worst_ratio = 0;  ///< residual over tolerance at the end
+  std::string refusal;     ///< why the step failed; empty when it did not
+  bool converged() const { return refusal.empty(); }
 };
 
 class TimeIntegration {
@@ -51,16 +42,43 @@ class TimeIntegration {
 
   /// Sets the algorithmic start values for steps of size h. Call once before the first step.
   void start(double h);
-  /// Advances by h. The size may change between steps. @throws ComputationError naming time and equation
+  /// Tries a step. The motion stays where it is until `accept`; what went wrong is in the report.
+  /// @param end   the time at its end: state().time + h but for rounding [s]
+  /// @param kink  forces may jump at the end: the step sees those of just before
+  StepReport attempt(double h, double end, bool kink = false);
+  StepReport attempt(double h) { return attempt(h, state_.time + h); }
+  /// Makes the attempted step the motion's last. @throws ComputationError when a constraint that was set aside as
+  /// redundant contradicts the others
+  void accept();
+  /// Both, for a step that has to succeed. @throws ComputationError naming time and equation
   StepReport step(double h);
 
+  /// The next attempts will be of size h: renews the algorithmic values that belong to a step size.
+  void change_step(double h);
+  /// Forces have jumped at this time: velocities, accelerations and multipliers are those of just after.
+  void restart(double h);
+
+  const System& system() const { return system_; }
+  const Environment& environment() const { return environment_; }
   const State& state() const { return state_; }
+  const State& previous() const { return next_; }  ///< before the last accepted step
+  /// Between the previous and the last accepted step, to the order of the scheme.
+  /// @param time  within the last step [s]
+  State interpolated(double time) const;
+  /// Local error of the attempted step: of the dofs (dofs), exact minus computed.
+  VectorX position_error() const;
+  /// The same of the first-order unknowns (first_orders); zero in the first step.
+  VectorX first_order_error() const;
   const StartReport& start_report() const { return start_report_; }
 
  private:
+  void take_rates();                                ///< of the state, as algorithmic values
   VectorX acceleration_rate(double h);              ///< j
   bool resolved(const VectorX& j, double h) const;  ///< accelerations change little within a step
   void perturb_velocity(const VectorX& j, double factor);
+  void predict(double h, double end);
+  VectorX algorithmic_acceleration() const;  ///< A_{n+1} of the attempt
+  VectorX algorithmic_rate() const;          ///< Y_{n+1}
 
   const System& system_;
   Environment environment_;
@@ -70,9 +88,15 @@ class TimeIntegration {
   LinearStep linear_;
   NewtonOptions options_;
   Convergence convergence_;
-  VectorX v_, a_, A_;  ///< of the dofs at the last accepted time
-  VectorX Y_;          ///< algorithmic rates of the first-order unknowns
-  VectorX dq_, v_new_, a_new_, A_new_, Y_new_, r_, delta_;
+  double end_ = 0;        ///< of the last attempt [s]
+  double h_ = 0;          ///< the step size that v_ and A_ belong to
+  double attempted_ = 0;  ///< size of the last attempt
+  VectorX v_, a_, A_;     ///< of the dofs at the last accepted time
+  VectorX j_;             ///< rate of A over the last accepted step
+  VectorX Y_;             ///< algorithmic rates of the first-order unknowns
+  VectorX Y_rate_;        ///< and their rate over the last accepted step; empty in the first
+  VectorX dq_, v_new_, a_new_, r_, delta_;
+  VectorX last_dq_;  ///< of the last accepted step
 };
 
 }  // namespace bielle::mechanism

@@ -258,6 +258,18 @@ void System::constraint_rates(const State& state, const Environment& environment
   }
 }
 
+std::vector<double> System::break_points() const {
+  std::vector<double> times;
+  for (const Member& member : model_.members()) member.component->add_break_points(times);
+  for (const Node& node : model_.nodes())
+    for (std::size_t k = 0; k < 6; ++k)
+      if (node.freedom[k] == Freedom::prescribed)
+        for (const double time : node.motion[k].break_points()) times.push_back(time);
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
+
 void System::accept(State& state, const Environment& environment) const {
   VectorX memory = state.memory;
   for (std::size_t m = 0; m < slots_.size(); ++m)

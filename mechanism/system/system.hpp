@@ -78,6 +78,8 @@ class System {
                         Eigen::Ref<VectorX> acceleration) const;
   /// Sums of the components, and the power of the supports that move nodes.
   Energy energy(const State& state, const Environment& environment) const;
+  /// Times at which forces or prescribed motions have kinks, ascending, each once.
+  std::vector<double> break_points() const;
   /// Ends a converged step: components renew their memory; rotation matrices are made orthonormal again.
   void accept(State& state, const Environment& environment) const;
 

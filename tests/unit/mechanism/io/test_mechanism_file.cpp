@@ -47,3 +47,18 @@ TEST_CASE("velocities of what is held are refused, not forgotten") {
   CHECK(refusal("  a: {velocity: [1, 0, 0], angular_velocity: [0, 0, 2], fixed: [y, z, rx, ry]}") ==
         "(nothing thrown)");
 }
+
+TEST_CASE("steps and times that mean nothing are refused where they stand") {
+  const auto dynamic = [](const std::string& keys, const std::string& output = "") {
+    return refusal("  a: {}", "analysis: [{type: dynamic, duration: 2, " + keys + "}]\n" + output);
+  };
+  CHECK_THAT(dynamic("step: 3"), Contains("analysis[1].step") && Contains("longer than the duration"));
+  CHECK_THAT(dynamic("step: 1, tolerance: 2"), Contains("tolerance") && Contains("less than 1"));
+  CHECK_THAT(dynamic("step: 1, tolerance: 0"), Contains("tolerance"));
+  CHECK_THAT(dynamic("step: 1, largest_step: 1"), Contains("largest_step") && Contains("`tolerance`"));
+  CHECK_THAT(dynamic("step: 1, tolerance: 1e-4, largest_step: 0.1"), Contains("step") && Contains("largest step"));
+  CHECK_THAT(dynamic("tolerance: 1e-4", "output: {times: [1, 0.5]}"), Contains("times[2]") && Contains("ascending"));
+  CHECK_THAT(dynamic("tolerance: 1e-4", "output: {times: [2.5]}"), Contains("times[1]") && Contains("2 s"));
+  CHECK_THAT(dynamic("tolerance: 1e-4", "output: {times: [1], every: 2}"), Contains("every") && Contains("not both"));
+  CHECK(dynamic("tolerance: 1e-4", "output: {times: [0, 2]}") == "(nothing thrown)");
+}

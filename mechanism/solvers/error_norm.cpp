@@ -1,0 +1,49 @@
+#include "mechanism/solvers/error_norm.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mechanism/solvers/model_length.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+/// Diagonal of the box around all nodes but the ground, which stands at the origin wherever the mechanism is.
+double extent(const State& state) {
+  Eigen::AlignedBox3d box;
+  for (std::size_t i = 1; i < state.nodes.size(); ++i) box.extend(state.nodes[i].x);
+  const double length = state.nodes.size() > 1 ? box.diagonal().norm() : 0;
+  return length > 0 ? length : model_length(state);
+}
+
+}  // namespace
+
+ErrorNorm::ErrorNorm(const System& system, const Environment& environment, const State& state)
+    : system_(system), length_(extent(state)), largest_first_order_(state.first_order.cwiseAbs()) {
+  std::vector<double> values;
+  system.tangent(state, environment, TangentWeights{0, 0, 1, 0, 0}, nullptr, values);
+  mass_.setZero(system.dofs());
+  for (int i = 0; i < system.dofs(); ++i) {
+    const int place = system.pattern().find(i, i);
+    if (place >= 0) mass_[i] = std::abs(values[static_cast<std::size_t>(place)]);
+    if (system.kind(i) == Kind::translation) mass_sum_ += mass_[i] / 3;
+    if (system.kind(i) == Kind::rotation) inertia_sum_ += mass_[i] / 3;
+  }
+}
+
+double ErrorNorm::operator()(const TimeIntegration& integration) {
+  const VectorX e = integration.position_error();
+  double displacement = 0, rotation = 0;
+  for (int i = 0; i < system_.dofs(); ++i)
+    (system_.kind(i) == Kind::rotation ? rotation : displacement) += mass_[i] * e[i] * e[i];
+  double error = 0;
+  if (mass_sum_ > 0) error = std::max(error, std::sqrt(displacement / mass_sum_) / length_);
+  if (inertia_sum_ > 0) error = std::max(error, std::sqrt(rotation / inertia_sum_));
+  const VectorX e_y = integration.first_order_error();
+  largest_first_order_ = largest_first_order_.cwiseMax(integration.state().first_order.cwiseAbs());
+  for (Eigen::Index i = 0; i < e_y.size(); ++i)
+    if (largest_first_order_[i] > 0) error = std::max(error, std::abs(e_y[i]) / largest_first_order_[i]);
+  return error;
+}
+
+}  // namespace bielle::mechanism

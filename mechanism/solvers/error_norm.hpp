@@ -1,0 +1,27 @@
+// How large the local error of a step is beside the mechanism: a number that does not depend on units.
+//
+//   error = max( sqrt(sum m_i e_i^2 / M) / L,  sqrt(sum J_i e_i^2 / J),  |e_y| / |y| )
+// e the errors of displacements and amplitudes, of rotations, and of first-order unknowns; m and J the diagonal of the
+// mass matrix, M and J their means over directions, so that a common displacement d gives |d|/L and a common turn its
+// angle; L the extent of the mechanism; |y| the largest value that each first-order unknown has had.
+#pragma once
+
+#include "mechanism/solvers/time_integration.hpp"
+
+namespace bielle::mechanism {
+
+class ErrorNorm {
+ public:
+  ErrorNorm(const System& system, const Environment& environment, const State& state);
+  /// @param integration  with an attempted step. @returns [-]
+  double operator()(const TimeIntegration& integration);
+
+ private:
+  const System& system_;
+  VectorX mass_;                           ///< diagonal of the mass matrix (dofs)
+  double mass_sum_ = 0, inertia_sum_ = 0;  ///< of the means over directions
+  double length_ = 1;
+  VectorX largest_first_order_;
+};
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,54 @@
+// The order of the index-3 scheme across changes of the step: without the correction of v and A at a change,
+// multipliers are of first order in the steps that follow (formula in time_integration.hpp).
+#include <catch2/catch.hpp>
+
+#include "tests/order/heavy_top.hpp"
+#include "tests/support/run_model.hpp"
+
+using namespace bielle::mechanism;
+using bielle::test::EulerPoinsot;
+using bielle::test::ReadyModel;
+
+namespace {
+
+struct Errors {
+  double x = 0, lambda = 0;
+};
+
+/// Largest errors in the 0.1 s after the step changed from h to `factor` h at t = 0.1 s.
+Errors errors_after_change(double h, double factor) {
+  const ReadyModel model(bielle::test::heavy_top);
+  TimeIntegration integration(model.system, model.environment(), Scheme::generalized_alpha(0.8), model.system.start(0));
+  EulerPoinsot reference;
+  Errors errors;
+  integration.start(h);
+  for (int k = 0; k < std::lround(0.1 / h); ++k) {
+    integration.step(h);
+    reference.advance(h, 20);
+  }
+  integration.change_step(factor * h);
+  for (int k = 0; k < std::lround(0.1 / (factor * h)); ++k) {
+    integration.step(factor * h);
+    reference.advance(factor * h, 20);
+    errors.lambda = std::max(errors.lambda, (-integration.state().multiplier - reference.force()).norm());
+    errors.x = std::max(errors.x, (model.node(integration.state(), "top").x - reference.centre()).norm());
+  }
+  return errors;
+}
+
+}  // namespace
+
+TEST_CASE("positions and multipliers stay second order in the transient after the step is halved or doubled") {
+  for (const double factor : {0.5, 2.0}) {
+    double h = 5e-4;
+    Errors coarse = errors_after_change(h, factor);
+    for (int halving = 0; halving < 4; ++halving) {
+      h /= 2;
+      const Errors fine = errors_after_change(h, factor);
+      INFO("factor " << factor << ", h = " << h << ": lambda " << coarse.lambda << " -> " << fine.lambda);
+      CHECK(std::log2(coarse.x / fine.x) == Approx(2).margin(0.1));
+      CHECK(std::log2(coarse.lambda / fine.lambda) == Approx(2).margin(0.15));
+      coarse = fine;
+    }
+  }
+}
