@@ -173,16 +173,19 @@ void add_geometric_stiffness(const Solid& solid, const NodeGraph& graph, const R
     const CellRule<N>& rule = rules.of(x);
     const Eigen::Matrix<double, 6, 6>& elasticity = solid.materials[solid.material_of[e]].elasticity;
     std::vector<Eigen::Matrix<double, N, N>> sums(g.size(), Eigen::Matrix<double, N, N>::Zero());
+    std::vector<Eigen::Matrix<double, 3, N>> u(g.size());
+    for (int a = 0; a < N; ++a) {
+      const double* rows = &fields.coeffRef(3 * solid.nodes(a, e), 0);
+      for (std::size_t f = 0; f < g.size(); ++f) {
+        u[f].col(a) << rows[f], rows[f + fields.cols()], rows[f + 2 * fields.cols()];
+      }
+    }
     Eigen::Matrix<double, N, 3> gradients;
-    Eigen::Matrix<double, 3, N> u;
     for (std::size_t p = 0; p < rule.size(); ++p) {
       const double volume = map_point<N>(rule, p, x, gradients);
       for (std::size_t f = 0; f < g.size(); ++f) {
-        for (int a = 0; a < N; ++a) {
-          u.col(a) = fields.block<3, 1>(3 * solid.nodes(a, e), static_cast<Eigen::Index>(f));
-        }
-        const Eigen::Matrix3d stress = tensor_of(Eigen::Matrix<double, 6, 1>(elasticity * strain_of(u * gradients)));
-        sums[f].noalias() += volume * gradients * stress * gradients.transpose();
+        const Eigen::Matrix3d stress = tensor_of(Vector6(elasticity * strain_of(u[f] * gradients)));
+        sums[f].noalias() += (volume * gradients * stress) * gradients.transpose();
       }
     }
     for (std::size_t f = 0; f < g.size(); ++f) {

@@ -31,7 +31,7 @@ MassProperties properties_of(const Superelement& body) {
 
 void add_stiffness_checks(const Superelement& body, std::vector<Check>& checks) {
   const Eigen::MatrixXd u = rigid_coordinates(body, body.centre);
-  checks.push_back({"rigid_motion_force", relative_force(body.stiffness, u), 1e-12,
+  checks.push_back({"rigid_motion_force", relative_force(body.stiffness, body.mass, u), 1e-12,
                     "rigid motions meet no force: |K~ U| in units of its terms"});
   // In coordinates of unit mass, so that amplitudes and displacements compare.
   const Eigen::VectorXd scale = body.mass.diagonal().cwiseSqrt().cwiseInverse();
@@ -115,19 +115,20 @@ void add_geometric_checks(const Superelement& body, std::vector<Check>& checks) 
 
 }  // namespace
 
-double relative_force(const Eigen::MatrixXd& k, const Eigen::MatrixXd& u) {
-  const Eigen::VectorXd root = k.diagonal().cwiseMax(0).cwiseSqrt();
-  const double largest = root.maxCoeff();
-  const Eigen::VectorXd row_scale = root.cwiseMax(1e-8 * largest);
-  const Eigen::RowVectorXd scale = root.transpose() * u.cwiseAbs();
-  const Eigen::MatrixXd forces = row_scale.cwiseInverse().asDiagonal() * (k * u);
-  double worst = 0;
-  for (Eigen::Index c = 0; c < u.cols(); ++c) {
-    if (scale(c) > 0) {
-      worst = std::max(worst, forces.col(c).cwiseAbs().maxCoeff() / scale(c));
-    }
+double relative_force(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass, const Eigen::MatrixXd& motions) {
+  // In coordinates of unit mass, so that amplitudes, displacements and angles compare.
+  const Eigen::VectorXd unit = mass.diagonal().cwiseSqrt();
+  const Eigen::MatrixXd k = unit.cwiseInverse().asDiagonal() * stiffness * unit.cwiseInverse().asDiagonal();
+  const Eigen::MatrixXd u = unit.asDiagonal() * motions;
+  Eigen::VectorXd root = k.diagonal().cwiseMax(0).cwiseSqrt();
+  if (root.maxCoeff() == 0) {
+    return k.cwiseAbs().maxCoeff();
   }
-  return worst;
+  const double largest = root.maxCoeff();
+  root = Eigen::VectorXd(root.cwiseMax(1e-8 * largest));  // a direction may meet no stiffness at all
+  const Eigen::MatrixXd forces = root.cwiseInverse().asDiagonal() * (k * u);
+  return (forces.cwiseAbs().colwise().maxCoeff().array() / (largest * u.cwiseAbs().colwise().maxCoeff()).array())
+      .maxCoeff();
 }
 
 ReducedMassProperties reduced_mass_properties(const Superelement& body) {

@@ -40,7 +40,11 @@ ReducedStiffness reduce_stiffness(const SymmetricMatrix& stiffness, const Basis&
                                rigid * nearest_rigid_motion(interfaces, body.centre, radius_of_gyration(body));
   const Eigen::MatrixXd elastic = rest.transpose() * boundary * rest;
   result.matrix.topLeftCorner(kept, kept) = (elastic + elastic.transpose()) / 2;
-  result.rigid_force = kept > 6 ? relative_force(boundary, rigid) : 0;  // six directions have nothing to compare with
+  if (kept > rigid.cols()) {
+    result.rigid_force = relative_force(boundary, mass.topLeftCorner(kept, kept), rigid);
+  } else {
+    result.matrix.topLeftCorner(kept, kept).setZero();  // six directions move the body rigidly, and no rounding is left
+  }
   result.matrix.bottomRightCorner(modes, modes) = basis.eigenvalues.asDiagonal();
   for (Eigen::Index k = 0; k < modes; ++k) {
     const double omega2 = basis.eigenvalues(k);

@@ -155,10 +155,6 @@ Eigenpairs arpack_eigenpairs(const ShiftInvertProblem& problem, int count, const
   return pairs;
 }
 
-}  // namespace
-
-namespace {
-
 /// A Krylov space grown from one vector holds one vector of each eigenspace but for rounding: of a multiple eigenvalue
 /// (symmetric bodies) a copy may be missed while others beyond it converge. A search with the found pairs kept out
 /// shows what was missed; what is better than the worst found takes its place.
@@ -200,8 +196,14 @@ void add_missed_copies(const ShiftInvertProblem& problem, const EigenpairOptions
 }  // namespace
 
 Eigenpairs shift_invert_eigenpairs(const ShiftInvertProblem& problem, int count, const EigenpairOptions& options) {
-  constexpr Eigen::Index dense_size = 60;  // below which ARPACK's vectors would fill the space anyway
-  const bool dense = problem.size <= dense_size || 2 * static_cast<Eigen::Index>(count) + 10 > problem.size;
+  // Below the first size ARPACK's vectors would fill the space anyway; above the second dense matrices cost too much.
+  constexpr Eigen::Index small = 60, large = 3000;
+  const Eigen::Index n = problem.size;
+  if (n > large && count >= n) {
+    throw ComputationError(
+        fmt::format("all {} eigenpairs of a problem of that size cannot be computed; ask for fewer", n));
+  }
+  const bool dense = n <= small || (n <= large && 2 * static_cast<Eigen::Index>(count) + 10 > n);
   Eigenpairs pairs = dense ? dense_eigenpairs(problem, count) : arpack_eigenpairs(problem, count, options, {}, 1);
   if (!dense) add_missed_copies(problem, options, pairs);
   put_in_order(pairs);

@@ -78,6 +78,20 @@ TEST_CASE("The held body is in equilibrium under any load, with its conditions m
   CHECK((g.transpose() * held.solve(f) - held.solve(g).transpose() * f).norm() < 1e-9 * forth);
 }
 
+TEST_CASE("A held average gets the force that its surface passes on, and works by it") {
+  const Model model(test::twisted_block(),
+                    {test::interface("a", "x0", Tie::average), test::interface("b", "x1", Tie::average)});
+  const HeldBody held = model.held();
+  const Eigen::MatrixXd spread = held.restrict(RowMatrix(model.ties.spread));
+  const Eigen::MatrixXd z = held.solve(Eigen::MatrixXd::Zero(held.size(), 12), Eigen::MatrixXd::Identity(12, 12));
+  const Eigen::MatrixXd forces = held.restrict(model.stiffness.multiply(held.expand(z)));
+  // Loads act on the two surfaces alone, spread as unit loads are: forces = C^T lambda, and lambda = z^T K z.
+  const Eigen::MatrixXd lambda = spread.colPivHouseholderQr().solve(forces);
+  CHECK((spread * lambda - forces).norm() < 1e-8 * forces.norm());
+  const Eigen::MatrixXd work = z.transpose() * forces;
+  CHECK((work - lambda).norm() < 1e-8 * work.norm());
+}
+
 TEST_CASE("Forces on points and displacements of points are transposed maps") {
   std::vector<InterfaceRequest> requests{test::interface("a", "x0", Tie::rigid)};
   requests[0].kept[5] = false;

@@ -9,7 +9,7 @@
 #include "reduce/common/error.hpp"
 #include "reduce/fe/assembly.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
-#include "reduce/spectral/eigenpairs.hpp"
+#include "tests/support/solid_model.hpp"
 #include "tests/unit/reduce/reduction/bodies.hpp"
 
 using namespace bielle;
@@ -17,30 +17,6 @@ using namespace bielle::reduce;
 using Catch::Contains;
 
 namespace {
-
-/// Free-free frequencies [Hz] of the whole finite element model, elastic ones first, without any tie.
-Eigen::VectorXd full_frequencies(const Mesh& mesh, int count) {
-  const Solid solid = make_solid(mesh, {{"steel", test::steel()}}, {{"all", "steel"}});
-  const NodeGraph graph = node_graph(solid.nodes, solid.points());
-  const NodeMatrix mass = assemble_mass(solid, graph);
-  SymmetricMatrix shifted = assemble_stiffness(solid, graph);
-  const double shift = -1e6;  // K - shift M is positive definite
-  for (int b = 0; b < graph.size(); ++b) {
-    for (std::int64_t j = 3 * b; j < 3 * b + 3; ++j) {
-      for (std::int64_t p = shifted.starts[j]; p < shifted.starts[j + 1]; ++p) {
-        if (const std::int64_t i = shifted.rows[p]; i % 3 == j % 3) {
-          shifted.values[p] -= shift * mass.values[graph.place(b, static_cast<int>(i / 3))];
-        }
-      }
-    }
-  }
-  const SymmetricFactor factor(shifted);
-  const Eigenpairs pairs =
-      shift_invert_eigenpairs({shifted.size, shift, [&](const Eigen::MatrixXd& f) { return factor.solve(f); },
-                               [&](const Eigen::MatrixXd& x) { return Eigen::MatrixXd(mass.multiply(x, 3)); }},
-                              count + 6);
-  return pairs.values.tail(count).cwiseSqrt() / (2 * std::numbers::pi);
-}
 
 double difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   // Entries have different units: compare those of coordinates i, j on the scale of the diagonals, some of which may be
@@ -101,7 +77,7 @@ TEST_CASE("A reduced body keeps rigid motions, mass properties and inertia integ
 
 TEST_CASE("Free-free frequencies of the reduced body lie above those of the full model and approach them") {
   const Mesh mesh = test::twisted_block();
-  const Eigen::VectorXd full = full_frequencies(mesh, 4);
+  const Eigen::VectorXd full = test::SolidModel(mesh, test::steel()).frequencies(4);  // without any tie
   double previous = 1e9;
   for (const int modes : {0, 4, 12, 30}) {
     const Superelement body = test::reduced(mesh, test::steel_body(Tie::average, Tie::average, modes));
@@ -155,7 +131,7 @@ TEST_CASE("Directions that are not kept are condensed statically") {
   CHECK(difference(condensed, some) < 1e-8);
 }
 
-TEST_CASE("An average interface reacts with the load that it spreads, and stays softer than a rigid one") {
+TEST_CASE("An average interface stays softer than a rigid one") {
   const Mesh mesh = test::twisted_block();
   const Superelement rigid = test::reduced(mesh, test::steel_body(Tie::rigid, Tie::rigid));
   const Superelement average = test::reduced(mesh, test::steel_body(Tie::average, Tie::average));
@@ -222,7 +198,7 @@ TEST_CASE("Damping is modal on the free body, or Rayleigh's") {
   const Superelement body = test::reduced(mesh, options);
   Eigen::MatrixXd u = Eigen::MatrixXd::Zero(15, 6);
   u.topRows(12) = interface_rigid_motions(body.interfaces, body.centre);
-  CHECK(relative_force(body.damping, u) < 1e-12);
+  CHECK(relative_force(body.damping, body.mass, u) < 1e-12);
   // State matrix of M q.. + C q. + K q = 0: decay over frequency is the ratio, for every elastic mode.
   Eigen::MatrixXd state = Eigen::MatrixXd::Zero(30, 30);
   const Eigen::MatrixXd inverse = body.mass.inverse();

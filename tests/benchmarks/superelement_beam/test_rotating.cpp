@@ -1,0 +1,120 @@
+// Geometric stiffness of a reduced beam that spins: centrifugal stiffening against the Euler-Bernoulli beam.
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Eigenvalues>
+#include <catch2/catch.hpp>
+
+#include "reduce/reduction/reduce_body.hpp"
+#include "reduce/reduction/reduced_matrices.hpp"
+#include "reduce/reduction/rigid_motions.hpp"
+#include "tests/support/box_mesh.hpp"
+
+using namespace bielle;
+using namespace bielle::reduce;
+
+namespace {
+
+/// A beam along x, 1 m x 20 mm x 20 mm. Without contraction a held end hinders nothing, as in the theory of beams.
+Superelement beam(Tie a) {
+  ReductionOptions options;
+  options.name = "beam";
+  options.materials = {{"steel", Material::isotropic(210e9, 0, 7800)}};
+  options.regions = {{"all", "steel"}};
+  options.interfaces.resize(2);
+  options.interfaces[0].name = options.interfaces[0].group = "x0";
+  options.interfaces[1].name = options.interfaces[1].group = "x1";
+  options.interfaces[0].tie = a;
+  options.interfaces[1].tie = Tie::average;
+  options.mode_count = 12;
+  Progress quiet(true);
+  return reduce_body(test::box_mesh({{1, 0.02, 0.02}, {64, 1, 1}}), options, quiet, 2);
+}
+
+/// int (1/4 - s^2)/2 phi'^2 ds / int phi^2 ds of a free-free mode of length 1: what spin about a transverse axis adds
+/// to omega^2 / Omega^2 out of its plane (the mode's own change adds less than a percent).
+double tension_quotient(double beta) {
+  const double ratio = (std::cosh(beta) - std::cos(beta)) / (std::sinh(beta) - std::sin(beta));
+  double tension = 0, mass = 0;
+  const int steps = 20000;
+  for (int i = 0; i < steps; ++i) {
+    const double s = (i + 0.5) / steps, x = beta * s;
+    const double phi = std::cosh(x) + std::cos(x) - ratio * (std::sinh(x) + std::sin(x));
+    const double slope = beta * (std::sinh(x) - std::sin(x) - ratio * (std::cosh(x) + std::cos(x)));
+    tension += (0.25 - (s - 0.5) * (s - 0.5)) / 2 * slope * slope;
+    mass += phi * phi;
+  }
+  return tension / mass;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "Free-free modes of a spinning beam stiffen as its tension says, out of the plane of spin and about no other "
+    "axis") {
+  const Superelement body = beam(Tie::average);
+  Eigen::MatrixXd rigid = Eigen::MatrixXd::Zero(body.size(), 6);
+  rigid.topRows(12) = interface_rigid_motions(body.interfaces, body.centre);
+  const FreeModes modes = free_modes(body.stiffness, body.mass, rigid);
+  // The square section has pairs of modes in any two planes: take the plane's directions by the spin matrices' own
+  // pairs.
+  for (const auto& [first, beta] : {std::pair{0, 4.7300407448627}, {2, 7.8532046240958}}) {
+    const Eigen::MatrixXd pair = modes.vectors.middleCols(first, 2);
+    const double expected = tension_quotient(beta);
+    // Tension is the same for spin about y and about z, whichever way the beam bends; 0.5 % for shear and section.
+    for (const int spin : {1, 2}) {
+      const Eigen::Matrix2d stiffening = pair.transpose() * body.spin_stiffness[spin] * pair;
+      const Eigen::Vector2d values = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(stiffening).eigenvalues();
+      CHECK(values(0) == Approx(expected).epsilon(5e-3));
+      CHECK(values(1) == Approx(expected).epsilon(5e-3));
+    }
+    // In the plane of spin the centrifugal force on the displacement itself softens by 1: H_33 = S_11 + S_22.
+    const Eigen::Matrix2d in_plane =
+        pair.transpose() * (body.inertia_components[0] + body.inertia_components[1]) * pair;
+    const Eigen::Vector2d values = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(in_plane).eigenvalues();
+    CHECK(values(0) < 5e-3);
+    CHECK(values(1) == Approx(1).epsilon(5e-3));
+  }
+  // 3.04 and 6.38 are what a geometrically exact beam gives.
+  CHECK(tension_quotient(4.7300407448627) == Approx(3.04).margin(0.01));
+  CHECK(tension_quotient(7.8532046240958) == Approx(6.38).margin(0.06));
+}
+
+TEST_CASE("A rotating cantilever's flap and lag frequencies are those of Wright and of Hodges and Rutkowski") {
+  // J. R. Wright et al., J. Appl. Mech. 49 (1982) 197; D. H. Hodges, M. J. Rutkowski, AIAA J. 19 (1981) 1459.
+  // mu = omega sqrt(m L^4 / EI), eta likewise of the spin; no hub. Evaluated by Ritz's method with 40 digits.
+  const Superelement body = beam(Tie::rigid);
+  const double length = 1, mass_per_length = body.total_mass / length;
+  const double unit = std::sqrt(210e9 * std::pow(0.02, 4) / 12 / (mass_per_length * std::pow(length, 4)));  // [rad/s]
+  std::vector<int> loose(body.size() - 6);
+  for (std::size_t k = 0; k < loose.size(); ++k) {
+    loose[k] = static_cast<int>(k) + 6;  // the root at x = 0 is held
+  }
+  const auto lowest = [&](double eta, bool lag) {
+    const double spin = eta * unit;
+    // The stress is that of the free body that spins about its centre, plus that of the root's pull, which makes the
+    // centre go round: F = -m spin^2 L / 2.
+    Eigen::MatrixXd k = body.stiffness + spin * spin * body.spin_stiffness[2] -
+                        body.total_mass * spin * spin * length / 2 * body.load_stiffness[0];
+    if (lag) {
+      k -= spin * spin * (body.inertia_components[0] + body.inertia_components[1]);
+    }
+    const Eigen::MatrixXd m = body.mass;
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(Eigen::MatrixXd(k(loose, loose)),
+                                                                          Eigen::MatrixXd(m(loose, loose)));
+    return Eigen::VectorXd(eigen.eigenvalues().head(4).cwiseSqrt() / unit);
+  };
+  const double at_rest = lowest(0, false)(0) / 3.5160152685;  // shear takes 3e-4, the mesh adds 1e-3
+  CHECK(at_rest == Approx(1).epsilon(2e-3));
+  // The two bending planes: flap is the higher of each pair once lag is softened.
+  for (const auto& [eta, flap, second] : {std::array{1.0, 3.68164681396, 22.1810111506},
+                                          {3.0, 4.79727853236, 23.3202636743},
+                                          {6.0, 7.36037301931, 26.8090816785}}) {
+    const Eigen::VectorXd found = lowest(eta, false);
+    CHECK(found(0) == Approx(flap).epsilon(3e-3));
+    CHECK(found(2) == Approx(second).epsilon(5e-3));
+    const Eigen::VectorXd lagging = lowest(eta, true);
+    CHECK(lagging(0) == Approx(std::sqrt(flap * flap - eta * eta)).epsilon(3e-3));
+    CHECK(lagging(1) == Approx(flap).epsilon(3e-3));
+  }
+}
