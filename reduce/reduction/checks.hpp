@@ -23,8 +23,8 @@ struct Check {
 /// geometric stiffness under rigid rotations against the virial of loads and inertia.
 std::vector<Check> check_superelement(const Superelement& body);
 
-/// Largest force (K u)_i of some motions u in units of sqrt(K_ii) max_j sqrt(K_jj) max_j |u_j|, what it would be without
-/// cancellation, coordinates being scaled to unit mass. @param mass  for that scale only
+/// Largest force (K u)_i of some motions u in units of sqrt(K_ii) max_j sqrt(K_jj) max_j |u_j|, what it would be
+/// without cancellation, coordinates being scaled to unit mass. @param mass  for that scale only
 double relative_force(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass, const Eigen::MatrixXd& motions);
 
 /// Mass, centre and inertia that M~ gives to rigid motions U: entries of U^T M~ U.
