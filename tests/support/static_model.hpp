@@ -49,14 +49,20 @@ struct StaticModel {
     return sign;
   }
 
-  /// The load factor between `low` and `high` where the stiffness becomes singular, by bisection; the state follows.
-  double critical_load(double low, double high, double tolerance, double width) {
+  /// The first load factor above `low` where the stiffness becomes singular: upwards in steps until the sign of its
+  /// determinant changes, then by bisection. The state follows.
+  double critical_load(double low, double step, double tolerance, double width) {
     const auto sign_at = [&](double factor) {
-      if (load(1, tolerance, factor) < 0) throw std::runtime_error("no equilibrium at the load factor of a bisection");
+      if (load(1, tolerance, factor) < 0) throw std::runtime_error("no equilibrium on the way to a critical load");
       return stiffness_sign();
     };
     const int sign = sign_at(low);
-    if (sign_at(high) == sign) throw std::runtime_error("no sign change of the determinant in the bracket");
+    double high = low + step;
+    for (int k = 0; sign_at(high) == sign; ++k) {
+      if (k == 100) throw std::runtime_error("no critical load found");
+      low = high;
+      high += step;
+    }
     while (high - low > width) {
       const double middle = 0.5 * (low + high);
       (sign_at(middle) == sign ? low : high) = middle;

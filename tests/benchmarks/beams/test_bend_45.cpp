@@ -1,0 +1,86 @@
+// The 45-degree bend: K.-J. Bathe, S. Bolourchi, IJNME 14 (1979) 961.
+//
+// Arc of radius 100 in the plane x-y from the origin along y to (29.29, 70.71, 0), section 1 x 1, E = 1e7, nu = 0, tip
+// load along z. The literature's tips for P = 600 spread from (15.5, 46.8, 53.7) to (15.9, 47.2, 53.4), with the mesh
+// and the torsion constant. References here: the geometrically exact rod by shooting in long double, to 1e-9.
+#include <cmath>
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include "tests/support/static_model.hpp"
+
+using namespace bielle::mechanism;
+using bielle::test::StaticModel;
+
+namespace {
+
+struct Bend : StaticModel {
+  Bend(int elements, const std::string& section, const std::string& bending)
+      : StaticModel(fmt::format(
+            "nodes: {{root: {{position: [0, 0, 0], fixed: true}}, tip: {{position: ['100 - 50*sqrt(2)', '50*sqrt(2)', "
+            "0]}}}}\nelements: {{b: {{type: beam, nodes: [root, tip], arc_centre: [100, 0, 0], bending: {}, elements: "
+            "{}, "
+            "section: {}}}}}\nloads: {{p: {{node: tip, force: [0, 0, 600]}}}}\n",
+            bending, elements, section)) {}
+  /// From the last load to P in steps of `step`.
+  Vector3 tip(double P, double step) {
+    const double from = dense.environment.load_factor == 1 && !moved_ ? 0 : dense.environment.load_factor;
+    moved_ = true;
+    const int steps = static_cast<int>(std::lround((P / 600 - from) * 600 / step));
+    REQUIRE(load(steps, 1e-5, P / 600, from) >= 0);  // the floor of the residual is EA epsilon |x|/L = 1e-7
+    return node("tip").x;
+  }
+  bool moved_ = false;
+};
+
+const std::string polar = "{EA: 1e7, GAy: 5e6, GAz: 5e6, GJ: 5e6/6, EIy: 1e7/12, EIz: 1e7/12}";
+
+}  // namespace
+
+TEST_CASE("the 45-degree bend converges with the square of the element length") {
+  struct Case {
+    std::string name, section;
+    Vector3 at_300, at_600;
+  };
+  const std::vector<Case> cases{
+      {"GA, polar GJ", polar, {22.244781, 58.779122, 40.191892}, {15.684800534, 47.150438574, 53.474858792}},
+      {"5/6 GA, polar GJ",
+       "{EA: 1e7, GAy: 5e6*5/6, GAz: 5e6*5/6, GJ: 5e6/6, EIy: 1e7/12, EIz: 1e7/12}",
+       {22.244679, 58.778897, 40.192392},
+       {15.684689479, 47.150096240, 53.475477998}},
+      {"the section's own constants",
+       "{rectangle: [1, 1], young: 1e7, poisson: 0}",
+       {22.112514, 58.535709, 40.480757},
+       {15.557676, 46.891586, 53.607986}}};
+  for (const Case& c : cases)
+    for (const char* bending : {"residual", "constant"}) {
+      CAPTURE(c.name, bending);
+      std::vector<Vector3> errors_300, errors_600;
+      for (int elements : {8, 16, 32}) {
+        Bend bend(elements, c.section, bending);
+        errors_300.emplace_back(bend.tip(300, 25) - c.at_300);
+        errors_600.emplace_back(bend.tip(600, 25) - c.at_600);
+      }
+      for (const auto& errors : {errors_300, errors_600}) {
+        CAPTURE(errors[0].transpose(), errors[1].transpose(), errors[2].transpose());
+        CHECK_THAT(std::log2(errors[1].norm() / errors[2].norm()), Catch::WithinAbs(2, 0.2));
+        CHECK(errors[2].norm() < 2e-2);
+        CHECK(((4 * errors[2] - errors[1]) / 3).norm() < 2e-4);
+      }
+    }
+}
+
+TEST_CASE("the 45-degree bend of few elements as an independent program of the same elements has it") {
+  struct Case {
+    const char* bending;
+    int elements;
+    Vector3 tip;
+  };
+  for (const Case& c :
+       {Case{"constant", 2, {16.1198, 48.5237, 51.1607}}, Case{"constant", 8, {15.7111, 47.2319, 53.3332}},
+        Case{"residual", 2, {15.6339, 47.1989, 53.7544}}, Case{"residual", 8, {15.6841, 47.1494, 53.4830}}}) {
+    CAPTURE(c.bending, c.elements);
+    CHECK((Bend(c.elements, polar, c.bending).tip(600, 50) - c.tip).cwiseAbs().maxCoeff() < 6e-5);  // four decimals
+  }
+}

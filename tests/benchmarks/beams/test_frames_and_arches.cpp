@@ -1,0 +1,108 @@
+// Lee's frame and a deep arch on their way to the first limit point, and the bifurcation of a shallow arch.
+//
+// Paths by shooting in long double (1e-9), Reissner's rod with linear strains. Static analyses prescribe the load here:
+// they stop short of the limit points (Lee 1.85466, arch 897.28), which need an arc length.
+#include <cmath>
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include "tests/support/static_model.hpp"
+
+using namespace bielle::mechanism;
+using bielle::test::StaticModel;
+
+namespace {
+
+struct PathPoint {
+  double P, u, v;  ///< load, displacements of its point: horizontal, down
+};
+
+/// Errors at the points of a path for three meshes: second order or better (where bending rules, of fourth).
+template <class Model>
+void check_path(const Model& make, const std::vector<PathPoint>& path, const Vector3& start, double step,
+                double tolerance, double size) {
+  std::vector<std::vector<Eigen::Vector2d>> errors;
+  for (int elements : {10, 20, 40}) {
+    StaticModel model = make(elements);
+    errors.emplace_back();
+    double P = 0;
+    for (const PathPoint& point : path) {
+      REQUIRE(model.load(static_cast<int>(std::ceil((point.P - P) / step)), tolerance, point.P, P) >= 0);
+      P = point.P;
+      const Vector3 moved = model.node("load").x - start;
+      errors.back().emplace_back(moved.x() - point.u, -moved.y() - point.v);
+    }
+  }
+  for (std::size_t k = 0; k < path.size(); ++k) {
+    CAPTURE(path[k].P, errors[0][k].transpose(), errors[1][k].transpose(), errors[2][k].transpose());
+    CHECK(std::log2(errors[0][k].norm() / errors[1][k].norm()) > 1.9);
+    CHECK(std::log2(errors[1][k].norm() / errors[2][k].norm()) > 1.9);
+    CHECK(errors[2][k].norm() < 2e-6 * size);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("Lee's frame up to 94 percent of its limit load") {
+  // S. Lee, F. Manuel, E. Rossow, J. Eng. Mech. Div. ASCE 94 (1968): column and beam of 120, A = 6, I = 2, E = 720, nu
+  // = 0.3 (here GA = G A), both ends pinned, load 24 from the corner.
+  const auto frame = [](int elements) {
+    const std::string section =
+        ", orientation: [0, 0, 1], section: {EA: 4320, GAy: 4320/2.6, GAz: 4320/2.6, GJ: 1e3, EIy: 1440, EIz: 1440}}\n";
+    return StaticModel(
+        "nodes:\n  base: {position: [0, 0, 0], fixed: [x, y, z, rx, ry]}\n  corner: {position: [0, 120, 0]}\n"
+        "  load: {position: [24, 120, 0]}\n  end: {position: [120, 120, 0], fixed: [x, y, z, rx, ry]}\nelements:\n" +
+        fmt::format("  column: {{type: beam, nodes: [base, corner], elements: {}{}", elements, section) +
+        fmt::format("  left: {{type: beam, nodes: [corner, load], elements: {}{}", elements / 5, section) +
+        fmt::format("  right: {{type: beam, nodes: [load, end], elements: {}{}", 4 * elements / 5, section) +
+        "loads: {p: {node: load, force: [0, -1, 0]}}\n");
+  };
+  check_path(frame,
+             {{0.604018511292, 0.487976747033, 4.861943800593},
+              {1.410408115941, 6.293514103106, 22.353842423787},
+              {1.738618841387, 15.415160093601, 37.419834807730}},
+             {24, 120, 0}, 0.1, 1e-9, 120);
+}
+
+TEST_CASE("a deep arch of 215 degrees, clamped and hinged, up to 95 percent of its limit load") {
+  // D. DaDeppo, R. Schmidt, J. Appl. Mech. 42 (1975) 923 (8.97 EI/R^2 when inextensible): R = 100, EI = 1e6, EA = 1e8,
+  // GA = 5e7.
+  const auto arch = [](int elements) {
+    const std::string section =
+        ", orientation: [0, 0, 1], section: {EA: 1e8, GAy: 5e7, GAz: 5e7, GJ: 1e6, EIy: 1e6, EIz: 1e6}}\n";
+    return StaticModel(
+        "parameters: {half: 215*pi/360}\nnodes:\n  left: {position: [-100*sin(half), 100*cos(half), 0], fixed: true}\n"
+        "  load: {position: [0, 100, 0]}\n"
+        "  right: {position: [100*sin(half), 100*cos(half), 0], fixed: [x, y, z, rx, ry]}\nelements:\n" +
+        fmt::format("  a: {{type: beam, nodes: [left, load], arc_centre: [0, 0, 0], elements: {}{}", elements,
+                    section) +
+        fmt::format("  b: {{type: beam, nodes: [load, right], arc_centre: [0, 0, 0], elements: {}{}", elements,
+                    section) +
+        "loads: {p: {node: load, force: [0, -1, 0]}}\n");
+  };
+  check_path(arch,
+             {{129.2616799121, 3.7292321190, 4.9729923407},
+              {704.6534988680, 51.5213715637, 78.1250791701},
+              {855.9577692765, 58.5490094730, 103.8932073765}},
+             {0, 100, 0}, 50, 1e-4, 100);
+}
+
+TEST_CASE("a shallow arch bifurcates to its side before it snaps through") {
+  // Span 100, rise 5, E = 1e6, A = 1, I = 1/12, hinged, without shear: 75.00 (to 0.02) at a deflection of 1.264 of the
+  // crown; the symmetric limit would be 85.507.
+  StaticModel arch(R"yaml(
+nodes:
+  left: {position: [-50, 0, 0], fixed: [x, y, z, rx, ry]}
+  crown: {position: [0, 5, 0]}
+  right: {position: [50, 0, 0], fixed: [x, y, z, rx, ry]}
+elements:
+  a: {type: beam, nodes: [left, crown], arc_through: ['-252.5*sin(0.1)', '252.5*cos(0.1) - 247.5', 0], elements: 16, orientation: [0, 1, 0], section: {EA: 1e6, GAy: 1e9, GAz: 1e9, GJ: 1e5, EIy: 1e6/12, EIz: 1e6/12}}
+  b: {type: beam, nodes: [crown, right], arc_through: ['252.5*sin(0.1)', '252.5*cos(0.1) - 247.5', 0], elements: 16, orientation: [0, 1, 0], section: {EA: 1e6, GAy: 1e9, GAz: 1e9, GJ: 1e5, EIy: 1e6/12, EIz: 1e6/12}}
+loads: {p: {node: crown, force: [0, -1, 0]}}
+)yaml");
+  arch.keep_directions({0, 1, 5});
+  CHECK(arch.load(10, 1e-6, 60) >= 0);
+  CHECK_THAT(arch.critical_load(60, 2, 1e-6, 1e-4), Catch::WithinAbs(75.00, 0.12));  // 16 elements a side: 1e-3
+  CHECK_THAT(5 - arch.node("crown").x.y(), Catch::WithinAbs(1.264, 0.01));
+}
