@@ -19,10 +19,12 @@ namespace bielle::mechanism {
 namespace {
 
 constexpr std::int64_t results_version = 1;
-// Rows wait in memory at most so long.
-constexpr std::chrono::milliseconds longest_wait{200};
+// Rows wait in memory at most so long, or, where writing takes longer (thousands of datasets), so many times as long as
+// that.
+constexpr std::chrono::milliseconds longest_wait{200}, wait_of_large_models{2000};
+constexpr int wait_per_writing = 10;
 // Rows are written in blocks of at most so many bytes and rows.
-constexpr std::size_t block_bytes = std::size_t{4} << 20, most_block_rows = 512;
+constexpr std::size_t block_bytes = std::size_t{32} << 20, most_block_rows = 512;
 // The file grows by so many bytes of results, or by less when the number of rows is known.
 constexpr std::size_t known_growth_bytes = std::size_t{1} << 30, unknown_growth_bytes = std::size_t{4} << 20;
 constexpr std::size_t most_growth_rows = std::size_t{1} << 20, unknown_growth_rows = 8192;
@@ -130,8 +132,9 @@ void ResultsFile::Stream::link_from_root() {
 
 void ResultsFile::Stream::write_until_told_to_stop() {
   std::unique_lock lock(guard);
+  std::chrono::steady_clock::duration wait = longest_wait;
   while (true) {
-    changed.wait_for(lock, longest_wait,
+    changed.wait_for(lock, wait,
                      [&] { return stopping || (!failure && filling.rows >= (wanted_now ? 1 : block_rows)); });
     if (filling.rows > 0 && !failure) {
       std::swap(filling, writing);
@@ -139,11 +142,14 @@ void ResultsFile::Stream::write_until_told_to_stop() {
       changed.notify_all();
       lock.unlock();
       std::exception_ptr failed;
+      const auto start = std::chrono::steady_clock::now();
       try {
         write(writing);
       } catch (...) {
         failed = std::current_exception();
       }
+      wait = std::clamp<std::chrono::steady_clock::duration>(
+          wait_per_writing * (std::chrono::steady_clock::now() - start), longest_wait, wait_of_large_models);
       lock.lock();
       writing.rows = 0;
       busy = false;

@@ -1,8 +1,9 @@
 // Streams a run to its HDF5 results file. The format is described in mechanism/io/README.md.
 //
 // Rows are collected in memory and written in blocks, `/time` last: whatever happens to the program, the file is
-// readable and every row that its `/time` counts is whole. A thread writes what has been waiting for 0.2 s, so that
-// completed steps reach the file in time also while the next one is slow.
+// readable and every row that its `/time` counts is whole. A thread writes what has been waiting for 0.2 s (up to 2 s
+// where thousands of datasets take long to write), so that completed steps reach the file in time also while the next
+// one is slow.
 #pragma once
 
 #include <memory>

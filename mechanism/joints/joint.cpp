@@ -1,5 +1,6 @@
 #include "mechanism/joints/joint.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -26,21 +27,36 @@ Measure Joint::calc_coordinate(std::size_t index, const NodeState& first, const 
 }
 
 Joint::ValueAndRate Joint::value_and_rate(std::size_t index, const LocalState& state) const {
-  const JointCoordinate& coordinate = coordinates_[index];
   const NodeState &first = state.node(0), &second = state.node(1);
-  if (coordinate.kind == JointCoordinate::Kind::rotation) {
-    const Matrix3 A = first.R * frames_.on_first.R, B = second.R * frames_.on_second.R;
-    const Vector3 rate = A.transpose() * (second.R * second.Omega - first.R * first.Omega);
-    return {log_so3(Matrix3(A.transpose() * B))[coordinate.axis], rate[coordinate.axis]};
-  }
   const Measure m = calc_coordinate(index, first, second);
   const double rate = m.rate(pair_rate(first, second));
-  if (coordinate.kind != JointCoordinate::Kind::angle) return {m.value, rate};
+  if (coordinates_[index].kind != JointCoordinate::Kind::angle) return {m.value, rate};
   const auto memory = state.memory();
   const auto at = 2 * static_cast<Eigen::Index>(index);
   const double time_before = memory[memory.size() - 1];
   const double turned = std::isnan(time_before) ? 0 : 0.5 * (memory[at + 1] + rate) * (state.time() - time_before);
   return {unwrap_angle(m.value, memory[at] + turned), rate};
+}
+
+void Joint::write_coordinates(const LocalState& state, double* values, double* rates) const {
+  const auto is_rotation = [](const JointCoordinate& c) { return c.kind == JointCoordinate::Kind::rotation; };
+  Vector3 turned = Vector3::Zero(), spin = Vector3::Zero();
+  if (std::any_of(coordinates_.begin(), coordinates_.end(), is_rotation)) {
+    const NodeState &first = state.node(0), &second = state.node(1);
+    const Matrix3 A = first.R * frames_.on_first.R, B = second.R * frames_.on_second.R;
+    turned = log_so3(Matrix3(A.transpose() * B));
+    spin = A.transpose() * (second.R * second.Omega - first.R * first.Omega);
+  }
+  for (std::size_t k = 0; k < coordinates_.size(); ++k) {
+    if (is_rotation(coordinates_[k])) {
+      values[k] = turned[coordinates_[k].axis];
+      rates[k] = spin[coordinates_[k].axis];
+    } else {
+      const auto [value, rate] = value_and_rate(k, state);
+      values[k] = value;
+      rates[k] = rate;
+    }
+  }
 }
 
 void Joint::declare(Declaration& declaration) const {
@@ -51,6 +67,7 @@ void Joint::declare(Declaration& declaration) const {
 
 void Joint::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {
   for (std::size_t k = 0; k < coordinates_.size(); ++k) {
+    if (coordinates_[k].kind != JointCoordinate::Kind::angle) continue;  // only turns are counted
     const auto [value, rate] = value_and_rate(k, state);
     memory.segment<2>(2 * static_cast<Eigen::Index>(k)) << value, rate;
   }
@@ -83,11 +100,7 @@ std::vector<OutputField> Joint::output_fields() const {
 void Joint::write_output(const LocalState& state, double* values) const {
   const NodeState &first = state.node(0), &second = state.node(1);
   const std::size_t count = coordinates_.size();
-  for (std::size_t k = 0; k < count; ++k) {
-    const auto [value, rate] = value_and_rate(k, state);
-    values[k] = value;
-    values[count + k] = rate;
-  }
+  write_coordinates(state, values, values + count);
   // What the joint adds to the second node's equations is what it takes from it.
   thread_local VectorX r;
   r.setZero(state.slots().size());

@@ -54,10 +54,12 @@ class Joint : public Component {
   struct ValueAndRate {
     double value, rate;
   };
-  /// A coordinate of any kind; angles are unwrapped beside what the joint's memory and the rates let expect, so that a
+  /// A displacement or angle; angles are unwrapped beside what the joint's memory and the rates let expect, so that a
   /// step may turn by more than half a turn. Memory: [value, rate of each coordinate | time], of the last accepted
   /// step.
   ValueAndRate value_and_rate(std::size_t index, const LocalState& state) const;
+  /// All coordinates, also rotation vectors, and their rates.
+  void write_coordinates(const LocalState& state, double* values, double* rates) const;
   JointFrames frames_;
   std::vector<JointCoordinate> coordinates_;
   std::vector<double> start_;

@@ -22,6 +22,10 @@ Measure LowerPair::calc_row(const Row& row, const NodeState& first, const NodeSt
                             : measure_alignment(first, second, A.R.col(row.first_axis), B.R.col(row.second_axis));
 }
 
+AxisPair LowerPair::axes(const Row& row, const NodeState& first, const NodeState& second) const {
+  return {first, second, frames().on_first.R.col(row.first_axis), frames().on_second.R.col(row.second_axis)};
+}
+
 void LowerPair::declare(Declaration& declaration) const {
   Joint::declare(declaration);
   declaration.stiffness = true;
@@ -30,23 +34,46 @@ void LowerPair::declare(Declaration& declaration) const {
 
 void LowerPair::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
   const auto lambda = state.multiplier();
+  const NodeState &first = state.node(0), &second = state.node(1);
+  const PointPair points(first, second, frames().on_second.x);
+  Vector3 force = Vector3::Zero();  // of the locked translations, first node's axes
   for (std::size_t k = 0; k < rows_.size(); ++k) {
-    const Measure m = calc_row(rows_[k], state.node(0), state.node(1));
-    r.head<12>() += lambda[static_cast<Eigen::Index>(k)] * m.gradient;
-    r[12 + static_cast<Eigen::Index>(k)] += m.value;
+    const auto row = static_cast<Eigen::Index>(k);
+    if (rows_[k].is_translation) {
+      const Vector3 e_hat = frames().on_first.R.col(rows_[k].first_axis);
+      force += lambda[row] * e_hat;
+      r[12 + row] += points.value(e_hat, frames().on_first.x);
+    } else {
+      const AxisPair pair = axes(rows_[k], first, second);
+      r.head<12>() += lambda[row] * pair.gradient();
+      r[12 + row] += pair.value();
+    }
   }
+  r.head<12>() += points.gradient(force);
 }
 
 void LowerPair::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   if (!tangent.wants_K) return;
   const auto lambda = state.multiplier();
+  const NodeState &first = state.node(0), &second = state.node(1);
+  const PointPair points(first, second, frames().on_second.x);
+  Vector3 force = Vector3::Zero();
   for (std::size_t k = 0; k < rows_.size(); ++k) {
-    const Measure m = calc_row(rows_[k], state.node(0), state.node(1));
-    const Eigen::Index row = 12 + static_cast<Eigen::Index>(k);
-    tangent.K.topLeftCorner<12, 12>() += lambda[static_cast<Eigen::Index>(k)] * m.second;
-    tangent.K.block<12, 1>(0, row) += m.gradient;
-    tangent.K.block<1, 12>(row, 0) += m.gradient.transpose();
+    const auto row = static_cast<Eigen::Index>(k);
+    Vector12 gradient;
+    if (rows_[k].is_translation) {
+      const Vector3 e_hat = frames().on_first.R.col(rows_[k].first_axis);
+      force += lambda[row] * e_hat;
+      gradient = points.gradient(e_hat);
+    } else {
+      const AxisPair pair = axes(rows_[k], first, second);
+      pair.add_second(lambda[row], tangent.K);
+      gradient = pair.gradient();
+    }
+    tangent.K.block<12, 1>(0, 12 + row) += gradient;
+    tangent.K.block<1, 12>(12 + row, 0) += gradient.transpose();
   }
+  points.add_second(force, tangent.K);
 }
 
 void LowerPair::add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,

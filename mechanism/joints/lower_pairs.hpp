@@ -43,6 +43,7 @@ class LowerPair final : public Joint {
     const char* name;
   };
   Measure calc_row(const Row& row, const NodeState& first, const NodeState& second) const;
+  AxisPair axes(const Row& row, const NodeState& first, const NodeState& second) const;
   std::vector<Row> rows_;
 };
 

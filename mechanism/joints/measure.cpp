@@ -4,50 +4,90 @@
 
 namespace bielle::mechanism {
 
+namespace {
+
+/// a~ b~
+Matrix3 skew_product(const Vector3& a, const Vector3& b) {
+  Matrix3 product = b * a.transpose();
+  product.diagonal().array() -= a.dot(b);
+  return product;
+}
+
+}  // namespace
+
+PointPair::PointPair(const NodeState& first, const NodeState& second, const Vector3& c_2)
+    : c_2_(c_2),
+      s_(first.R.transpose() * (second.x + second.R * c_2 - first.x)),
+      R_1_(first.R),
+      R_12_(first.R.transpose() * second.R) {}
+
+//        dx_1        dTheta_1         dx_2        dTheta_2
+// g = [ -e           e^ x s           e           c_2 x e_2 ]      e_2 = R_2^T e
+// S = [  0           R_1 e^~          0           0
+//       -e^~ R_1^T   e^~ s~           e^~ R_1^T  -e^~ R_12 c_2~
+//        0          -R_1 e^~          0           0
+//        0          -c_2~ R_12^T e^~  0           c_2~ e_2~ ]
+Vector12 PointPair::gradient(const Vector3& e_hat) const {
+  const Vector3 e = R_1_ * e_hat;
+  Vector12 g;
+  g << -e, e_hat.cross(s_), e, c_2_.cross(R_12_.transpose() * e_hat);
+  return g;
+}
+
+void PointPair::add_second(const Vector3& e_hat, Eigen::Ref<MatrixX> S) const {
+  const Matrix3 e_skew = skew(e_hat);
+  const Matrix3 turned = R_1_ * e_skew;
+  const Matrix3 mixed = e_skew * (R_12_ * skew(c_2_));
+  S.block<3, 3>(0, 3) += turned;
+  S.block<3, 3>(3, 0) += turned.transpose();  // -e^~ R_1^T
+  S.block<3, 3>(3, 3) += skew_product(e_hat, s_);
+  S.block<3, 3>(3, 6) -= turned.transpose();
+  S.block<3, 3>(3, 9) -= mixed;
+  S.block<3, 3>(6, 3) -= turned;
+  S.block<3, 3>(9, 3) -= mixed.transpose();
+  S.block<3, 3>(9, 9) += skew_product(c_2_, R_12_.transpose() * e_hat);
+}
+
+AxisPair::AxisPair(const NodeState& first, const NodeState& second, const Vector3& a_hat, const Vector3& b_hat)
+    : a_hat_(a_hat), b_hat_(b_hat), R_12_(first.R.transpose() * second.R) {
+  b_1_ = R_12_ * b_hat;
+  a_2_ = R_12_.transpose() * a_hat;
+}
+
+//      dTheta_1            dTheta_2
+// g = [ a^ x b_1           b^ x a_2 ]
+// S = [ a^~ b_1~          -a^~ R_12 b^~
+//      -b^~ R_12^T a^~     b^~ a_2~ ]
+Vector12 AxisPair::gradient() const {
+  Vector12 g;
+  g << Vector3::Zero(), a_hat_.cross(b_1_), Vector3::Zero(), b_hat_.cross(a_2_);
+  return g;
+}
+
+void AxisPair::add_second(double factor, Eigen::Ref<MatrixX> S) const {
+  const Matrix3 mixed = factor * (skew(a_hat_) * (R_12_ * skew(b_hat_)));
+  S.block<3, 3>(3, 3) += factor * skew_product(a_hat_, b_1_);
+  S.block<3, 3>(3, 9) -= mixed;
+  S.block<3, 3>(9, 3) -= mixed.transpose();
+  S.block<3, 3>(9, 9) += factor * skew_product(b_hat_, a_2_);
+}
+
 Measure measure_position(const NodeState& first, const NodeState& second, const Vector3& e_hat, const Vector3& c_1,
                          const Vector3& c_2) {
-  //        dx_1        dTheta_1         dx_2        dTheta_2
-  // g = [ -e           e^ x s           e           c_2 x e_2 ]      s = R_1^T (p_2 - x_1), e_2 = R_2^T e
-  // S = [  0           R_1 e^~          0           0
-  //       -e^~ R_1^T   e^~ s~           e^~ R_1^T  -e^~ R_12 c_2~
-  //        0          -R_1 e^~          0           0
-  //        0          -c_2~ R_12^T e^~  0           c_2~ e_2~ ]
-  const Vector3 e = first.R * e_hat;
-  const Matrix3 R_12 = first.R.transpose() * second.R;
-  const Vector3 s = first.R.transpose() * (second.x + second.R * c_2 - first.x);
-  const Vector3 e_2 = R_12.transpose() * e_hat;
-  const Matrix3 e_skew = skew(e_hat), c_skew = skew(c_2);
-  const Matrix3 turned = first.R * e_skew;
+  const PointPair pair(first, second, c_2);
   Measure m;
-  m.value = e_hat.dot(s - c_1);
-  m.gradient << -e, e_hat.cross(s), e, c_2.cross(e_2);
-  m.second.block<3, 3>(0, 3) = turned;
-  m.second.block<3, 3>(3, 0) = turned.transpose();  // -e^~ R_1^T
-  m.second.block<3, 3>(3, 3) = e_skew * skew(s);
-  m.second.block<3, 3>(3, 6) = -turned.transpose();
-  m.second.block<3, 3>(3, 9) = -e_skew * R_12 * c_skew;
-  m.second.block<3, 3>(6, 3) = -turned;
-  m.second.block<3, 3>(9, 3) = -c_skew * R_12.transpose() * e_skew;
-  m.second.block<3, 3>(9, 9) = c_skew * skew(e_2);
+  m.value = pair.value(e_hat, c_1);
+  m.gradient = pair.gradient(e_hat);
+  pair.add_second(e_hat, m.second);
   return m;
 }
 
 Measure measure_alignment(const NodeState& first, const NodeState& second, const Vector3& a_hat, const Vector3& b_hat) {
-  //      dTheta_1            dTheta_2
-  // g = [ a^ x b_1           b^ x a_2 ]            b_1 = R_12 b^, a_2 = R_12^T a^
-  // S = [ a^~ b_1~          -a^~ R_12 b^~
-  //      -b^~ R_12^T a^~     b^~ a_2~ ]
-  const Matrix3 R_12 = first.R.transpose() * second.R;
-  const Vector3 b_1 = R_12 * b_hat, a_2 = R_12.transpose() * a_hat;
-  const Matrix3 a_skew = skew(a_hat), b_skew = skew(b_hat);
+  const AxisPair pair(first, second, a_hat, b_hat);
   Measure m;
-  m.value = a_hat.dot(b_1);
-  m.gradient.segment<3>(3) = a_hat.cross(b_1);
-  m.gradient.segment<3>(9) = b_hat.cross(a_2);
-  m.second.block<3, 3>(3, 3) = a_skew * skew(b_1);
-  m.second.block<3, 3>(3, 9) = -a_skew * R_12 * b_skew;
-  m.second.block<3, 3>(9, 3) = -b_skew * R_12.transpose() * a_skew;
-  m.second.block<3, 3>(9, 9) = b_skew * skew(a_2);
+  m.value = pair.value();
+  m.gradient = pair.gradient();
+  pair.add_second(1, m.second);
   return m;
 }
 

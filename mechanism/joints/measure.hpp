@@ -33,12 +33,41 @@ struct Measure {
   double acceleration(const Vector12& v, const Vector12& a) const { return gradient.dot(a) + v.dot(second * v); }
 };
 
-/// e . (p_2 - p_1): position of a point p_2 = x_2 + R_2 c_2 of node 2 beside p_1 = x_1 + R_1 c_1 along an axis e = R_1
-/// e^ carried by node 1.
+/// Positions of a point p_2 = x_2 + R_2 c_2 of node 2 beside node 1: measures e . (p_2 - p_1), p_1 = x_1 + R_1 c_1,
+/// along axes e = R_1 e^ carried by node 1. Gradient and second derivative are linear in e^: several axes, each with a
+/// factor, are added up as one.
+class PointPair {
+ public:
+  PointPair(const NodeState& first, const NodeState& second, const Vector3& c_2);
+  double value(const Vector3& e_hat, const Vector3& c_1) const { return e_hat.dot(s_ - c_1); }
+  Vector12 gradient(const Vector3& e_hat) const;
+  /// S into the first twelve rows and columns of a matrix.
+  void add_second(const Vector3& e_hat, Eigen::Ref<MatrixX> S) const;
+
+ private:
+  Vector3 c_2_, s_;  ///< s = R_1^T (p_2 - x_1)
+  Matrix3 R_1_, R_12_;
+};
+
+/// Alignment a . b of axes a = R_1 a^ carried by node 1 and b = R_2 b^ carried by node 2.
+class AxisPair {
+ public:
+  AxisPair(const NodeState& first, const NodeState& second, const Vector3& a_hat, const Vector3& b_hat);
+  double value() const { return a_hat_.dot(b_1_); }
+  Vector12 gradient() const;
+  /// `factor` S into the first twelve rows and columns of a matrix.
+  void add_second(double factor, Eigen::Ref<MatrixX> S) const;
+
+ private:
+  Vector3 a_hat_, b_hat_, b_1_, a_2_;  ///< b_1 = R_12 b^, a_2 = R_12^T a^
+  Matrix3 R_12_;
+};
+
+/// The position measure of one axis, with its derivatives.
 Measure measure_position(const NodeState& first, const NodeState& second, const Vector3& e_hat, const Vector3& c_1,
                          const Vector3& c_2);
 
-/// a . b of a = R_1 a^ carried by node 1 and b = R_2 b^ carried by node 2.
+/// The alignment measure, with its derivatives.
 Measure measure_alignment(const NodeState& first, const NodeState& second, const Vector3& a_hat, const Vector3& b_hat);
 
 /// Angle atan2(y_A . x_B, x_A . x_B) in (-pi, pi] by which frame B of node 2 has turned beside frame A of node 1 about

@@ -1,6 +1,7 @@
 // Sparse matrices with a fixed pattern, and their factorisation by KLU with the symbolic analysis kept.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -29,27 +30,33 @@ class SparsePattern {
 
 enum class FactorStatus { good, singular };
 
-/// LU factors of a sparse unsymmetric matrix (KLU: fill-reducing ordering of diagonal blocks, partial pivoting).
+/// LU factors of a sparse unsymmetric matrix (KLU with partial pivoting).
 ///
-/// `factor` reuses the pivot sequence of the previous call and falls back on fresh pivoting when that has grown
-/// inaccurate; the ordering is found once per pattern.
+/// The fill-reducing ordering is found once: of approximate minimum degree and its column variant, the one that makes
+/// fewer operations of the first matrix. `factor` keeps the pivot sequence as long as its pivots do not degenerate.
+/// Rows are brought to entries of size one when pivots are chosen, whatever their units.
 class SparseLU {
  public:
   explicit SparseLU(const SparsePattern& pattern);  ///< the pattern must outlive the factors
   SparseLU(SparseLU&&) noexcept;
   ~SparseLU();
 
-  /// @param values  in the order of the pattern
-  FactorStatus factor(const std::vector<double>& values);
-  /// Solves in place. Only after a good factorisation.
+  /// Factorises D A D with a diagonal D.
+  /// @param values  of A, in the order of the pattern
+  /// @param scale   the diagonal of D (size)
+  FactorStatus factor(const std::vector<double>& values, const VectorX& scale);
+  /// b <- A^-1 b. Only after a good factorisation.
   void solve(Eigen::Ref<VectorX> b) const;
   /// Column (an unknown) at which the last factorisation found no pivot, or -1.
   int singular_column() const { return singular_column_; }
-  /// Cheap estimate of the reciprocal condition number: smallest over largest pivot.
+  /// Cheap estimate of the reciprocal condition number of the scaled matrix: smallest over largest pivot.
   double reciprocal_condition() const;
 
  private:
   struct Factors;
+  bool refactor(const std::vector<double>& values);       ///< with the pivots of before; false where they fail
+  bool factor_afresh(const std::vector<double>& values);  ///< false where singular
+  bool choose_ordering(const std::function<bool()>& factorise);
   const SparsePattern& pattern_;
   std::unique_ptr<Factors> factors_;
   int singular_column_ = -1;

@@ -8,15 +8,8 @@ namespace bielle::mechanism {
 
 LinearStep::LinearStep(const System& system) : system_(system), factors_(system.pattern()) {
   const SparsePattern& pattern = system.pattern();
-  const int first_multiplier = system.size() - system.multipliers();
-  scale_power_.reserve(static_cast<std::size_t>(pattern.entry_count()));
-  for (int column = 0; column < pattern.size(); ++column) {
-    diagonal_.push_back(pattern.find(column, column));
-    for (int k = pattern.column_start()[static_cast<std::size_t>(column)];
-         k < pattern.column_start()[static_cast<std::size_t>(column) + 1]; ++k)
-      scale_power_.push_back(static_cast<std::uint8_t>(
-          (column >= first_multiplier) + (pattern.row()[static_cast<std::size_t>(k)] >= first_multiplier)));
-  }
+  for (int column = 0; column < pattern.size(); ++column) diagonal_.push_back(pattern.find(column, column));
+  scales_.setOnes(pattern.size());
 }
 
 bool LinearStep::try_factor(const State& state, const Environment& environment, const TangentWeights& weights,
@@ -35,10 +28,8 @@ bool LinearStep::try_factor(const State& state, const Environment& environment, 
   scale_ = 1;
   for (const Kind kind : {Kind::amplitude, Kind::rotation, Kind::translation})
     if (const auto k = static_cast<std::size_t>(kind); sum[k] > 0) scale_ = sum[k] / count[k];
-  scaled_ = values_;
-  for (std::size_t k = 0; k < scaled_.size(); ++k)
-    for (int power = 0; power < scale_power_[k]; ++power) scaled_[k] *= scale_;
-  return factors_.factor(scaled_) == FactorStatus::good;
+  scales_.tail(system_.multipliers()).setConstant(scale_);
+  return factors_.factor(values_, scales_) == FactorStatus::good;
 }
 
 void LinearStep::factor(const State& state, const Environment& environment, const TangentWeights& weights,
@@ -60,10 +51,7 @@ void LinearStep::throw_singular(double time) const {
 
 void LinearStep::solve(const Eigen::Ref<const VectorX>& r, Eigen::Ref<VectorX> delta) const {
   delta = -r;
-  auto multipliers = delta.tail(system_.multipliers());
-  multipliers *= scale_;
   factors_.solve(delta);
-  multipliers *= scale_;
 }
 
 void LinearStep::row_sums(const Eigen::Ref<const VectorX>& unknown_scale, Eigen::Ref<VectorX> sums) const {

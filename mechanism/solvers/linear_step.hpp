@@ -1,7 +1,6 @@
 // One linear solve of Newton's method: scaled tangent, factorisation, and what to say when it is singular.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "mechanism/system/system.hpp"
@@ -35,9 +34,9 @@ class LinearStep {
  private:
   const System& system_;
   SparseLU factors_;
-  std::vector<double> values_, scaled_;
-  std::vector<int> diagonal_;              ///< places of the diagonal among the values, -1 where absent
-  std::vector<std::uint8_t> scale_power_;  ///< of each value: how many of its row and column are multipliers'
+  std::vector<double> values_;
+  std::vector<int> diagonal_;  ///< places of the diagonal among the values, -1 where absent
+  VectorX scales_;             ///< 1 for dofs and first-order unknowns, k for multipliers
   double scale_ = 1;
 };
 

@@ -60,6 +60,26 @@ NodeRelation relate(const NodeKinematics& kinematics, int node, const State& sta
   return relation;
 }
 
+/// Three columns of A from `first` on, times T.
+void multiply_columns(Eigen::Map<MatrixX>& A, Eigen::Index first, const Matrix3& T) {
+  double *x = A.col(first).data(), *y = A.col(first + 1).data(), *z = A.col(first + 2).data();
+  for (Eigen::Index row = 0; row < A.rows(); ++row) {
+    const double a = x[row], b = y[row], c = z[row];
+    x[row] = a * T(0, 0) + b * T(1, 0) + c * T(2, 0);
+    y[row] = a * T(0, 1) + b * T(1, 1) + c * T(2, 1);
+    z[row] = a * T(0, 2) + b * T(1, 2) + c * T(2, 2);
+  }
+}
+
+/// Adds local entries to the global values at their places; -1 is none.
+void scatter(const std::vector<int>& places, const double* entry, std::vector<double>& values) {
+  double* value = values.data();
+  for (const int place : places) {
+    if (place >= 0) value[place] += *entry;
+    ++entry;
+  }
+}
+
 }  // namespace
 
 void System::node_forces(const State& state, const Environment& environment, VectorX& forces, Eigen::Ref<VectorX> r,
@@ -121,13 +141,14 @@ Energy System::energy(const State& state, const Environment& environment) const 
   return energy;
 }
 
-/// Buffers of one thread: local matrices, their reduced sum.
+/// Buffers of one thread: local matrices, their reduced sum; T(Dq) of each node that is free in all directions.
 struct System::Workspace {
-  std::vector<double> K, C, M, sum;
+  std::vector<double> K, C, M, columns, sum;
   VectorX r;
+  std::vector<Matrix3> step_tangent;
   explicit Workspace(int n) {
     const auto size = static_cast<std::size_t>(n) * static_cast<std::size_t>(n);
-    for (auto* buffer : {&K, &C, &M, &sum}) buffer->resize(size);
+    for (auto* buffer : {&K, &C, &M, &columns, &sum}) buffer->resize(size);
     r.resize(n);
   }
 };
@@ -149,8 +170,8 @@ void System::add_reduced(const Placement& placement, const LocalState& local, co
   const bool wants_M = placement.mass && (rates_in_K || weights.mass != 0 || weights.damping != 0);
   if (!wants_K && !wants_C && !wants_M && placement.plain) return;
   K.setZero();
-  C.setZero();
-  M.setZero();
+  if (wants_C || !placement.plain) C.setZero();
+  if (wants_M || !placement.plain) M.setZero();
   {
     LocalTangent tangent{K, C, M, wants_K, wants_C, wants_M};
     component.add_tangent(local, tangent);
@@ -169,82 +190,77 @@ void System::add_reduced(const Placement& placement, const LocalState& local, co
     }
   }
   const int reduced = static_cast<int>(placement.unknown.size());
-  Map sum(work.sum.data(), reduced, reduced);
   const int scalar_row = slots.amplitude_row();
   const int first_order = slots.first_order_row();
 
   if (placement.plain) {
     if (dq && wants_K)
       for (std::size_t k = 0; k < slots.nodes.size(); ++k) {
-        const NodeFreedom& f = kinematics_.freedom(slots.nodes[k]);
-        if (!f.all_free) continue;
-        auto columns = K.middleCols<3>(6 * static_cast<Eigen::Index>(k) + 3);
-        columns = (columns * mechanism::tangent(dq->segment<3>(f.begin + 3))).eval();
+        if (!kinematics_.freedom(slots.nodes[k]).all_free) continue;
+        multiply_columns(K, 6 * static_cast<Eigen::Index>(k) + 3,
+                         work.step_tangent[static_cast<std::size_t>(slots.nodes[k])]);
       }
-    sum = K;
     if (wants_C) {
-      sum.leftCols(first_order) += weights.damping * C.leftCols(first_order);
-      sum.middleCols(first_order, slots.first_orders) +=
+      K.leftCols(first_order) += weights.damping * C.leftCols(first_order);
+      K.middleCols(first_order, slots.first_orders) +=
           weights.first_order * C.middleCols(first_order, slots.first_orders);
     }
-    if (wants_M) sum += weights.mass * M;
-  } else {
-    const int scalars = n - scalar_row, reduced_scalar_row = reduced - scalars;
-    const State& state = local.global();
-    std::array<NodeRelation, 2> pair;
-    std::vector<NodeRelation> many;  // more than two nodes: superelements
-    NodeRelation* relation = pair.data();
-    if (slots.nodes.size() > pair.size()) {
-      many.resize(slots.nodes.size());
-      relation = many.data();
-    }
-    for (std::size_t k = 0; k < slots.nodes.size(); ++k) relation[k] = relate(kinematics_, slots.nodes[k], state, dq);
-    // Columns first, over all local rows; then rows.
-    MatrixX columns(n, reduced);
-    columns.rightCols(scalars) = K.rightCols(scalars);
-    columns.rightCols(scalars) += weights.mass * M.rightCols(scalars);
-    columns.middleCols(reduced_scalar_row, slots.amplitudes) +=
-        weights.damping * C.middleCols(scalar_row, slots.amplitudes);
-    columns.middleCols(reduced_scalar_row + slots.amplitudes, slots.first_orders) +=
-        weights.first_order * C.middleCols(first_order, slots.first_orders);
+    if (wants_M) K += weights.mass * M;
+    scatter(placement.position, K.data(), values);
+    return;
+  }
+  Map sum(work.sum.data(), reduced, reduced);
+  const int scalars = n - scalar_row, reduced_scalar_row = reduced - scalars;
+  const State& state = local.global();
+  std::array<NodeRelation, 2> pair;
+  std::vector<NodeRelation> many;  // more than two nodes: superelements
+  NodeRelation* relation = pair.data();
+  if (slots.nodes.size() > pair.size()) {
+    many.resize(slots.nodes.size());
+    relation = many.data();
+  }
+  for (std::size_t k = 0; k < slots.nodes.size(); ++k) relation[k] = relate(kinematics_, slots.nodes[k], state, dq);
+  // Columns first, over all local rows; then rows.
+  Map columns(work.columns.data(), n, reduced);
+  columns.rightCols(scalars) = K.rightCols(scalars);
+  columns.rightCols(scalars) += weights.mass * M.rightCols(scalars);
+  columns.middleCols(reduced_scalar_row, slots.amplitudes) +=
+      weights.damping * C.middleCols(scalar_row, slots.amplitudes);
+  columns.middleCols(reduced_scalar_row + slots.amplitudes, slots.first_orders) +=
+      weights.first_order * C.middleCols(first_order, slots.first_orders);
+  for (std::size_t k = 0; k < slots.nodes.size(); ++k) {
+    const NodeRelation& node = relation[k];
+    const Eigen::Index count = node.displacement.cols(), at = 6 * static_cast<Eigen::Index>(k);
+    auto part = columns.middleCols(placement.reduced_begin[k], count);
+    const auto Kk = K.middleCols<6>(at), Ck = C.middleCols<6>(at), Mk = M.middleCols<6>(at);
+    part.noalias() = Kk * node.displacement_step;
+    part.noalias() += weights.damping * (Ck * node.displacement) + weights.mass * (Mk * node.displacement);
+    if (!node.carried) continue;
+    part.noalias() += weights.stiffness * (Ck * node.rate_of_displacement + Mk * node.acceleration_of_displacement);
+    part.noalias() += weights.damping * (Mk * node.acceleration_of_rate);
+  }
+  sum.bottomRows(scalars) = columns.bottomRows(scalars);
+  for (std::size_t k = 0; k < slots.nodes.size(); ++k)
+    sum.middleRows(placement.reduced_begin[k], relation[k].displacement.cols()).noalias() =
+        relation[k].displacement.transpose() * columns.middleRows<6>(6 * static_cast<Eigen::Index>(k));
+  if (std::any_of(relation, relation + slots.nodes.size(), [](const NodeRelation& node) { return node.carried; })) {
+    auto r = work.r.head(n);
+    r.setZero();
+    component.add_residual(local, r);
     for (std::size_t k = 0; k < slots.nodes.size(); ++k) {
-      const NodeRelation& node = relation[k];
-      const Eigen::Index count = node.displacement.cols(), at = 6 * static_cast<Eigen::Index>(k);
-      auto part = columns.middleCols(placement.reduced_begin[k], count);
-      const auto Kk = K.middleCols<6>(at), Ck = C.middleCols<6>(at), Mk = M.middleCols<6>(at);
-      part.noalias() = Kk * node.displacement_step;
-      part.noalias() += weights.damping * (Ck * node.displacement) + weights.mass * (Mk * node.displacement);
-      if (!node.carried) continue;
-      part.noalias() += weights.stiffness * (Ck * node.rate_of_displacement + Mk * node.acceleration_of_displacement);
-      part.noalias() += weights.damping * (Mk * node.acceleration_of_rate);
-    }
-    sum.bottomRows(scalars) = columns.bottomRows(scalars);
-    for (std::size_t k = 0; k < slots.nodes.size(); ++k)
-      sum.middleRows(placement.reduced_begin[k], relation[k].displacement.cols()).noalias() =
-          relation[k].displacement.transpose() * columns.middleRows<6>(6 * static_cast<Eigen::Index>(k));
-    if (std::any_of(relation, relation + slots.nodes.size(), [](const NodeRelation& node) { return node.carried; })) {
-      auto r = work.r.head(n);
-      r.setZero();
-      component.add_residual(local, r);
-      for (std::size_t k = 0; k < slots.nodes.size(); ++k) {
-        const Carry* carry = kinematics_.carry(slots.nodes[k]);
-        if (!carry) continue;
-        const NodeFreedom& f = kinematics_.freedom(carry->carrier);
-        const Matrix3& R = state.nodes[static_cast<std::size_t>(carry->carrier)].R;
-        const Matrix3 turn = skew(carry->c) * skew(R.transpose() * r.segment<3>(6 * static_cast<Eigen::Index>(k)));
-        const Matrix6X G = f.G.leftCols(f.count);
-        const Matrix6X GT = times_step_tangent(G, f, dq);
-        const int at = placement.reduced_begin[k];
-        sum.block(at, at, f.count, f.count).noalias() +=
-            weights.stiffness * (G.bottomRows<3>().transpose() * turn * GT.bottomRows<3>());
-      }
+      const Carry* carry = kinematics_.carry(slots.nodes[k]);
+      if (!carry) continue;
+      const NodeFreedom& f = kinematics_.freedom(carry->carrier);
+      const Matrix3& R = state.nodes[static_cast<std::size_t>(carry->carrier)].R;
+      const Matrix3 turn = skew(carry->c) * skew(R.transpose() * r.segment<3>(6 * static_cast<Eigen::Index>(k)));
+      const Matrix6X G = f.G.leftCols(f.count);
+      const Matrix6X GT = times_step_tangent(G, f, dq);
+      const int at = placement.reduced_begin[k];
+      sum.block(at, at, f.count, f.count).noalias() +=
+          weights.stiffness * (G.bottomRows<3>().transpose() * turn * GT.bottomRows<3>());
     }
   }
-  const double* entry = sum.data();
-  for (const int position : placement.position) {
-    if (position >= 0) values[static_cast<std::size_t>(position)] += *entry;
-    ++entry;
-  }
+  scatter(placement.position, sum.data(), values);
 }
 
 void System::tangent(const State& state, const Environment& environment, const TangentWeights& weights,
@@ -252,6 +268,12 @@ void System::tangent(const State& state, const Environment& environment, const T
   thread_local std::unique_ptr<Workspace> work;
   if (!work || work->r.size() < largest_local_) work = std::make_unique<Workspace>(largest_local_);
   values.assign(static_cast<std::size_t>(pattern_.entry_count()), 0.0);
+  if (dq) {
+    work->step_tangent.resize(state.nodes.size());
+    for (std::size_t i = 0; i < state.nodes.size(); ++i)
+      if (const NodeFreedom& f = kinematics_.freedom(static_cast<int>(i)); f.all_free)
+        work->step_tangent[i] = mechanism::tangent(dq->segment<3>(f.begin + 3));
+  }
   for (std::size_t m = 0; m < slots_.size(); ++m) {
     const Placement& placement = placements_[m];
     if (placement.position.empty()) continue;
