@@ -31,12 +31,13 @@ std::map<std::string, std::string> read_overrides(const std::vector<std::string>
 int body(int argc, char** argv) {
   CLI::App app{"Computes the motion of a mechanism of rigid bodies, beams, superelements and joints.",
                "bielle-mechanism"};
-  std::string model_path, results_path;
+  std::string model_path, results_path, restart_path;
   std::vector<std::string> settings;
   bool check = false;
   CommonOptions common;
   app.add_option("MODEL", model_path, "mechanism file (YAML)")->required();
   app.add_option("-o,--output", results_path, "results file (default: MODEL with the ending .h5)");
+  app.add_option("--restart", restart_path, "results file to go on from, at its last checkpoint");
   app.add_option("--set", settings, "NAME=EXPRESSION: overrides a parameter of the model")->take_all()->expected(1);
   app.add_flag("--check", check, "read, assemble and describe the model without running it");
   add_common_options(app, common);
@@ -50,7 +51,7 @@ int body(int argc, char** argv) {
   if (file.analyses.empty()) throw InputError(fmt::format("{}: nothing to do: the file has no `analysis`", model_path));
   if (results_path.empty()) results_path = std::filesystem::path(model_path).replace_extension(".h5").string();
   Progress progress(common.quiet);
-  const std::vector<AnalysisSummary> summaries = run_analyses(file, results_path, progress);
+  const std::vector<AnalysisSummary> summaries = run_analyses(file, results_path, progress, restart_path);
   if (!common.quiet) fmt::print("{}", format_summary(file, summaries, progress.phases(), results_path));
   return 0;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "mechanism/system/archive.hpp"
 #include "mechanism/system/component.hpp"
 
 namespace bielle::mechanism {
@@ -37,6 +38,12 @@ class EnergyBalance {
   double balance() const { return stored(totals_) - start_ - totals_.input + totals_.dissipation; }
   double energy_at_start() const { return start_; }
   double largest() const { return largest_; }
+  void exchange(Archive& archive) {
+    for (double* value : {&time_, &start_, &gravity_start_, &largest_}) archive(*value);
+    for (Energy* energy : {&last_, &totals_})
+      for (double* value : {&energy->kinetic, &energy->elastic, &energy->gravity, &energy->dissipation, &energy->input})
+        archive(*value);
+  }
 
  private:
   static double stored(const Energy& e) { return e.kinetic + e.elastic + e.gravity; }

@@ -219,7 +219,7 @@ std::vector<double> read_times(const YamlValue& entry, double end) {
 }
 
 OutputOptions read_output(const YamlValue& entry, double end, Model& model) {
-  entry.check_keys({"every", "times", "fields"}, "`output`");
+  entry.check_keys({"every", "times", "fields", "checkpoint"}, "`output`");
   OutputOptions output;
   if (entry.has("times")) {
     if (entry.has("every")) entry.at("every").fail("either `every` or `times`, not both");
@@ -227,6 +227,10 @@ OutputOptions read_output(const YamlValue& entry, double end, Model& model) {
   }
   if (entry.has("every")) output.every = entry.at("every").integer();
   if (output.every < 1) entry.at("every").fail("expected at least 1");
+  if (entry.has("checkpoint")) {
+    output.checkpoint = entry.at("checkpoint").integer();
+    if (output.checkpoint < 1) entry.at("checkpoint").fail("expected at least 1 step");
+  }
   if (const auto fields = entry.find("fields")) read_fields(*fields, model);
   return output;
 }

@@ -25,6 +25,7 @@ struct OutputOptions {
   int every = 1;  ///< steps between records; the first and the last are always recorded
   /// [s], ascending: if any, dynamic analyses record their start and these times in place of steps.
   std::vector<double> times;
+  int checkpoint = 0;  ///< steps between points that a run can go on from; 0: at the end of dynamic analyses only
 };
 
 struct MechanismFile {

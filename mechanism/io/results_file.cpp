@@ -46,13 +46,16 @@ struct Block {
 /// Two blocks take turns: the run fills one while the writing thread, alone, writes the other. Members below `guard`
 /// are guarded by it; `file` and `writing` belong to the writing thread while it is busy and to the run otherwise.
 struct ResultsFile::Stream {
-  Stream(const std::string& path, const Model& model)
-      : rows(model),
+  Stream(Hdf5File results, const Model& results_model)
+      : model(results_model),
+        rows(model),
         row_bytes(sizeof(double) * (rows.size() + 1)),
         block_rows(rows_in(block_bytes, row_bytes, most_block_rows)),
         row(rows.size()),
-        file(Hdf5File::create(path)) {}
+        file(std::move(results)) {}
 
+  void start(const std::string& input_text);
+  void prepare_rows();
   void create_datasets();
   void write(const Block& block);
   void link_from_root();
@@ -63,6 +66,7 @@ struct ResultsFile::Stream {
     if (failure) std::rethrow_exception(failure);
   }
 
+  const Model& model;
   ResultsRows rows;
   const std::size_t row_bytes, block_rows;
   std::vector<double> row;
@@ -70,7 +74,7 @@ struct ResultsFile::Stream {
   Block writing;
   int analysis = 0;  // the running one, and its
   std::string group;
-  std::size_t expected_rows = 0;
+  std::size_t expected_rows = 0, recorded = 0;
   std::vector<std::string> datasets;  ///< of the columns; empty before the first row
   std::string time_dataset;
   bool linked = false;
@@ -89,24 +93,29 @@ void ResultsFile::Stream::create_datasets() {
   const std::size_t known = std::min(expected_rows, most_growth_rows);
   const std::size_t chunk_rows = known > 0 ? rows_in(known_growth_bytes, row_bytes, known)
                                            : rows_in(unknown_growth_bytes, row_bytes, unknown_growth_rows);
+  prepare_rows();
   const auto units_or_number = [](const std::string& units) { return units.empty() ? std::string("-") : units; };
-  for (const ResultsColumn& column : rows.columns()) {
-    datasets.push_back(group + "/" + column.dataset);
-    file.create_rows(datasets.back(), column.shape, units_or_number(column.units), column.description, chunk_rows);
+  for (std::size_t k = 0; k < datasets.size(); ++k) {
+    const ResultsColumn& column = rows.columns()[k];
+    file.create_rows(datasets[k], column.shape, units_or_number(column.units), column.description, chunk_rows);
   }
   for (const ResultsGroup& described : rows.groups()) {
     file.make_group(group + "/" + described.name);
     for (const auto& [name, value] : described.attributes)
       file.write_attribute(group + "/" + described.name, name, value);
   }
-  time_dataset = group + "/time";
   file.create_rows(time_dataset, {}, "s", "row 0 is the start; rows of other datasets beyond these do not count",
                    known > 0 ? known : unknown_growth_rows);
+  rows.restart();
+}
+
+void ResultsFile::Stream::prepare_rows() {
+  for (const ResultsColumn& column : rows.columns()) datasets.push_back(group + "/" + column.dataset);
+  time_dataset = group + "/time";
   for (Block* block : {&filling, &writing}) {
     block->times.resize(block_rows);
     block->values.resize(block_rows * rows.size());
   }
-  rows.restart();
 }
 
 /// The file never counts a row that is not whole: first the data, then the times.
@@ -173,16 +182,38 @@ void ResultsFile::Stream::wait_until_all_is_written() {
 // -- the run's side
 
 ResultsFile::ResultsFile(const std::string& path, const Model& model, const std::string& input_text)
-    : stream_(std::make_unique<Stream>(path, model)) {
+    : stream_(std::make_unique<Stream>(Hdf5File::create(path), model)) {
   Hdf5File& file = stream_->file;
   file.write_attribute("/", "format", std::string("bielle results"));
   file.write_attribute("/", "version", results_version);
   file.write_attribute("/", "name", model.title);
   file.write_attribute("/", "created_by", std::string("bielle-mechanism ") + BIELLE_VERSION);
+  stream_->start(input_text);
+}
+
+ResultsFile::ResultsFile(const std::string& path, const Model& model, const std::string& input_text,
+                         const Checkpoint& checkpoint)
+    : stream_(std::make_unique<Stream>(Hdf5File::open_to_extend(path), model)) {
+  Stream& stream = *stream_;
+  rewind_to(stream.file, checkpoint);
+  stream.analysis = checkpoint.analysis;
+  stream.group = fmt::format("/analysis_{}", checkpoint.analysis);
+  stream.recorded = checkpoint.rows;
+  stream.prepare_rows();
+  for (const ResultsColumn& column : stream.rows.columns())
+    if (const std::string dataset = stream.group + "/" + column.dataset; !stream.file.has(dataset))
+      throw InputError(
+          fmt::format("{}: '{}' is not in it: a run goes on with the outputs that it began with", path, dataset));
+  stream.link_from_root();
+  stream.file.remove("/input");
+  stream.start(input_text);
+}
+
+void ResultsFile::Stream::start(const std::string& input_text) {
   file.write_attribute("/", "complete", std::int64_t{0});
   file.write_text("/input", input_text);
   file.flush();
-  stream_->writer = std::thread([stream = stream_.get()] { stream->write_until_told_to_stop(); });
+  writer = std::thread([this] { write_until_told_to_stop(); });
 }
 
 ResultsFile::~ResultsFile() {
@@ -198,6 +229,7 @@ void ResultsFile::begin_analysis(const std::string& type, std::size_t expected_r
   stream_->wait_until_all_is_written();
   stream_->group = fmt::format("/analysis_{}", ++stream_->analysis);
   stream_->expected_rows = expected_rows;
+  stream_->recorded = 0;
   stream_->datasets.clear();
   stream_->linked = false;
   stream_->file.make_group(stream_->group);
@@ -210,6 +242,7 @@ void ResultsFile::record(const State& state, const std::vector<Slots>& slots, co
   if (stream.group.empty()) throw std::logic_error("a row of results outside of an analysis");
   if (stream.datasets.empty()) stream.create_datasets();
   stream.rows.fill(state, slots, environment, step, stream.row.data());
+  ++stream.recorded;
 
   std::unique_lock lock(stream.guard);
   stream.changed.wait(lock, [&] { return stream.failure || stream.filling.rows < stream.block_rows; });
@@ -221,6 +254,13 @@ void ResultsFile::record(const State& state, const std::vector<Slots>& slots, co
   block.times[block.rows++] = step.time.value_or(state.time);
   if (block.rows == stream.block_rows) stream.changed.notify_all();
 }
+
+void ResultsFile::checkpoint(Archive& archive) {
+  stream_->wait_until_all_is_written();
+  append_checkpoint(stream_->file, stream_->model, {stream_->analysis, stream_->recorded, archive.values()});
+}
+
+void ResultsFile::exchange(Archive& archive) { stream_->rows.exchange(archive); }
 
 void ResultsFile::end_analysis() {
   stream_->wait_until_all_is_written();

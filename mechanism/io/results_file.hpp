@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "mechanism/io/checkpoint.hpp"
+#include "mechanism/system/archive.hpp"
 #include "mechanism/system/component.hpp"
 #include "mechanism/system/state.hpp"
 
@@ -38,6 +40,9 @@ class ResultsFile {
   /// @param input_text  text of the mechanism file
   /// @throws ComputationError when the file cannot be created
   ResultsFile(const std::string& path, const Model& model, const std::string& input_text);
+  /// Goes on with an existing file behind a checkpoint: what came after it is taken out. The analysis of the checkpoint
+  /// is the running one.
+  ResultsFile(const std::string& path, const Model& model, const std::string& input_text, const Checkpoint& checkpoint);
   ~ResultsFile();  ///< writes the rows that wait; the file stays `complete = false` unless complete() was called
   ResultsFile(const ResultsFile&) = delete;
   ResultsFile& operator=(const ResultsFile&) = delete;
@@ -54,6 +59,11 @@ class ResultsFile {
   void record(const State& state, const std::vector<Slots>& slots, const Environment& environment,
               const StepRecord& step);
 
+  /// Writes the rows that wait and, behind them, a point to go on from. @param archive  with all of it but what belongs
+  /// to the file itself
+  void checkpoint(Archive& archive);
+  /// What rows to come take from those before.
+  void exchange(Archive& archive);
   /// Writes the rows that wait and links the analysis's groups from the root.
   void end_analysis();
   void complete();  ///< marks the file `complete = true` and closes it

@@ -130,6 +130,11 @@ void ResultsRows::add_members() {
   output_.resize(largest);
 }
 
+void ResultsRows::exchange(Archive& archive) {
+  for (Eigen::Vector4d& quaternion : quaternions_) archive(quaternion);
+  archive(quaternions_known_);
+}
+
 void ResultsRows::fill(const State& state, const std::vector<Slots>& slots, const Environment& environment,
                        const StepRecord& step, double* values) {
   for (const NodePlace& place : nodes_) fill_node(place, state.nodes[static_cast<std::size_t>(place.node)], values);

@@ -41,6 +41,7 @@ class ResultsRows {
             double* values);
   /// The next row follows no other: its quaternions have w >= 0.
   void restart() { quaternions_known_ = false; }
+  void exchange(Archive& archive);
 
  private:
   struct NodePlace {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <filesystem>
 #include <optional>
 
 #include <fmt/format.h>
@@ -41,12 +42,15 @@ class InterruptGuard {
 
 class Run {
  public:
-  Run(const MechanismFile& file, const std::string& results_path, Progress& progress)
+  Run(const MechanismFile& file, const std::string& results_path, Progress& progress,
+      const std::optional<Checkpoint>& checkpoint)
       : file_(file),
         system_(file.model),
         environment_(file.model.environment),
         state_(system_.start(0)),
-        results_(results_path, file.model, file.text),
+        checkpoint_(checkpoint),
+        results_(checkpoint ? ResultsFile(results_path, file.model, file.text, *checkpoint)
+                            : ResultsFile(results_path, file.model, file.text)),
         progress_(progress) {
     const std::vector<int> redundant = find_redundant(system_, environment_, state_);
     system_.set_aside(redundant);
@@ -56,8 +60,17 @@ class Run {
 
   std::vector<AnalysisSummary> all() {
     std::vector<AnalysisSummary> summaries;
-    for (const Analysis& analysis : file_.analyses) {
+    for (std::size_t k = 0; k < file_.analyses.size(); ++k) {
+      const Analysis& analysis = file_.analyses[k];
+      const int number = static_cast<int>(k) + 1;
+      if (checkpoint_ && number < checkpoint_->analysis) continue;
       progress_.start(analysis.name);
+      if (checkpoint_ && number == checkpoint_->analysis) {
+        summaries.push_back(integrate(analysis, &*checkpoint_));
+        results_.end_analysis();
+        summaries.back().redundant = redundant_;
+        continue;
+      }
       results_.begin_analysis(analysis.name, expected_rows(analysis));
       switch (analysis.type) {
         case Analysis::Type::assembly:
@@ -67,7 +80,7 @@ class Run {
           summaries.push_back(solve_static(analysis));
           break;
         case Analysis::Type::dynamics:
-          summaries.push_back(integrate(analysis));
+          summaries.push_back(integrate(analysis, nullptr));
           break;
       }
       results_.end_analysis();
@@ -172,58 +185,125 @@ class Run {
     return options;
   }
 
-  AnalysisSummary integrate(const Analysis& analysis) {
-    AnalysisSummary summary;
-    summary.name = fmt::format("dynamic, {}", analysis.scheme_name);
-    const double begin = state_.time, end = begin + analysis.duration;
-    const StepOptions stepping = stepping_of(analysis, begin);
-    TimeIntegration integration(system_, environment_, analysis.scheme, std::move(state_));
-    summary.start = integration.start_report();
-    state_ = integration.state();
+  /// A dynamic analysis on its way.
+  struct Motion {
+    double begin = 0, end = 0;
+    StepOptions stepping;
+    std::optional<TimeIntegration> integration;
+    std::optional<March> march;
     EnergyBalance books;
-    books.start(begin, system_.energy(state_, environment_));
-    record(environment_, books, stepping.size, 0);
-    summary.records = 1;
-    const std::vector<double>& times = file_.output.times;
-    auto next_time = std::upper_bound(times.begin(), times.end(), begin);
-    long steps = 0;
-    const auto after_step = [&](const MarchStep& step) {
-      const State& now = integration.state();
-      const EnergyBalance before = books;
-      books.advance(now.time, system_.energy(now, environment_));
-      if (step.on_grid) ++steps;
-      if (!times.empty()) {
-        for (; next_time != times.end() && *next_time <= now.time; ++next_time) {
-          state_ = *next_time == now.time ? now : integration.interpolated(*next_time);
-          EnergyBalance then = before;
-          then.advance(*next_time, system_.energy(state_, environment_));
-          record(step, then);
-          ++summary.records;
-        }
-      } else if ((step.on_grid && steps % file_.output.every == 0) || now.time >= end) {
-        state_ = now;
-        record(step, books);
-        ++summary.records;
+    long grid_steps = 0;  ///< done
+    bool saved = false;   ///< nothing has happened since the last checkpoint
+  };
+
+  /// @param checkpoint  to go on from, or nullptr
+  AnalysisSummary integrate(const Analysis& analysis, const Checkpoint* checkpoint) {
+    AnalysisSummary summary;
+    Motion motion;
+    summary.name = fmt::format("dynamic, {}", analysis.scheme_name);
+    if (checkpoint) {
+      go_on(analysis, *checkpoint, motion);
+      summary.name += fmt::format(", continued from t = {:.6g} s", motion.integration->state().time);
+    } else {
+      set_off(analysis, motion);
+      summary.start = motion.integration->start_report();
+      summary.records = 1;
+    }
+    try {
+      while (!motion.march->done()) {
+        step(motion, summary);
+        guard_.check(motion.integration->state().time);
       }
-      progress_.update((now.time - begin) / analysis.duration, fmt::format("t = {:.4g} s", now.time));
-      guard_.check(now.time);
-    };
-    summary.march = march(integration, end, stepping, after_step);
-    state_ = integration.state();
+    } catch (const ComputationError&) {
+      save(motion);
+      throw;
+    }
+    save(motion);
+    state_ = motion.integration->state();
+    summary.march = motion.march->log();
     summary.steps = summary.march.steps;
     summary.iterations = summary.march.iterations;
     summary.end_time = state_.time;
-    summary.energy = books.totals();
-    summary.energy_start = books.energy_at_start();
-    summary.balance = books.balance();
-    summary.largest_energy = books.largest();
+    summary.energy = motion.books.totals();
+    summary.energy_start = motion.books.energy_at_start();
+    summary.balance = motion.books.balance();
+    summary.largest_energy = motion.books.largest();
     return summary;
+  }
+
+  void set_off(const Analysis& analysis, Motion& motion) {
+    motion.begin = state_.time;
+    motion.end = motion.begin + analysis.duration;
+    motion.stepping = stepping_of(analysis, motion.begin);
+    motion.integration.emplace(system_, environment_, analysis.scheme, std::move(state_));
+    state_ = motion.integration->state();
+    motion.books.start(motion.begin, system_.energy(state_, environment_));
+    record(environment_, motion.books, motion.stepping.size, 0);
+    motion.march.emplace(*motion.integration, motion.begin, motion.end, motion.stepping);
+  }
+
+  void go_on(const Analysis& analysis, const Checkpoint& checkpoint, Motion& motion) {
+    Archive archive(checkpoint.values);
+    exchange_books(archive, motion);
+    motion.end = motion.begin + analysis.duration;
+    motion.stepping = stepping_of(analysis, motion.begin);
+    motion.integration.emplace(system_, environment_, analysis.scheme, archive);
+    motion.march.emplace(*motion.integration, motion.begin, motion.end, motion.stepping);
+    motion.march->exchange(archive);
+    motion.saved = true;
+  }
+
+  void exchange_books(Archive& archive, Motion& motion) {
+    archive(motion.begin);
+    archive(motion.grid_steps);
+    motion.books.exchange(archive);
+    results_.exchange(archive);
+  }
+
+  void save(Motion& motion) {
+    if (motion.saved) return;
+    Archive archive;
+    exchange_books(archive, motion);
+    motion.integration->exchange(archive);
+    motion.march->exchange(archive);
+    results_.checkpoint(archive);
+    motion.saved = true;
+  }
+
+  /// A step with the rows that it asks for.
+  void step(Motion& motion, AnalysisSummary& summary) {
+    const TimeIntegration& integration = *motion.integration;
+    const OutputOptions& output = file_.output;
+    const double before = integration.state().time;
+    const EnergyBalance books_before = motion.books;
+    const MarchStep step = motion.march->advance();
+    motion.saved = false;
+    const State& now = integration.state();
+    motion.books.advance(now.time, system_.energy(now, environment_));
+    if (step.on_grid) ++motion.grid_steps;
+    if (!output.times.empty()) {
+      for (auto time = std::upper_bound(output.times.begin(), output.times.end(), before);
+           time != output.times.end() && *time <= now.time; ++time) {
+        state_ = *time == now.time ? now : integration.interpolated(*time);
+        EnergyBalance books = books_before;
+        books.advance(*time, system_.energy(state_, environment_));
+        record(step, books);
+        ++summary.records;
+      }
+    } else if ((step.on_grid && motion.grid_steps % output.every == 0) || motion.march->done()) {
+      state_ = now;
+      record(step, motion.books);
+      ++summary.records;
+    }
+    if (output.checkpoint > 0 && step.on_grid && motion.grid_steps % output.checkpoint == 0) save(motion);
+    progress_.update((now.time - motion.begin) / (motion.end - motion.begin), fmt::format("t = {:.4g} s", now.time));
   }
 
   const MechanismFile& file_;
   System system_;
   Environment environment_;
   State state_;
+  std::optional<Checkpoint> checkpoint_;
   ResultsFile results_;
   Progress& progress_;
   InterruptGuard guard_;
@@ -233,8 +313,24 @@ class Run {
 }  // namespace
 
 std::vector<AnalysisSummary> run_analyses(const MechanismFile& file, const std::string& results_path,
-                                          Progress& progress) {
-  return Run(file, results_path, progress).all();
+                                          Progress& progress, const std::string& restart) {
+  namespace fs = std::filesystem;
+  std::optional<Checkpoint> checkpoint;
+  if (!restart.empty()) {
+    checkpoint = read_checkpoint(restart, file.model);
+    if (checkpoint->analysis > static_cast<int>(file.analyses.size()))
+      throw InputError(fmt::format("{}: its last checkpoint is of analysis {}, and the model has {}", restart,
+                                   checkpoint->analysis, file.analyses.size()));
+    const Analysis& analysis = file.analyses[static_cast<std::size_t>(checkpoint->analysis) - 1];
+    if (analysis.type != Analysis::Type::dynamics)
+      throw InputError(
+          fmt::format("{}: its last checkpoint is of analysis {}, which is '{}' in the model and not a dynamic one",
+                      restart, checkpoint->analysis, analysis.name));
+    std::error_code none;
+    if (!fs::equivalent(restart, results_path, none))
+      fs::copy_file(restart, results_path, fs::copy_options::overwrite_existing);
+  }
+  return Run(file, results_path, progress, checkpoint).all();
 }
 
 }  // namespace bielle::mechanism

@@ -26,8 +26,10 @@ struct AnalysisSummary {
 };
 
 /// Runs all analyses and writes the results file.
+/// @param restart  a results file of the same model to go on from, at its last checkpoint; its rows up to there become
+///                 those of the new file, which may be the same one. Empty: a new run
 /// @throws InputError, ComputationError; the results file then holds every row recorded so far, `complete = false`
 std::vector<AnalysisSummary> run_analyses(const MechanismFile& file, const std::string& results_path,
-                                          Progress& progress);
+                                          Progress& progress, const std::string& restart = "");
 
 }  // namespace bielle::mechanism

@@ -163,6 +163,8 @@ FactorStatus SparseLU::factor(const std::vector<double>& values, const VectorX& 
   return refactor(values) || factor_afresh(values) ? FactorStatus::good : FactorStatus::singular;
 }
 
+void SparseLU::forget() { factors_->drop(); }
+
 void SparseLU::solve(Eigen::Ref<VectorX> b) const {
   if (pattern_.size() == 0) return;
   b.array() *= factors_->left.array();

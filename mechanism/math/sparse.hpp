@@ -45,6 +45,8 @@ class SparseLU {
   /// @param values  of A, in the order of the pattern
   /// @param scale   the diagonal of D (size)
   FactorStatus factor(const std::vector<double>& values, const VectorX& scale);
+  /// The next factorisation chooses ordering and pivots anew.
+  void forget();
   /// b <- A^-1 b. Only after a good factorisation.
   void solve(Eigen::Ref<VectorX> b) const;
   /// Column (an unknown) at which the last factorisation found no pivot, or -1.

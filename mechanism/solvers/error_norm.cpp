@@ -31,6 +31,14 @@ ErrorNorm::ErrorNorm(const System& system, const Environment& environment, const
   }
 }
 
+void ErrorNorm::exchange(Archive& archive) {
+  archive(mass_);
+  archive(mass_sum_);
+  archive(inertia_sum_);
+  archive(length_);
+  archive(largest_first_order_);
+}
+
 double ErrorNorm::operator()(const TimeIntegration& integration) {
   const VectorX e = integration.position_error();
   double displacement = 0, rotation = 0;

@@ -15,6 +15,7 @@ class ErrorNorm {
   ErrorNorm(const System& system, const Environment& environment, const State& state);
   /// @param integration  with an attempted step. @returns [-]
   double operator()(const TimeIntegration& integration);
+  void exchange(Archive& archive);
 
  private:
   const System& system_;

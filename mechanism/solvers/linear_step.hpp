@@ -19,6 +19,8 @@ class LinearStep {
   /// As `factor`, with `extra` added to the diagonal of the dofs; returns false when singular.
   bool try_factor(const State& state, const Environment& environment, const TangentWeights& weights, const VectorX* dq,
                   const VectorX* extra = nullptr);
+  /// The next factorisation owes nothing to those before.
+  void choose_pivots_anew() { factors_.forget(); }
   /// delta = -J^-1 r. @param r,delta (size)
   void solve(const Eigen::Ref<const VectorX>& r, Eigen::Ref<VectorX> delta) const;
 

@@ -2,18 +2,26 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include <fmt/format.h>
 
-#include "mechanism/solvers/error_norm.hpp"
 #include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
 namespace {
 
+/// The size for the next step after one of size h with this error over tolerance.
+double proposed_size(double h, double error, double largest) {
+  const double factor = 0.9 * std::cbrt(1 / std::max(error, 1e-6));
+  if (error > 1) return h * std::clamp(factor, 0.1, 0.9);
+  if (factor > 0.9 && factor < 1.25) return h;
+  return std::min(h * std::clamp(factor, 0.5, 2.0), largest);
+}
+
+}  // namespace
+
 /// Where steps have to end: the grid of fixed steps, kinks, and the end.
-class Stops {
+class March::Stops {
  public:
   Stops(double begin, double end, const StepOptions& options)
       : begin_(begin), end_(end), rounding_(1e-9 * options.size), kinks_(options.break_points) {
@@ -50,84 +58,97 @@ class Stops {
   bool at_kink_ = false;
 };
 
-/// The size for the next step after one of size h with this error over tolerance.
-double proposed_size(double h, double error, double largest) {
-  const double factor = 0.9 * std::cbrt(1 / std::max(error, 1e-6));
-  if (error > 1) return h * std::clamp(factor, 0.1, 0.9);
-  if (factor > 0.9 && factor < 1.25) return h;
-  return std::min(h * std::clamp(factor, 0.5, 2.0), largest);
+March::March(TimeIntegration& integration, double begin, double end, StepOptions options)
+    : integration_(integration), end_(end), options_(std::move(options)) {
+  const bool adaptive = options_.tolerance > 0;
+  stops_ = std::make_unique<Stops>(begin, end, options_);
+  stops_->advance(integration.state().time);
+  if (adaptive) norm_.emplace(integration.system(), integration.environment(), integration.state());
+  size_ = adaptive ? std::min(options_.size, options_.largest) : stops_->step_size();
+  smallest_ = adaptive ? 1e-10 * (end - begin) : size_ / 1024;
+  const std::vector<double>& kinks = options_.break_points;
+  if (std::find(kinks.begin(), kinks.end(), begin) != kinks.end()) pending_ = Pending::restart;
 }
 
-}  // namespace
+March::~March() = default;
 
-MarchLog march(TimeIntegration& integration, double end, const StepOptions& options,
-               const std::function<void(const MarchStep&)>& after_step) {
-  const double begin = integration.state().time;
-  const bool adaptive = options.tolerance > 0;
-  Stops stops(begin, end, options);
-  std::optional<ErrorNorm> norm;
-  if (adaptive) norm.emplace(integration.system(), integration.environment(), integration.state());
-  double size = adaptive ? std::min(options.size, options.largest) : stops.step_size();
-  const double smallest = adaptive ? 1e-10 * (end - begin) : size / 1024;
+bool March::done() const { return integration_.state().time >= end_; }
 
-  MarchLog log;
-  stops.advance(begin);
-  const double first = std::min(size, stops.time() - begin);
-  if (std::find(options.break_points.begin(), options.break_points.end(), begin) != options.break_points.end())
-    integration.restart(first);
-  else
-    integration.start(first);
-  while (integration.state().time < end) {
-    const double time = integration.state().time, left = stops.time() - time;
+void March::exchange(Archive& archive) {
+  auto pending = static_cast<int>(pending_);
+  archive(pending);
+  pending_ = static_cast<Pending>(pending);
+  archive(size_);
+  for (long* count : {&log_.steps, &log_.iterations, &log_.refused_by_error, &log_.refused_by_newton}) archive(*count);
+  for (double* value : {&log_.smallest, &log_.largest, &log_.most_iterations_at}) archive(*value);
+  archive(log_.most_iterations);
+  if (norm_) norm_->exchange(archive);
+  stops_->advance(integration_.state().time);
+}
+
+void March::begin_step() {
+  const double h = std::min(size_, stops_->time() - integration_.state().time);
+  if (pending_ == Pending::start) integration_.start(h);
+  if (pending_ == Pending::restart) integration_.restart(h);
+  pending_ = Pending::nothing;
+}
+
+void March::refuse_by_newton(double h, const StepReport& report) {
+  ++log_.refused_by_newton;
+  log_.hardest = report.refusal;
+  size_ = h / 2;
+  if (size_ < smallest_)
+    throw ComputationError(fmt::format("{}; steps down to {:.3g} s have been tried", report.refusal, h));
+}
+
+void March::refuse_by_error(double h, double error) {
+  ++log_.refused_by_error;
+  size_ = proposed_size(h, error, options_.largest);
+  if (size_ < smallest_)
+    throw ComputationError(
+        fmt::format("t = {:.6g} s: the local error stays {:.3g} times the tolerance with a step of {:.3g} s",
+                    integration_.state().time, error, h));
+}
+
+MarchStep March::advance() {
+  begin_step();
+  while (true) {
+    const double time = integration_.state().time, left = stops_->time() - time;
     // The last two steps before a stop are of one size: no sliver remains.
-    const bool last = left <= size * (1 + 1e-9);
-    const double h = last ? left : left < 2 * size ? left / 2 : size;
-    integration.change_step(h);
-    const StepReport report = integration.attempt(h, last ? stops.time() : time + h, last && stops.at_kink());
-    log.iterations += report.iterations;
-    double error = 0;
+    const bool last = left <= size_ * (1 + 1e-9);
+    const double h = last ? left : left < 2 * size_ ? left / 2 : size_;
+    const bool kink = last && stops_->at_kink();
+    integration_.change_step(h);
+    const StepReport report = integration_.attempt(h, last ? stops_->time() : time + h, kink);
+    log_.iterations += report.iterations;
     if (!report.converged()) {
-      ++log.refused_by_newton;
-      log.hardest = report.refusal;
-      size = h / 2;
-      if (size < smallest)
-        throw ComputationError(fmt::format("{}; steps down to {:.3g} s have been tried", report.refusal, h));
+      refuse_by_newton(h, report);
       continue;
     }
-    if (adaptive) {
-      error = (*norm)(integration) / options.tolerance;
-      if (error > 1) {
-        ++log.refused_by_error;
-        size = proposed_size(h, error, options.largest);
-        if (size < smallest)
-          throw ComputationError(
-              fmt::format("t = {:.6g} s: the local error stays {:.3g} times the tolerance with a step of {:.3g} s",
-                          time, error, h));
-        continue;
-      }
+    const double error = norm_ ? (*norm_)(integration_) / options_.tolerance : 0;
+    if (error > 1) {
+      refuse_by_error(h, error);
+      continue;
     }
-    integration.accept();
-    ++log.steps;
-    if (report.iterations > log.most_iterations) {
-      log.most_iterations = report.iterations;
-      log.most_iterations_at = integration.state().time;
+    integration_.accept();
+    ++log_.steps;
+    if (report.iterations > log_.most_iterations) {
+      log_.most_iterations = report.iterations;
+      log_.most_iterations_at = integration_.state().time;
     }
-    if (!last || !stops.at_kink()) {
-      log.smallest = log.smallest > 0 ? std::min(log.smallest, h) : h;
-      log.largest = std::max(log.largest, h);
+    if (!kink) {
+      log_.smallest = log_.smallest > 0 ? std::min(log_.smallest, h) : h;
+      log_.largest = std::max(log_.largest, h);
     }
-    after_step({report, error, last && stops.on_grid()});
-    if (adaptive)
-      size = std::max(proposed_size(h, error, options.largest), last ? size : 0);
-    else if (size < stops.step_size())
-      size = std::min(2 * size, stops.step_size());
-    if (!last) continue;
-    const bool kink = stops.at_kink();
-    if (stops.time() >= end) break;
-    stops.advance(stops.time());
-    if (kink) integration.restart(std::min(size, stops.time() - integration.state().time));
+    if (norm_)
+      size_ = std::max(proposed_size(h, error, options_.largest), last ? size_ : 0);
+    else
+      size_ = std::min(2 * size_, stops_->step_size());
+    const bool on_grid = last && stops_->on_grid();
+    if (kink) pending_ = Pending::restart;
+    if (last) stops_->advance(stops_->time());
+    return {report, error, norm_.has_value() || on_grid};
   }
-  return log;
 }
 
 }  // namespace bielle::mechanism

@@ -6,12 +6,13 @@
 // a change costs a factorisation.
 #pragma once
 
-#include <functional>
 #include <limits>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "mechanism/solvers/time_integration.hpp"
+#include "mechanism/solvers/error_norm.hpp"
 
 namespace bielle::mechanism {
 
@@ -25,7 +26,7 @@ struct StepOptions {
 
 /// An accepted step.
 struct MarchStep {
-  const StepReport& report;
+  StepReport report;
   double error = 0;     ///< local error over tolerance; 0 with fixed steps
   bool on_grid = true;  ///< ends on a time of the fixed grid; always true with adaptive steps
 };
@@ -35,16 +36,44 @@ struct MarchLog {
   long steps = 0, iterations = 0;    ///< accepted steps; linear solves, those of refused steps included
   long refused_by_error = 0;         ///< steps whose local error was too large
   long refused_by_newton = 0;        ///< steps in which Newton's method failed
-  double smallest = 0, largest = 0;  ///< accepted steps [s], those cut short by the end or by kinks left out
-  std::string hardest;               ///< why a step was last refused; empty when none was
+  double smallest = 0, largest = 0;  ///< accepted steps [s], those cut short by kinks left out
   int most_iterations = 0;           ///< of an accepted step
   double most_iterations_at = 0;     ///< [s]
+  std::string hardest;               ///< why a step was last refused; empty when none was
 };
 
-/// Integrates to `end`. @param after_step  called after every accepted step
-/// @throws ComputationError when Newton's method fails with the smallest steps too: 1/1024 of the fixed size, or 1e-10
-/// of the span
-MarchLog march(TimeIntegration& integration, double end, const StepOptions& options,
-               const std::function<void(const MarchStep&)>& after_step);
+class March {
+ public:
+  /// @param begin  where the grid of fixed steps has its origin: the integration's time, or before it when a motion is
+  ///               continued [s]
+  /// @param end    [s]
+  March(TimeIntegration& integration, double begin, double end, StepOptions options);
+  ~March();
+
+  bool done() const;
+  /// Takes one step. What a kink at its end asks for is done when the next one begins.
+  /// @throws ComputationError when Newton's method fails with the smallest steps too: 1/1024 of the fixed size, or
+  /// 1e-10
+  ///         of the span
+  MarchStep advance();
+  const MarchLog& log() const { return log_; }
+  void exchange(Archive& archive);  ///< of a march with the same options; the integration has its own
+
+ private:
+  class Stops;
+  enum class Pending { nothing, start, restart };
+  void begin_step();
+  void refuse_by_error(double h, double error);
+  void refuse_by_newton(double h, const StepReport& report);
+
+  TimeIntegration& integration_;
+  double end_;
+  StepOptions options_;
+  std::unique_ptr<Stops> stops_;
+  std::optional<ErrorNorm> norm_;  ///< adaptive steps only
+  Pending pending_ = Pending::start;
+  double size_ = 0, smallest_ = 0;
+  MarchLog log_;
+};
 
 }  // namespace bielle::mechanism

@@ -24,21 +24,48 @@ TimeIntegration::TimeIntegration(const System& system, const Environment& enviro
       linear_(system),
       options_(options),
       convergence_(system, options) {
+  allocate();
   start_report_ = make_consistent(system_, environment_, state_);
-  const int n = system.dofs();
-  for (VectorX* vector : {&v_, &a_, &dq_, &v_new_, &a_new_, &j_, &last_dq_}) vector->setZero(n);
-  r_.setZero(system.size());
-  delta_.setZero(system.size());
   take_rates();
   system_.accept(state_, environment_);
   next_ = state_;
+}
+
+TimeIntegration::TimeIntegration(const System& system, const Environment& environment, const Scheme& scheme,
+                                 Archive& archive, const NewtonOptions& options)
+    : system_(system),
+      environment_(environment),
+      scheme_(scheme),
+      state_(system.start(0)),
+      linear_(system),
+      options_(options),
+      convergence_(system, options) {
+  allocate();
+  exchange(archive);
+  next_ = state_;
+}
+
+void TimeIntegration::allocate() {
+  for (VectorX* vector : {&v_, &a_, &A_, &dq_, &v_new_, &a_new_, &j_, &last_dq_}) vector->setZero(system_.dofs());
+  Y_ = state_.first_order_rate;
+  Y_rate_.setZero(system_.first_orders());
+  r_.setZero(system_.size());
+  delta_.setZero(system_.size());
+}
+
+void TimeIntegration::exchange(Archive& archive) {
+  archive(state_);
+  for (VectorX* vector : {&v_, &a_, &A_, &j_, &Y_, &Y_rate_}) archive(*vector);
+  archive(Y_rate_known_);
+  archive(h_);
+  linear_.choose_pivots_anew();
 }
 
 void TimeIntegration::take_rates() {
   system_.get_rates(state_, v_, a_);
   A_ = a_;
   Y_ = state_.first_order_rate;
-  Y_rate_.resize(0);
+  Y_rate_known_ = false;
 }
 
 VectorX TimeIntegration::acceleration_rate(double h) {
@@ -207,6 +234,7 @@ void TimeIntegration::accept() {
   const VectorX A = algorithmic_acceleration(), Y = algorithmic_rate();
   j_ = (A - A_) / attempted_;
   Y_rate_ = (Y - Y_) / attempted_;
+  Y_rate_known_ = true;
   A_ = A;
   Y_ = Y;
   v_ = v_new_;
@@ -269,7 +297,7 @@ VectorX TimeIntegration::position_error() const {
 
 VectorX TimeIntegration::first_order_error() const {
   const double h = attempted_;
-  if (Y_rate_.size() == 0) return VectorX::Zero(system_.first_orders());
+  if (!Y_rate_known_) return VectorX::Zero(system_.first_orders());
   const VectorX rate = (algorithmic_rate() - Y_) / h;
   // The two rates stand at the middles of the two steps.
   return scheme_.velocity_error() * h * h * h * (rate - Y_rate_) / (0.5 * (h + h_));

@@ -22,6 +22,7 @@
 
 #include "mechanism/solvers/consistent_start.hpp"
 #include "mechanism/solvers/scheme.hpp"
+#include "mechanism/system/archive.hpp"
 
 namespace bielle::mechanism {
 
@@ -39,6 +40,13 @@ class TimeIntegration {
   /// @param state  positions and velocities to start from; made consistent here
   TimeIntegration(const System& system, const Environment& environment, const Scheme& scheme, State state,
                   const NewtonOptions& options = {});
+
+  /// Continues a motion from where `exchange` left it.
+  TimeIntegration(const System& system, const Environment& environment, const Scheme& scheme, Archive& archive,
+                  const NewtonOptions& options = {});
+  /// All that the motion goes on from. What comes after does not depend on whether it was interrupted here: pivots of
+  /// the tangent are chosen anew in both cases.
+  void exchange(Archive& archive);
 
   /// Sets the algorithmic start values for steps of size h. Call once before the first step.
   void start(double h);
@@ -72,6 +80,7 @@ class TimeIntegration {
   const StartReport& start_report() const { return start_report_; }
 
  private:
+  void allocate();
   void take_rates();                                ///< of the state, as algorithmic values
   VectorX acceleration_rate(double h);              ///< j
   bool resolved(const VectorX& j, double h) const;  ///< accelerations change little within a step
@@ -94,7 +103,8 @@ class TimeIntegration {
   VectorX v_, a_, A_;     ///< of the dofs at the last accepted time
   VectorX j_;             ///< rate of A over the last accepted step
   VectorX Y_;             ///< algorithmic rates of the first-order unknowns
-  VectorX Y_rate_;        ///< and their rate over the last accepted step; empty in the first
+  VectorX Y_rate_;        ///< and their rate over the last accepted step
+  bool Y_rate_known_ = false;
   VectorX dq_, v_new_, a_new_, r_, delta_;
   VectorX last_dq_;  ///< of the last accepted step
 };

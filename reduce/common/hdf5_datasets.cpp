@@ -81,6 +81,11 @@ void Hdf5File::write_names(const std::string& dataset, const std::vector<std::st
 
 bool Hdf5File::has(const std::string& object) const { return handle_->has(object); }
 
+bool Hdf5File::is_group(const std::string& object) const {
+  const Hdf5Id opened = handle_->open_object(object);
+  return H5Iget_type(opened) == H5I_GROUP;
+}
+
 std::vector<std::string> Hdf5File::names_in(const std::string& group) const {
   const Hdf5Id opened(H5Gopen2(handle_->file, group.c_str(), H5P_DEFAULT), H5Gclose);
   if (!opened.valid()) handle_->fail(group, "is no group of this file");

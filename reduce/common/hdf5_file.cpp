@@ -172,12 +172,22 @@ GrowingDataset Hdf5File::Handle::growing_from(Hdf5Id dataset, const std::string&
   return result;
 }
 
-void Hdf5File::append_rows(const std::string& dataset, std::span<const double> values, std::size_t rows) {
+GrowingDataset& Hdf5File::Handle::growing_dataset(const std::string& dataset) {
   silence_hdf5();
-  auto found = handle_->growing.find(dataset);
-  if (found == handle_->growing.end())
-    found = handle_->growing.emplace(dataset, handle_->growing_from(handle_->open_dataset(dataset), dataset)).first;
-  GrowingDataset& growing = found->second;
+  auto found = growing.find(dataset);
+  if (found == growing.end()) found = growing.emplace(dataset, growing_from(open_dataset(dataset), dataset)).first;
+  return found->second;
+}
+
+void Hdf5File::truncate_rows(const std::string& dataset, std::size_t rows) {
+  GrowingDataset& growing = handle_->growing_dataset(dataset);
+  if (growing.extent[0] <= rows) return;
+  growing.extent[0] = rows;
+  handle_->checked(H5Dset_extent(growing.dataset, growing.extent.data()), dataset, "cannot be shortened");
+}
+
+void Hdf5File::append_rows(const std::string& dataset, std::span<const double> values, std::size_t rows) {
+  GrowingDataset& growing = handle_->growing_dataset(dataset);
   if (values.size() != rows * growing.row_size)
     throw std::logic_error(fmt::format("{} values given for {} rows of '{}'", values.size(), rows, dataset));
   if (rows == 0) return;

@@ -58,6 +58,7 @@ class Hdf5File {
   void remove(const std::string& object);     ///< takes a dataset, group or link out of the file
 
   bool has(const std::string& object) const;
+  bool is_group(const std::string& object) const;
   std::vector<std::string> names_in(const std::string& group) const;  ///< of its groups and datasets, in file order
   Shape shape(const std::string& dataset) const;
   std::string units(const std::string& dataset) const;
@@ -80,6 +81,8 @@ class Hdf5File {
                    const std::string& description = "", std::size_t rows_per_chunk = 256);
   /// Appends `rows` rows; `values` holds them one after the other.
   void append_rows(const std::string& dataset, std::span<const double> values, std::size_t rows = 1);
+  /// Takes away the rows behind the first `rows`, if there are so many.
+  void truncate_rows(const std::string& dataset, std::size_t rows);
   /// `name` becomes another name of `target` within this file (a soft link), whatever it was a link to before.
   void link(const std::string& target, const std::string& name);
 

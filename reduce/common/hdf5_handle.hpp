@@ -96,6 +96,7 @@ struct Hdf5File::Handle {
   void check_class(hid_t dataset, const std::string& name, H5T_class_t expected) const;
   std::vector<std::string> read_strings(const std::string& dataset) const;
   GrowingDataset growing_from(Hdf5Id dataset, const std::string& name) const;
+  GrowingDataset& growing_dataset(const std::string& dataset);  // opens it when it is not
 };
 
 }  // namespace bielle

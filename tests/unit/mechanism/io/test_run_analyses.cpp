@@ -1,8 +1,11 @@
 // What whole runs record.
+#include <filesystem>
+
 #include <catch2/catch.hpp>
 
 #include "mechanism/io/run_analyses.hpp"
 #include "reduce/common/hdf5_file.hpp"
+#include "tests/support/messages.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace bielle;
@@ -65,4 +68,97 @@ analysis: [{type: dynamic, duration: 0.5, )yaml" + steps +
       }
     }
   }
+}
+
+namespace {
+
+/// A double pendulum: constraints, turns of joints, a push with kinks, and two motions one after the other.
+std::string pendulum(const std::string& steps, double duration, const std::string& output) {
+  return R"yaml(
+gravity: [0, 0, -9.81]
+nodes:
+  upper: {position: [0.5, 0, 0]}
+  lower: {position: [1.5, 0, 0], angular_velocity: [0, 30, 0], velocity: [0, 0, -15]}
+elements:
+  upper: {type: rigid_body, node: upper, mass: 2, inertia: [0.01, 0.2, 0.2]}
+  lower: {type: rigid_body, node: lower, mass: 1, inertia: [0.01, 0.1, 0.1]}
+joints:
+  shoulder: {type: hinge, nodes: [ground, upper], position: [0, 0, 0], axis: [0, 1, 0]}
+  elbow: {type: hinge, nodes: [upper, lower], position: [1, 0, 0], axis: [0, 1, 0]}
+loads: {push: {node: lower, force: ["20*pulse(t, 0.1234, 0.3)", 0, 0]}}
+output: {)yaml" +
+         output + "}\nanalysis:\n  - {type: dynamic, duration: 0.2, " + steps +
+         "}\n  - {type: dynamic, duration: " + std::to_string(duration) + ", " + steps + "}\n";
+}
+
+void run(const std::string& text, const std::string& path, const std::string& restart = "") {
+  Progress progress(true);
+  const MechanismFile file = read_mechanism_text(text, "pendulum.yaml");
+  run_analyses(file, path, progress, restart);
+}
+
+void check_same_results(const Hdf5File& a, const Hdf5File& b, const std::string& group) {
+  REQUIRE(a.names_in(group) == b.names_in(group));
+  for (const std::string& name : a.names_in(group)) {
+    const std::string object = group + "/" + name;
+    if (a.is_group(object)) {
+      check_same_results(a, b, object);
+    } else {
+      INFO(object);
+      CHECK(a.read(object) == b.read(object));
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a run that goes on from a checkpoint gives the numbers of the run that was not interrupted, to the last bit") {
+  for (const std::string steps : {"step: 1e-3", "step: 1e-3, tolerance: 1e-6"}) {
+    const test::TemporaryFolder folder;
+    const std::string whole = folder / "whole.h5", part = folder / "part.h5", rest = folder / "rest.h5";
+    run(pendulum(steps, 0.4, "every: 3, checkpoint: 30"), whole);
+    // Cut off within the second motion, in between two checkpoints: its rows behind the last one are taken back.
+    {
+      const std::string text = pendulum(steps, 0.4, "every: 3, checkpoint: 30");
+      std::filesystem::copy_file(whole, part);
+      Hdf5File file = Hdf5File::open_to_extend(part);
+      const std::size_t count = file.shape("/checkpoints/analysis_2/rows")[0];
+      REQUIRE(count > 3);
+      file.truncate_rows("/checkpoints/analysis_2/rows", count / 2);
+      file.close();
+      run(text, rest, part);
+    }
+    const Hdf5File a = Hdf5File::open(whole), b = Hdf5File::open(rest);
+    for (const std::string group : {"/analysis_1", "/analysis_2", "/checkpoints/analysis_1", "/checkpoints/analysis_2"})
+      check_same_results(a, b, group);
+    CHECK(b.read_integer_attribute("/", "complete") == 1);
+    CHECK(b.read("/time").back() == Approx(0.6));
+  }
+}
+
+TEST_CASE("a finished motion goes on in its own file when its duration has grown") {
+  const test::TemporaryFolder folder;
+  const std::string whole = folder / "whole.h5", grown = folder / "grown.h5";
+  run(pendulum("step: 1e-3", 0.4, "every: 5, checkpoint: 200"), whole);
+  run(pendulum("step: 1e-3", 0.2, "every: 5, checkpoint: 200"), grown);
+  run(pendulum("step: 1e-3", 0.4, "every: 5, checkpoint: 200"), grown, grown);
+  const Hdf5File a = Hdf5File::open(whole), b = Hdf5File::open(grown);
+  const std::vector<double> x = a.read("/nodes/lower/position"), y = b.read("/nodes/lower/position");
+  REQUIRE(x.size() == y.size());
+  for (std::size_t k = 0; k < x.size(); ++k) CHECK(y[k] == Approx(x[k]).margin(1e-9));
+}
+
+TEST_CASE("what cannot be continued is refused, and the file stays as it was") {
+  const test::TemporaryFolder folder;
+  const std::string results = folder / "results.h5";
+  run(pendulum("step: 1e-2", 0.1, "every: 1"), results);
+  const auto refusal = [&](const std::string& text, const std::string& from) {
+    return test::message_of<InputError>([&] { run(text, results, from); });
+  };
+  std::string other = pendulum("step: 1e-2", 0.1, "every: 1");
+  other.replace(other.find("shoulder"), 8, "hip");
+  CHECK_THAT(refusal(other, results), Catch::Contains("another model"));
+  CHECK_THAT(refusal(pendulum("step: 1e-2", 0.1, "every: 1"), folder / "none.h5"), Catch::Contains("none.h5"));
+  CHECK(Hdf5File::open(results).read_integer_attribute("/", "complete") == 1);
 }

@@ -35,9 +35,12 @@ Motion run(const ReadyModel& model, double end, StepOptions options) {
   options.break_points = model.system.break_points();
   TimeIntegration integration(model.system, model.environment(), Scheme::generalized_alpha(0.8), model.system.start(0));
   Motion motion;
-  motion.log = march(integration, end, options, [&](const MarchStep& step) {
+  March march(integration, integration.state().time, end, options);
+  while (!march.done()) {
+    const MarchStep step = march.advance();
     motion.visits.push_back({integration.state().time, step.report.size, step.error, step.on_grid});
-  });
+  }
+  motion.log = march.log();
   motion.end = integration.state();
   return motion;
 }

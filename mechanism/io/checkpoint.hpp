@@ -1,0 +1,40 @@
+// Points of a results file from which a run can go on.
+//
+// A results file holds, under /checkpoints/analysis_k, one row of `state` per checkpoint and, written after it, the
+// number of rows that the analysis had recorded: whatever happens to the program, every checkpoint that `rows` counts
+// is whole.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace bielle {
+class Hdf5File;
+}
+
+namespace bielle::mechanism {
+
+class Model;
+
+struct Checkpoint {
+  int analysis = 0;            ///< 1-based, as in /analysis_1
+  std::size_t rows = 0;        ///< of its results that were recorded
+  std::vector<double> values;  ///< of the Archive
+};
+
+/// What a checkpoint belongs to: the names of nodes and components with their types. A run can go on only with the
+/// same.
+std::string fingerprint(const Model& model);
+
+/// The last checkpoint of a results file.
+/// @throws InputError when the file holds none, or is of another model
+Checkpoint read_checkpoint(const std::string& results_path, const Model& model);
+
+/// Adds a checkpoint; all rows that it counts are in the file.
+void append_checkpoint(Hdf5File& file, const Model& model, const Checkpoint& checkpoint);
+
+/// Takes out of the file what came after the checkpoint.
+void rewind_to(Hdf5File& file, const Checkpoint& checkpoint);
+
+}  // namespace bielle::mechanism
