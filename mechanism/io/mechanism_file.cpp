@@ -173,12 +173,17 @@ Analysis read_analysis(const YamlValue& entry) {
     if (entry.has("steps")) analysis.steps = entry.at("steps").integer();
     if (analysis.steps < 1) entry.at("steps").fail("expected at least one load step");
   } else {
-    entry.check_keys({"type", "duration", "step", "tolerance", "largest_step", "scheme", "rho", "alpha"},
+    entry.check_keys({"type", "duration", "step", "tolerance", "largest_step", "scheme", "rho", "alpha", "constraints"},
                      "the analysis 'dynamic'");
     analysis.type = Analysis::Type::dynamics;
     analysis.duration = entry.at("duration").positive_number();
     analysis.stepping = read_stepping(entry, analysis.duration);
     analysis.scheme = read_scheme(entry, analysis.scheme_name);
+    if (entry.has("constraints") &&
+        entry.at("constraints").word({"position", "stabilized"}, "form of constraints") == "stabilized") {
+      analysis.form = ConstraintForm::stabilised;
+      analysis.scheme_name += ", stabilised constraints";
+    }
   }
   return analysis;
 }

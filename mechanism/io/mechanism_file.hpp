@@ -18,6 +18,7 @@ struct Analysis {
   double duration = 0;      ///< [s] dynamics
   StepOptions stepping;     ///< without break points
   Scheme scheme{};          ///< dynamics
+  ConstraintForm form = ConstraintForm::position;
   std::string scheme_name;  ///< for the summary
 };
 

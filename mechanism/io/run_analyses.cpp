@@ -235,7 +235,7 @@ class Run {
     motion.begin = state_.time;
     motion.end = motion.begin + analysis.duration;
     motion.stepping = stepping_of(analysis, motion.begin);
-    motion.integration.emplace(system_, environment_, analysis.scheme, std::move(state_));
+    motion.integration.emplace(system_, environment_, analysis.scheme, std::move(state_), analysis.form);
     state_ = motion.integration->state();
     motion.books.start(motion.begin, system_.energy(state_, environment_));
     record(environment_, motion.books, motion.stepping.size, 0);
@@ -247,7 +247,7 @@ class Run {
     exchange_books(archive, motion);
     motion.end = motion.begin + analysis.duration;
     motion.stepping = stepping_of(analysis, motion.begin);
-    motion.integration.emplace(system_, environment_, analysis.scheme, archive);
+    motion.integration.emplace(system_, environment_, analysis.scheme, archive, analysis.form);
     motion.march.emplace(*motion.integration, motion.begin, motion.end, motion.stepping);
     motion.march->exchange(archive);
     motion.saved = true;

@@ -12,8 +12,8 @@ LinearStep::LinearStep(const System& system) : system_(system), factors_(system.
   scales_.setOnes(pattern.size());
 }
 
-bool LinearStep::try_factor(const State& state, const Environment& environment, const TangentWeights& weights,
-                            const VectorX* dq, const VectorX* extra) {
+void LinearStep::assemble(const State& state, const Environment& environment, const TangentWeights& weights,
+                          const VectorX* dq, const VectorX* extra) {
   system_.tangent(state, environment, weights, dq, values_);
   std::array<double, kind_count> sum{}, count{};
   for (int i = 0; i < system_.dofs(); ++i) {
@@ -29,6 +29,11 @@ bool LinearStep::try_factor(const State& state, const Environment& environment, 
   for (const Kind kind : {Kind::amplitude, Kind::rotation, Kind::translation})
     if (const auto k = static_cast<std::size_t>(kind); sum[k] > 0) scale_ = sum[k] / count[k];
   scales_.tail(system_.multipliers()).setConstant(scale_);
+}
+
+bool LinearStep::try_factor(const State& state, const Environment& environment, const TangentWeights& weights,
+                            const VectorX* dq, const VectorX* extra) {
+  assemble(state, environment, weights, dq, extra);
   return factors_.factor(values_, scales_) == FactorStatus::good;
 }
 

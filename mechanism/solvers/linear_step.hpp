@@ -16,6 +16,10 @@ class LinearStep {
 
   /// Assembles and factorises. @throws ComputationError naming the unknown without stiffness, mass or constraint
   void factor(const State& state, const Environment& environment, const TangentWeights& weights, const VectorX* dq);
+  /// Assembles alone: the tangent, its scale and its row sums.
+  void assemble(const State& state, const Environment& environment, const TangentWeights& weights, const VectorX* dq,
+                const VectorX* extra = nullptr);
+  const std::vector<double>& values() const { return values_; }  ///< of the last tangent, in the system's pattern
   /// As `factor`, with `extra` added to the diagonal of the dofs; returns false when singular.
   bool try_factor(const State& state, const Environment& environment, const TangentWeights& weights, const VectorX* dq,
                   const VectorX* extra = nullptr);

@@ -16,7 +16,7 @@ double beside(double time, double h) { return 1e-12 * h + 8 * std::numeric_limit
 }  // namespace
 
 TimeIntegration::TimeIntegration(const System& system, const Environment& environment, const Scheme& scheme,
-                                 State state, const NewtonOptions& options)
+                                 State state, ConstraintForm form, const NewtonOptions& options)
     : system_(system),
       environment_(environment),
       scheme_(scheme),
@@ -24,7 +24,7 @@ TimeIntegration::TimeIntegration(const System& system, const Environment& enviro
       linear_(system),
       options_(options),
       convergence_(system, options) {
-  allocate();
+  allocate(form);
   start_report_ = make_consistent(system_, environment_, state_);
   take_rates();
   system_.accept(state_, environment_);
@@ -32,7 +32,7 @@ TimeIntegration::TimeIntegration(const System& system, const Environment& enviro
 }
 
 TimeIntegration::TimeIntegration(const System& system, const Environment& environment, const Scheme& scheme,
-                                 Archive& archive, const NewtonOptions& options)
+                                 Archive& archive, ConstraintForm form, const NewtonOptions& options)
     : system_(system),
       environment_(environment),
       scheme_(scheme),
@@ -40,17 +40,22 @@ TimeIntegration::TimeIntegration(const System& system, const Environment& enviro
       linear_(system),
       options_(options),
       convergence_(system, options) {
-  allocate();
+  allocate(form);
   exchange(archive);
   next_ = state_;
 }
 
-void TimeIntegration::allocate() {
+void TimeIntegration::allocate(ConstraintForm form) {
   for (VectorX* vector : {&v_, &a_, &A_, &dq_, &v_new_, &a_new_, &j_, &last_dq_}) vector->setZero(system_.dofs());
   Y_ = state_.first_order_rate;
   Y_rate_.setZero(system_.first_orders());
-  r_.setZero(system_.size());
-  delta_.setZero(system_.size());
+  if (form == ConstraintForm::stabilised && system_.multipliers() > 0)
+    stabilised_ = std::make_unique<StabilisedStep>(system_);
+  eta_.setZero(system_.dofs());
+  mu_.setZero(system_.multipliers());
+  const int size = stabilised_ ? stabilised_->size() : system_.size();
+  r_.setZero(size);
+  delta_.setZero(size);
 }
 
 void TimeIntegration::exchange(Archive& archive) {
@@ -59,6 +64,7 @@ void TimeIntegration::exchange(Archive& archive) {
   archive(Y_rate_known_);
   archive(h_);
   linear_.choose_pivots_anew();
+  if (stabilised_) stabilised_->choose_pivots_anew();
 }
 
 void TimeIntegration::take_rates() {
@@ -104,7 +110,7 @@ bool TimeIntegration::resolved(const VectorX& j, double h) const {
 }
 
 void TimeIntegration::perturb_velocity(const VectorX& j, double factor) {
-  if (system_.multipliers() == 0) return;
+  if (system_.multipliers() == 0 || stabilised_) return;
   const double delta = scheme_.delta();
   VectorX c = -(1 + 3 * delta * delta) / 12 * j;
   for (std::size_t i = 0; i < state_.nodes.size(); ++i) {
@@ -172,6 +178,9 @@ VectorX TimeIntegration::algorithmic_rate() const {
 void TimeIntegration::predict(double h, double end) {
   const double gamma = scheme_.gamma, beta = scheme_.beta;
   // The accelerations stay.
+  if (stabilised_) stabilised_->begin(state_, environment_);
+  eta_.setZero();
+  mu_.setZero();
   a_new_ = a_;
   const VectorX A = algorithmic_acceleration();
   dq_ = h * v_ + h * h * ((0.5 - beta) * A_ + beta * A);
@@ -181,6 +190,29 @@ void TimeIntegration::predict(double h, double end) {
   next_.memory = state_.memory;
   next_.first_order_rate = state_.first_order_rate;
   next_.first_order = state_.first_order + h * ((1 - gamma) * Y_ + gamma * algorithmic_rate());
+}
+
+void TimeIntegration::solve_linear(const TangentWeights& weights, bool first) {
+  if (stabilised_) {
+    linear_.assemble(next_, environment_, weights, &dq_);
+    if (!stabilised_->factor(linear_, next_, environment_, weights, dq_)) linear_.throw_singular(next_.time);
+  } else {
+    linear_.factor(next_, environment_, weights, &dq_);
+  }
+  if (first) convergence_.measure_rounding(linear_, next_);
+  if (stabilised_)
+    stabilised_->solve(r_, delta_);
+  else
+    linear_.solve(r_, delta_);
+}
+
+bool TimeIntegration::reached(const ResidualScale& scale) {
+  if (!convergence_.reached(r_.head(system_.size()), scale)) return false;
+  if (!stabilised_) return true;
+  // What the rates of constraints make of them within a step is judged like the constraints themselves.
+  VectorX rates = VectorX::Zero(system_.size());
+  rates.tail(system_.multipliers()) = attempted_ * r_.tail(system_.multipliers());
+  return convergence_.reached(rates, scale);
 }
 
 StepReport TimeIntegration::attempt(double h, double end, bool kink) {
@@ -201,26 +233,30 @@ StepReport TimeIntegration::attempt(double h, double end, bool kink) {
     for (;; ++report.iterations) {
       system_.displace(next_, state_, dq_);
       system_.set_rates(next_, v_new_, a_new_);
-      system_.residual(next_, environment_, r_, &scale);
-      const bool reached = report.iterations > 0 && convergence_.reached(r_, scale);
-      report.worst_ratio = convergence_.worst_ratio();
-      if (reached) return report;
+      system_.residual(next_, environment_, r_.head(system_.size()), &scale);
+      if (stabilised_) stabilised_->add_residual(next_, environment_, eta_, mu_, r_);
+      if (report.iterations > 0 && reached(scale)) break;
       if (report.iterations == options_.iterations || !r_.allFinite()) {
-        convergence_.reached(r_, scale);
+        reached(scale);
         report.refusal = fmt::format("t = {:.6g} s: Newton did not converge in {} iterations; largest residual: {}",
                                      next_.time, report.iterations, convergence_.worst());
-        return report;
+        break;
       }
-      linear_.factor(next_, environment_, weights, &dq_);
-      if (report.iterations == 0) convergence_.measure_rounding(linear_, next_);
-      linear_.solve(r_, delta_);
-      dq_ += delta_.head(n);
-      v_new_ += rate_factor * delta_.head(n);
-      a_new_ += acceleration_factor * delta_.head(n);
+      solve_linear(weights, report.iterations == 0);
+      const auto u = delta_.head(n);
+      dq_ += u;
+      if (stabilised_) {
+        dq_ += delta_.segment(system_.size(), n);
+        eta_ += delta_.segment(system_.size(), n);
+        mu_ += delta_.tail(m);
+      }
+      v_new_ += rate_factor * u;
+      a_new_ += acceleration_factor * u;
       next_.first_order += delta_.segment(n, y);
       next_.first_order_rate += first_order_factor * delta_.segment(n, y);
-      next_.multiplier += delta_.tail(m);
+      next_.multiplier += delta_.segment(n + y, m);
     }
+    report.worst_ratio = convergence_.worst_ratio();
   } catch (const ComputationError& error) {
     // A component refuses what it was asked for (a beam whose ends turn too far), or the equations are singular. Nearer
     // to the last state that may not be so.

@@ -1,4 +1,4 @@
-// Generalised-alpha on the configuration group, index-3 form: one step as a page of verbs.
+// Generalised-alpha on the configuration group: one step as a page of verbs.
 //
 //   Dq       = h v_n + h^2 (1/2 - beta) A_n + h^2 beta A_{n+1},      q_{n+1} = q_n o exp(Dq)
 //   v_{n+1}  = v_n + h (1 - gamma) A_n + h gamma A_{n+1}
@@ -6,6 +6,9 @@
 //   r(q, v, a, lambda, t)_{n+1} = 0,  Phi(q, t)_{n+1} = 0
 // solved for Dq and lambda_{n+1} with the matrix K T(Dq) + gamma' C + beta' M, gamma' = gamma/(beta h),
 // beta' = (1 - alpha_m)/((1 - alpha_f) beta h^2). First-order unknowns use the velocity formula with their own rates.
+//
+// The form above, of index 3, keeps the constraints of positions. The stabilised one (stabilised_step.hpp) keeps those
+// of velocities as well, at twice the number of unknowns; its errors are smaller and its steps may be longer.
 //
 // Second order in positions and velocities; in multipliers and accelerations from the first step only with the start
 // values
@@ -18,13 +21,18 @@
 // (2015) 149 (order of the multipliers).
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "mechanism/solvers/consistent_start.hpp"
 #include "mechanism/solvers/scheme.hpp"
+#include "mechanism/solvers/stabilised_step.hpp"
 #include "mechanism/system/archive.hpp"
 
 namespace bielle::mechanism {
+
+/// How constraints are kept.
+enum class ConstraintForm { position, stabilised };
 
 /// What a step did.
 struct StepReport {
@@ -39,11 +47,11 @@ class TimeIntegration {
  public:
   /// @param state  positions and velocities to start from; made consistent here
   TimeIntegration(const System& system, const Environment& environment, const Scheme& scheme, State state,
-                  const NewtonOptions& options = {});
+                  ConstraintForm form = ConstraintForm::position, const NewtonOptions& options = {});
 
   /// Continues a motion from where `exchange` left it.
   TimeIntegration(const System& system, const Environment& environment, const Scheme& scheme, Archive& archive,
-                  const NewtonOptions& options = {});
+                  ConstraintForm form = ConstraintForm::position, const NewtonOptions& options = {});
   /// All that the motion goes on from. What comes after does not depend on whether it was interrupted here: pivots of
   /// the tangent are chosen anew in both cases.
   void exchange(Archive& archive);
@@ -80,12 +88,14 @@ class TimeIntegration {
   const StartReport& start_report() const { return start_report_; }
 
  private:
-  void allocate();
+  void allocate(ConstraintForm form);
   void take_rates();                                ///< of the state, as algorithmic values
   VectorX acceleration_rate(double h);              ///< j
   bool resolved(const VectorX& j, double h) const;  ///< accelerations change little within a step
   void perturb_velocity(const VectorX& j, double factor);
   void predict(double h, double end);
+  void solve_linear(const TangentWeights& weights, bool first);
+  bool reached(const ResidualScale& scale);
   VectorX algorithmic_acceleration() const;  ///< A_{n+1} of the attempt
   VectorX algorithmic_rate() const;          ///< Y_{n+1}
 
@@ -106,7 +116,9 @@ class TimeIntegration {
   VectorX Y_rate_;        ///< and their rate over the last accepted step
   bool Y_rate_known_ = false;
   VectorX dq_, v_new_, a_new_, r_, delta_;
-  VectorX last_dq_;  ///< of the last accepted step
+  std::unique_ptr<StabilisedStep> stabilised_;  ///< of that form only
+  VectorX eta_, mu_;                            ///< of the attempt: see there
+  VectorX last_dq_;                             ///< of the last accepted step
 };
 
 }  // namespace bielle::mechanism

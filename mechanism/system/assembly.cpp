@@ -153,6 +153,39 @@ struct System::Workspace {
   }
 };
 
+/// K <- d(B v)/dq, C <- B in the rows of holonomic constraints. d(B^T lambda)/dq of one multiplier at a time has the
+/// same derivatives of B in it: with H_k = d(B_k)/dq, it is H_k for lambda = e_k, and d(B_k v)/dq = H_k^T v.
+void System::velocity_rows(const Placement& placement, const LocalState& local, const Component& component,
+                           Eigen::Ref<MatrixX> K, Eigen::Ref<MatrixX> C) const {
+  const Slots& slots = local.slots();
+  const int n = slots.size(), dofs = slots.first_order_row(), first = slots.multiplier_row();
+  VectorX v(dofs);
+  for (std::size_t k = 0; k < slots.nodes.size(); ++k)
+    v.segment<6>(6 * static_cast<Eigen::Index>(k)) << local.node(static_cast<int>(k)).v,
+        local.node(static_cast<int>(k)).Omega;
+  v.tail(slots.amplitudes) = local.amplitude_rate();
+  State probe = local.global();
+  auto lambda = probe.multiplier.segment(slots.multiplier_begin, slots.multipliers);
+  const LocalState probed(probe, slots, local.environment());
+  const auto stiffness = [&] {
+    MatrixX sum = MatrixX::Zero(n, n), unused_C = sum, unused_M = sum;
+    LocalTangent tangent{sum, unused_C, unused_M, true, false, false};
+    component.add_tangent(probed, tangent);
+    return sum;
+  };
+  lambda.setZero();
+  const MatrixX unloaded = stiffness();
+  for (int row = first; row < n; ++row) {
+    if (std::find(placement.nonholonomic.begin(), placement.nonholonomic.end(), row) != placement.nonholonomic.end())
+      continue;
+    lambda[row - first] = 1;
+    const MatrixX H = (stiffness() - unloaded).topLeftCorner(dofs, dofs);
+    lambda[row - first] = 0;
+    K.row(row).head(dofs) = v.transpose() * H;
+    C.row(row).head(dofs) = unloaded.row(row).head(dofs);
+  }
+}
+
 void System::add_reduced(const Placement& placement, const LocalState& local, const TangentWeights& weights,
                          const Component& component, const VectorX* dq, Workspace& work,
                          std::vector<double>& values) const {
@@ -168,11 +201,13 @@ void System::add_reduced(const Placement& placement, const LocalState& local, co
   const bool wants_C =
       placement.damping && (rates_in_K || weights.damping != 0 || weights.first_order != 0 || rate_rows);
   const bool wants_M = placement.mass && (rates_in_K || weights.mass != 0 || weights.damping != 0);
-  if (!wants_K && !wants_C && !wants_M && placement.plain) return;
+  if (weights.velocity_level ? slots.multipliers == 0 : !wants_K && !wants_C && !wants_M && placement.plain) return;
   K.setZero();
-  if (wants_C || !placement.plain) C.setZero();
+  if (wants_C || weights.velocity_level || !placement.plain) C.setZero();
   if (wants_M || !placement.plain) M.setZero();
-  {
+  if (weights.velocity_level) {
+    velocity_rows(placement, local, component, K, C);
+  } else {
     LocalTangent tangent{K, C, M, wants_K, wants_C, wants_M};
     component.add_tangent(local, tangent);
   }
@@ -200,12 +235,12 @@ void System::add_reduced(const Placement& placement, const LocalState& local, co
         multiply_columns(K, 6 * static_cast<Eigen::Index>(k) + 3,
                          work.step_tangent[static_cast<std::size_t>(slots.nodes[k])]);
       }
-    if (wants_C) {
+    if (wants_C || weights.velocity_level) {
       K.leftCols(first_order) += weights.damping * C.leftCols(first_order);
       K.middleCols(first_order, slots.first_orders) +=
           weights.first_order * C.middleCols(first_order, slots.first_orders);
     }
-    if (wants_M) K += weights.mass * M;
+    if (wants_M && !weights.velocity_level) K += weights.mass * M;
     scatter(placement.position, K.data(), values);
     return;
   }

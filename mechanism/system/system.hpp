@@ -31,6 +31,9 @@ struct TangentWeights {
   /// Rows of non-holonomic constraints hold their B (the part that multiplies velocities) alone: what relates
   /// accelerations. For the systems [M B^T; B 0] of a consistent start, and for statics.
   bool acceleration_level = false;
+  /// Rows of holonomic constraints hold d(B v)/dq (weighted by `stiffness`) and B (weighted by `damping`) in place of
+  /// B: the derivative of dPhi/dt. Other rows mean nothing then.
+  bool velocity_level = false;
 };
 
 class System {
@@ -94,6 +97,8 @@ class System {
     std::vector<int> nonholonomic;  ///< local rows
   };
   struct Workspace;
+  void velocity_rows(const Placement& placement, const LocalState& local, const Component& component,
+                     Eigen::Ref<MatrixX> K, Eigen::Ref<MatrixX> C) const;
   void place(const std::vector<Declaration>& declarations);
   void build_pattern();
   void node_forces(const State& state, const Environment& environment, VectorX& forces, Eigen::Ref<VectorX> r,

@@ -26,8 +26,9 @@ struct ReadyModel {
 
 /// Integrates from 0 to `end` in steps of h. @param record  called at the start and after every step
 inline mechanism::State integrate(const ReadyModel& model, const mechanism::Scheme& scheme, double h, double end,
-                                  const std::function<void(const mechanism::State&)>& record = {}) {
-  mechanism::TimeIntegration integration(model.system, model.environment(), scheme, model.system.start(0));
+                                  const std::function<void(const mechanism::State&)>& record = {},
+                                  mechanism::ConstraintForm form = mechanism::ConstraintForm::position) {
+  mechanism::TimeIntegration integration(model.system, model.environment(), scheme, model.system.start(0), form);
   if (record) record(integration.state());
   integration.start(h);
   const long steps = std::lround(end / h);

@@ -1,0 +1,137 @@
+#include "mechanism/solvers/stabilised_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bielle::mechanism {
+namespace {
+
+std::vector<bool> find_active(const System& system) {
+  std::vector<bool> active(static_cast<std::size_t>(system.multipliers()));
+  for (int k = 0; k < system.multipliers(); ++k)
+    active[static_cast<std::size_t>(k)] = system.constraint_kind(k) == ConstraintKind::holonomic;
+  for (const int k : system.set_aside()) active[static_cast<std::size_t>(k)] = false;
+  return active;
+}
+
+/// Calls act(entry, row, column) for each entry of a pattern.
+template <class Act>
+void for_each_entry(const SparsePattern& pattern, const Act& act) {
+  for (int column = 0; column < pattern.size(); ++column)
+    for (int k = pattern.column_start()[static_cast<std::size_t>(column)];
+         k < pattern.column_start()[static_cast<std::size_t>(column) + 1]; ++k)
+      act(k, pattern.row()[static_cast<std::size_t>(k)], column);
+}
+
+SparsePattern large_pattern(const System& system, const std::vector<bool>& active) {
+  const int n = system.dofs(), first = system.size() - system.multipliers(), eta = system.size(), mu = eta + n;
+  std::vector<std::pair<int, int>> entries;
+  for_each_entry(system.pattern(), [&](int, int row, int column) {
+    entries.emplace_back(row, column);
+    if (column >= n) return;
+    entries.emplace_back(row, eta + column);
+    if (row < first || !active[static_cast<std::size_t>(row - first)]) return;
+    const int rate_row = mu + row - first;
+    entries.emplace_back(rate_row, column);
+    entries.emplace_back(rate_row, eta + column);
+    entries.emplace_back(eta + column, rate_row);
+  });
+  for (int i = eta; i < mu + system.multipliers(); ++i) entries.emplace_back(i, i);
+  return SparsePattern(mu + system.multipliers(), std::move(entries));
+}
+
+}  // namespace
+
+StabilisedStep::StabilisedStep(const System& system)
+    : system_(system),
+      active_(find_active(system)),
+      pattern_(large_pattern(system, active_)),
+      places_(static_cast<std::size_t>(system.pattern().entry_count())),
+      factors_(pattern_) {
+  const int n = system.dofs(), first = system.size() - system.multipliers(), eta = system.size(), mu = eta + n;
+  for_each_entry(system.pattern(), [&](int k, int row, int column) {
+    Places& places = places_[static_cast<std::size_t>(k)];
+    places.tangent = pattern_.find(row, column);
+    if (column >= n) return;
+    places.position = pattern_.find(row, eta + column);
+    if (row < first || !holds(row - first)) return;
+    places.velocity = pattern_.find(mu + row - first, column);
+    places.velocity_position = pattern_.find(mu + row - first, eta + column);
+    places.constraint = pattern_.find(eta + column, mu + row - first);
+  });
+  for (int i = 0; i < n; ++i) weight_places_.push_back(pattern_.find(eta + i, eta + i));
+  for (int k = 0; k < system.multipliers(); ++k)
+    if (!holds(k)) idle_places_.push_back(pattern_.find(mu + k, mu + k));
+  values_.resize(static_cast<std::size_t>(pattern_.entry_count()));
+  scale_.setOnes(size());
+}
+
+void StabilisedStep::begin(const State& state, const Environment& environment) {
+  const int n = system_.dofs();
+  system_.tangent(state, environment, TangentWeights{0, 0, 1, 0, 1}, nullptr, constraint_);
+  // Any positive weights serve; masses let the positions move as an impulse would.
+  constexpr double floor = 1e-6;
+  weight_.setZero(n);
+  std::array<double, kind_count> largest{};
+  for (int i = 0; i < n; ++i) {
+    if (const int place = system_.pattern().find(i, i); place >= 0)
+      weight_[i] = std::abs(constraint_[static_cast<std::size_t>(place)]);
+    double& most = largest[static_cast<std::size_t>(system_.kind(i))];
+    most = std::max(most, weight_[i]);
+  }
+  for (int i = 0; i < n; ++i) {
+    const double most = largest[static_cast<std::size_t>(system_.kind(i))];
+    weight_[i] = most > 0 ? std::max(weight_[i], floor * most) : 1;
+  }
+}
+
+void StabilisedStep::add_residual(const State& state, const Environment& environment, const VectorX& eta,
+                                  const VectorX& mu, Eigen::Ref<VectorX> r) const {
+  const int n = system_.dofs(), m = system_.multipliers(), first = system_.size() - m;
+  auto balance = r.segment(system_.size(), n);
+  balance = weight_.cwiseProduct(eta);
+  for_each_entry(system_.pattern(), [&](int k, int row, int column) {
+    if (places_[static_cast<std::size_t>(k)].constraint >= 0)
+      balance[column] -= constraint_[static_cast<std::size_t>(k)] * mu[row - first];
+  });
+  VectorX rate(m), unused(m);
+  system_.constraint_rates(state, environment, rate, unused);
+  for (int k = 0; k < m; ++k) r[system_.size() + n + k] = holds(k) ? rate[k] : mu[k];
+}
+
+bool StabilisedStep::factor(const LinearStep& step, const State& state, const Environment& environment,
+                            const TangentWeights& weights, const VectorX& dq) {
+  TangentWeights position, velocity, velocity_position;
+  velocity.damping = weights.damping;
+  velocity.velocity_level = velocity_position.velocity_level = true;
+  system_.tangent(state, environment, position, &dq, position_);
+  system_.tangent(state, environment, velocity, &dq, velocity_);
+  system_.tangent(state, environment, velocity_position, &dq, velocity_position_);
+  std::fill(values_.begin(), values_.end(), 0.0);
+  const auto put = [&](int place, double value) {
+    if (place >= 0) values_[static_cast<std::size_t>(place)] = value;
+  };
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    const Places& places = places_[k];
+    put(places.tangent, step.values()[k]);
+    put(places.position, position_[k]);
+    put(places.velocity, velocity_[k]);
+    put(places.velocity_position, velocity_position_[k]);
+    put(places.constraint, -constraint_[k]);
+  }
+  for (int i = 0; i < system_.dofs(); ++i) put(weight_places_[static_cast<std::size_t>(i)], weight_[i]);
+  for (const int place : idle_places_) put(place, 1);
+
+  // lambda in the size of the forces that move the dofs (see LinearStep), mu in that of their weights.
+  const double weight = weight_.size() > 0 ? weight_.maxCoeff() : 1;
+  scale_.segment(system_.size() - system_.multipliers(), system_.multipliers()).setConstant(step.scale());
+  scale_.tail(system_.multipliers()).setConstant(weight);
+  return factors_.factor(values_, scale_) == FactorStatus::good;
+}
+
+void StabilisedStep::solve(const Eigen::Ref<const VectorX>& r, Eigen::Ref<VectorX> delta) const {
+  delta = -r;
+  factors_.solve(delta);
+}
+
+}  // namespace bielle::mechanism
