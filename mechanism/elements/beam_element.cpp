@@ -1,5 +1,6 @@
 #include "mechanism/elements/beam_element.hpp"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -22,15 +23,39 @@ Matrix6 inverse(const Matrix6& A) {
   return 0.5 * (B + B.transpose());
 }
 
-Matrix6 element_stiffness(const ElementSections& sections, const Vector3& chord, BeamBending bending) {
+/// Resultants at z in [0, 1] of an element of relative motion d that is in equilibrium, of its f: the nodal wrench at
+/// B, T6^-T(d) f, carried to z along the helix.
+Matrix6 equilibrium(const Vector6& d, double z) {
+  return adjoint(exp_se3((z - 1) * d)).transpose() * tangent_se3_inverse(d).transpose();
+}
+
+/// Flexibility at z: the parabola through those of the Gauss points (constant for a uniform section).
+Matrix6 flexibility_at(const std::array<Matrix6, 3>& S, double z) {
+  const std::array<double, 3>& p = ElementSections::place;
   Matrix6 sum = Matrix6::Zero();
   for (std::size_t g = 0; g < 3; ++g) {
-    const Matrix6& C = sections.at[g].stiffness;
-    Matrix6 A = Matrix6::Identity();
-    A.bottomLeftCorner<3, 3>() = (0.5 - ElementSections::place[g]) * skew(chord);
-    sum += ElementSections::weight[g] * (bending == BeamBending::constant ? C : A.transpose() * inverse(C) * A);
+    const std::size_t i = (g + 1) % 3, j = (g + 2) % 3;
+    sum += (z - p[i]) * (z - p[j]) / ((p[g] - p[i]) * (p[g] - p[j])) * S[g];
   }
-  return bending == BeamBending::constant ? sum : inverse(sum);
+  return sum;
+}
+
+Matrix6 element_stiffness(const ElementSections& sections, const Vector6& d0, BeamBending bending) {
+  constexpr int parts = 16;  // three Gauss points in each: rounding, whatever the element turns by
+  std::array<Matrix6, 3> S;
+  Matrix6 mean = Matrix6::Zero(), sum = Matrix6::Zero();
+  for (std::size_t g = 0; g < 3; ++g) {
+    S[g] = inverse(sections.at[g].stiffness);
+    mean += ElementSections::weight[g] * sections.at[g].stiffness;
+  }
+  if (bending == BeamBending::constant) return mean;
+  for (int part = 0; part < parts; ++part)
+    for (std::size_t g = 0; g < 3; ++g) {
+      const double z = (part + ElementSections::place[g]) / parts;
+      const Matrix6 A = equilibrium(d0, z);
+      sum += ElementSections::weight[g] / parts * A.transpose() * flexibility_at(S, z) * A;
+    }
+  return inverse(sum);
 }
 
 }  // namespace
@@ -46,7 +71,8 @@ BeamElement::BeamElement(std::string name, BeamPlace place, int node_a, int node
       R_B_(R_B),
       d0_(d0),
       L_(d0.head<3>().norm()),
-      stiffness_(element_stiffness(sections, d0.head<3>(), bending)),
+      bending_(bending),
+      stiffness_(element_stiffness(sections, d0, bending)),
       flexibility_(inverse(sections.middle().stiffness)),
       stress_(sections.middle().stress),
       damping_(damping),
@@ -196,13 +222,17 @@ std::vector<OutputField> BeamElement::output_fields() const {
 
 void BeamElement::write_output(const LocalState& state, double* values) const {
   const Deformation D = deformation(state);
+  // Physical resultants in the middle; constant strain has but one set.
+  Matrix6 middle = Matrix6::Identity();
+  if (bending_ == BeamBending::residual) middle = equilibrium(D.d, 0.5);
+  const Vector6 f = middle * D.f;
   Eigen::Map<Vector12> out(values);
-  out << flexibility_ * stiffness_ * D.eps, D.f;
+  out << flexibility_ * middle * stiffness_ * D.eps, f;
   double* stress = values + 12;
   double* von_mises = stress + 3 * stress_.size();
   for (std::size_t p = 0; p < stress_.size(); ++p) {
     Eigen::Map<Vector3> sigma(stress + 3 * p);
-    sigma = stress_[p] * D.f;
+    sigma = stress_[p] * f;
     von_mises[p] = std::sqrt(sigma[0] * sigma[0] + 3 * sigma.tail<2>().squaredNorm());
   }
 }

@@ -7,15 +7,19 @@
 // Objective, path-independent, free of locking, exact for constant strain. Reference: V. Sonneville, A. Cardona, O.
 // Bruls, CMAME 268 (2014) 451.
 //
-// Residual bending flexibility (default). Constant strain alone is too stiff in bending with shear (25 % in the tip
-// deflection of a cantilever of one element). The flexibility that the linear variation of the bending moment adds is
-// put into the section (R. MacNeal, Comput. Struct. 8 (1978) 175): with the resultants A(x) f at a distance x from the
-// middle,
-//     C_e^-1 = 1/L int A^T C^-1 A dx,   A = [I 0; -x t~ I],   t = d0_u/L,      by three Gauss points
-//            = C^-1 + L^2/12 diag(t~^T S t~, 0),   S the lower right 3x3 of C^-1,   for a uniform section;
-// the stiffness at the reference is then exact for a straight element and any 6x6 C, and but for the quadrature with
-// taper. f = (n, m) are the physical resultants in the middle of the element; the physical strain there is C^-1 f,
-// which is what the results hold. (Without it, `bending: constant`: C_e the mean of C; eps itself is the strain.)
+// Residual flexibility (default). Constant strain alone is too stiff in bending with shear (25 % in the tip deflection
+// of a cantilever of one element) and where the axis is curved or twisted. The flexibility that the variation of the
+// resultants along the element adds is put into the section. In equilibrium without loads the wrench at B, T6^-T(d) f,
+// is carried along the element as
+//     f(z) = A(z) f,   A(z) = Ad(exp6((z-1) d))^T T6^-T(d),   z from 0 at A to 1 at B,
+// which at the reference gives the element its complementary energy:
+//     C_e^-1 = int_0^1 A^T C^-1 A dz  at d0,  by three Gauss points.
+// The linear stiffness is then exact for any 6x6 C, straight or curved, twisted, tapered (for a uniform straight
+// element exactly, else but for the quadrature, of sixth order). A uniform straight element has the well-known
+//     C_e^-1 = C^-1 + L^2/12 diag(t~^T S t~, 0),   t = d0_u/L,   S the lower right 3x3 of C^-1
+// (R. MacNeal, Comput. Struct. 8 (1978) 175). f = C_e eps; the physical resultants in the middle are A(1/2) f, now at
+// d, and the physical strain there is C^-1 A(1/2) f: these are what the results hold. (Without all this, `bending:
+// constant`: C_e the mean of C; eps and f themselves are the strain and the resultants.)
 //
 // Limits: the ends of one element turn by less than 180 degrees against each other (`largest_turn` at the end of a
 // step); an error advises to refine. The relative rotation may well grow over several elements. Strains are small
@@ -77,6 +81,7 @@ class BeamElement : public Component {
   Matrix3 R_A_, R_B_;
   Vector6 d0_;
   double L_;
+  BeamBending bending_;
   Matrix6 stiffness_;                                ///< C_e
   Matrix6 flexibility_;                              ///< C^-1 in the middle
   std::vector<Eigen::Matrix<double, 3, 6>> stress_;  ///< at the stress points, of unit resultants

@@ -9,6 +9,7 @@
 
 #include <Eigen/LU>
 
+#include "reduce/common/error.hpp"
 #include "tests/support/dense_model.hpp"
 #include "tests/support/model_text.hpp"
 
@@ -70,16 +71,34 @@ struct StaticModel {
     return 0.5 * (low + high);
   }
 
-  /// Goes to a load factor in equal steps from where it is. @returns the most iterations of a step; -1: none
+  /// Goes to a load factor in equal steps from where it is; a step that does not converge is halved.
+  /// @returns the most iterations of a step; -1: none
   int load(int steps, double tolerance, double factor = 1, double from = 0) {
     int most = 0;
     for (int k = 1; k <= steps; ++k) {
-      dense.environment.load_factor = from + (factor - from) * k / steps;
-      const int iterations = solve_static(dense, state, free, tolerance);
+      const double begin = from + (factor - from) * (k - 1) / steps, end = from + (factor - from) * k / steps;
+      const int iterations = raise(begin, end, tolerance, 8);
       if (iterations < 0) return -1;
       most = std::max(most, iterations);
     }
     return most;
+  }
+
+ private:
+  int raise(double from, double to, double tolerance, int halvings) {
+    const mechanism::State before = state;
+    dense.environment.load_factor = to;
+    int iterations = -1;
+    try {
+      iterations = solve_static(dense, state, free, tolerance);
+    } catch (const ComputationError&) {
+      // A wild iterate that an element refuses.
+    }
+    if (iterations >= 0) return iterations;
+    state = before;
+    if (halvings == 0) return -1;
+    const int first = raise(from, 0.5 * (from + to), tolerance, halvings - 1);
+    return first < 0 ? -1 : raise(0.5 * (from + to), to, tolerance, halvings - 1);
   }
 };
 

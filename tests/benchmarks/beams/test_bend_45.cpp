@@ -8,6 +8,8 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "mechanism/io/mechanism_file.hpp"
+#include "mechanism/solvers/statics.hpp"
 #include "tests/support/static_model.hpp"
 
 using namespace bielle::mechanism;
@@ -64,23 +66,41 @@ TEST_CASE("the 45-degree bend converges with the square of the element length") 
       }
       for (const auto& errors : {errors_300, errors_600}) {
         CAPTURE(errors[0].transpose(), errors[1].transpose(), errors[2].transpose());
-        CHECK_THAT(std::log2(errors[1].norm() / errors[2].norm()), Catch::WithinAbs(2, 0.2));
-        CHECK(errors[2].norm() < 2e-2);
-        CHECK(((4 * errors[2] - errors[1]) / 3).norm() < 2e-4);
+        // With the residual flexibility only the change of curvature by the load is left to the mesh; where bending and
+        // torsion are equally stiff (the polar GJ is EI) even that is of fourth order.
+        const bool constant = bending[0] == 'c', isotropic = c.name != "the section's own constants";
+        if (!constant && isotropic)
+          CHECK_THAT(std::log2(errors[0].norm() / errors[1].norm()), Catch::WithinAbs(4, 0.25));
+        else
+          CHECK_THAT(std::log2(errors[1].norm() / errors[2].norm()), Catch::WithinAbs(2, 0.25));
+        CHECK(errors[2].norm() < (constant ? 2e-2 : isotropic ? 5e-6 : 2e-4));
+        if (constant) CHECK(((4 * errors[2] - errors[1]) / 3).norm() < 2e-4);
       }
     }
 }
 
-TEST_CASE("the 45-degree bend of few elements as an independent program of the same elements has it") {
+TEST_CASE("the 45-degree bend of few elements of constant strain as an independent program has it") {
   struct Case {
-    const char* bending;
     int elements;
     Vector3 tip;
   };
-  for (const Case& c :
-       {Case{"constant", 2, {16.1198, 48.5237, 51.1607}}, Case{"constant", 8, {15.7111, 47.2319, 53.3332}},
-        Case{"residual", 2, {15.6339, 47.1989, 53.7544}}, Case{"residual", 8, {15.6841, 47.1494, 53.4830}}}) {
-    CAPTURE(c.bending, c.elements);
-    CHECK((Bend(c.elements, polar, c.bending).tip(600, 50) - c.tip).cwiseAbs().maxCoeff() < 6e-5);  // four decimals
+  for (const Case& c : {Case{1, {17.8769, 53.3958, 44.4125}}, Case{2, {16.1198, 48.5237, 51.1607}},
+                        Case{4, {15.7906, 47.4790, 52.9053}}, Case{8, {15.7111, 47.2319, 53.3332}}}) {
+    CAPTURE(c.elements);
+    CHECK((Bend(c.elements, polar, "constant").tip(600, 50) - c.tip).cwiseAbs().maxCoeff() < 6e-5);  // four decimals
+  }
+}
+
+TEST_CASE("the load steps of a static analysis find the 45-degree bend, also from one step") {
+  const MechanismFile file = read_mechanism_text(
+      "nodes: {root: {position: [0, 0, 0], fixed: true}, tip: {position: ['100 - 50*sqrt(2)', '50*sqrt(2)', 0]}}\n"
+      "elements: {b: {type: beam, nodes: [root, tip], arc_centre: [100, 0, 0], elements: 16, section: " +
+          polar + "}}\nloads: {p: {node: tip, force: [0, 0, 600]}}\n",
+      "bend.yaml");
+  const System system(file.model);
+  for (int steps : {1, 4, 12}) {
+    State state = system.start(0);
+    solve_statics(system, file.model.environment, steps, NewtonOptions{}, state);
+    CHECK((state.nodes[2].x - Vector3(15.684800534, 47.150438574, 53.474858792)).norm() < 1e-4);
   }
 }

@@ -53,7 +53,13 @@ TEST_CASE("the frequencies of a ring are those of Hoppe and Love") {
         errors.emplace_back(frequencies(elements, in_plane, bending).cwiseQuotient(exact).array() - 1);
       CAPTURE(in_plane, bending, errors[0].transpose(), errors[1].transpose(), errors[2].transpose(),
               errors[3].transpose());
-      CHECK(errors[3].cwiseAbs().maxCoeff() < 1e-2);
-      for (int k = 0; k < 2; ++k) CHECK(std::log2(std::abs(errors[1][k] / errors[2][k])) > 1.85);
+      if (bending[0] == 'c') {
+        for (int k = 0; k < 2; ++k) CHECK_THAT(std::log2(errors[2][k] / errors[3][k]), Catch::WithinAbs(2, 0.1));
+        CHECK(errors[3].cwiseAbs().maxCoeff() < 2e-3);
+      } else {
+        // Down to the 1e-6 of extension and thickness.
+        for (int k = 0; k < 2; ++k) CHECK(std::log2(std::abs(errors[1][k] / errors[2][k])) > 3.7);
+        CHECK(errors[3].cwiseAbs().maxCoeff() < 2e-6);
+      }
     }
 }
