@@ -2,9 +2,13 @@
 // "crank" (B. Simeon): crank inertia 0.002727 kg m^2 about its pivot, rod 0.151104 kg (uniform, thin), slider 0.075552
 // kg. Kinematics: x = r cos a + sqrt(l^2 - r^2 sin^2 a). Torque at constant speed and free motion: minimal-coordinate
 // equation of motion, DOP853 with rtol 1e-13.
+#include <cmath>
+
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include "tests/support/run_model.hpp"
+#include "tests/support/second_order.hpp"
 
 using namespace bielle::mechanism;
 using bielle::test::integrate;
@@ -71,4 +75,52 @@ TEST_CASE("a free rigid slider-crank keeps its phase: second order against the r
   CHECK(std::log2(fine / finest) == Approx(2).margin(0.1));
   // What remains after Richardson's extrapolation is of higher order: the reference is met.
   CHECK(std::abs((4 * finest - fine) / 3) < 0.02 * std::abs(finest));
+}
+
+TEST_CASE("a slider-crank swinging under gravity and a torque converges with order 2") {
+  // The same linkage released at 45 degrees; the crank's centre of mass halfway along it, gravity 9.81 m/s^2 along -y
+  // and 0.05 N m on the crank. Its inertia is given about the pivot, where its node stands.
+  const double a = M_PI / 4, b = std::asin(0.15 * std::sin(a) / 0.3);
+  const Vector3 pin(0.15 * std::cos(a), 0.15 * std::sin(a), 0), wrist(pin.x() + 0.3 * std::cos(b), 0, 0);
+  const auto list = [](const Vector3& v) { return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", v.x(), v.y(), v.z()); };
+  const std::string text = fmt::format(R"yaml(
+gravity: [0, -9.81, 0]
+nodes:
+  crank: {{position: [0, 0, 0], rotation_vector: [0, 0, "pi/4"]}}
+  pin: {{position: {pin}}}
+  rod: {{position: {rod}, rotation_vector: [0, 0, {tilt:.17g}]}}
+  slider: {{position: {wrist}}}
+elements:
+  crank: {{type: rigid_body, node: crank, mass: 0.36, centre: [0.075, 0, 0], inertia: [0.0004, 0.002427, 0.002727], inertia_about: node, also: [pin]}}
+  rod: {{type: rigid_body, node: rod, mass: 0.151104, inertia: [1e-6, 0.00113328, 0.00113328]}}
+  slider: {{type: point_mass, node: slider, mass: 0.075552}}
+joints:
+  main: {{type: hinge, nodes: [ground, crank], axis: [0, 0, 1]}}
+  big_end: {{type: hinge, nodes: [pin, rod], axis: [0, 0, 1], position: {pin}}}
+  wrist: {{type: hinge, nodes: [rod, slider], axis: [0, 0, 1]}}
+  guide: {{type: prismatic, nodes: [ground, slider], axis: [1, 0, 0]}}
+drives: {{motor: {{joint: main, torque: 0.05}}}}
+)yaml",
+                                       fmt::arg("pin", list(pin)), fmt::arg("rod", list(0.5 * (pin + wrist))),
+                                       fmt::arg("tilt", -b), fmt::arg("wrist", list(wrist)));
+  const ReadyModel model(text);
+  const auto error = [&](double h) -> VectorX {
+    VectorX e = VectorX::Zero(5);
+    int row = 0;
+    integrate(model, Scheme::generalized_alpha(0.9), h, 2, [&](const State& state) {
+      const NodeState& crank = model.node(state, "crank");
+      const double angle = std::atan2(crank.R(1, 0), crank.R(0, 0));
+      if (std::abs(state.time - 1) < h / 2) {
+        e.head<2>() << angle - 0.72275608206, (crank.Omega.z() - 2.0063149165) / 10;
+        ++row;
+      } else if (std::abs(state.time - 2) < h / 2) {
+        e.tail<3>() << angle - 0.50876765675, (crank.Omega.z() - 4.9324494175) / 10,
+            model.node(state, "slider").x.x() - 0.421968268785;
+        ++row;
+      }
+    });
+    CHECK(row == 2);
+    return e;
+  };
+  bielle::test::check_second_order(error, 4e-3, 3);
 }

@@ -1,0 +1,7 @@
+// The N-loop four-bar (loops.hpp) in the size of the library: forty loops, 81 bars, 600 constraints, of which many are
+// redundant.
+#include "tests/benchmarks/four_bar/loops.hpp"
+
+TEST_CASE("forty loops of four-bars pass the positions with all bars in one line, and stay parallelograms") {
+  bielle::four_bar::check_loops(40, {0.180512226684, 0.983572740583}, 620.3383);
+}
