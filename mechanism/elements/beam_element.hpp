@@ -13,9 +13,9 @@
 // is carried along the element as
 //     f(z) = A(z) f,   A(z) = Ad(exp6((z-1) d))^T T6^-T(d),   z from 0 at A to 1 at B,
 // which at the reference gives the element its complementary energy:
-//     C_e^-1 = int_0^1 A^T C^-1 A dz  at d0,  by three Gauss points.
-// The linear stiffness is then exact for any 6x6 C, straight or curved, twisted, tapered (for a uniform straight
-// element exactly, else but for the quadrature, of sixth order). A uniform straight element has the well-known
+//     C_e^-1 = int_0^1 A^T C^-1 A dz  at d0   (a tapered C^-1 as the parabola through three Gauss points).
+// The linear stiffness is then exact for any 6x6 C, straight, curved or twisted; that of a tapered element converges
+// with the sixth power of its length. A uniform straight element has the well-known
 //     C_e^-1 = C^-1 + L^2/12 diag(t~^T S t~, 0),   t = d0_u/L,   S the lower right 3x3 of C^-1
 // (R. MacNeal, Comput. Struct. 8 (1978) 175). f = C_e eps; the physical resultants in the middle are A(1/2) f, now at
 // d, and the physical strain there is C^-1 A(1/2) f: these are what the results hold. (Without all this, `bending:

@@ -2,8 +2,8 @@
 //
 // Resultants (n, m) = stiffness (Gamma, Kappa), in the order forces x y z, moments x y z; the origin of the section is
 // the node line. A homogeneous shape (section_shape.hpp) with its centroid at o and its shear centre at o + s has
-//     N = E A Gamma_c,   V = G K_s gamma_s,   (M_y, M_z)_c = E [I_y -I_yz; -I_yz I_z] (kappa_y, kappa_z),   T_s = G J
-//     kappa_x
+//     N = E A Gamma_c,   V = G K_s gamma_s,   T_s = G J kappa_x,
+//     (M_y, M_z)_c = E [I_y -I_yz; -I_yz I_z] (kappa_y, kappa_z)
 // with the strains Gamma + Kappa x o at the centroid and Gamma + Kappa x (o + s) at the shear centre, which couples all
 // six. Its mass is at the centroid.
 #pragma once

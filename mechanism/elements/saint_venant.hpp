@@ -1,17 +1,16 @@
 // Saint-Venant's problems of torsion and flexure on a cross section made of rectangles, by finite elements.
 //
 // With y and z from the centroid and the shear modulus G = 1,
-//     torsion by a unit twist rate:   tau = grad omega + (-z, y),   div tau = 0,         tau.n = 0 on the boundary
-//     flexure by a shear force V:     tau = grad Phi,               div tau = -c.(y,z),  tau.n = 0,   [I_z I_yz; I_yz
-//     I_y] c = V
+//     torsion by a unit twist rate:   tau = grad omega + (-z, y),   div tau = 0,
+//     flexure by a shear force V:     tau = grad Phi,   div tau = -c.(y,z),   [I_z I_yz; I_yz I_y] c = V,
+// and tau.n = 0 on the boundary.
 // Flexure is that without lateral contraction (Poisson's ratio 0), whose stresses do no work on the twist: the
 // section's compliance in the shear forces and in the torque about the shear centre has no coupling terms,
 //     J = int |tau|^2,   F_ij = int grad Phi_i . grad Phi_j,   shear centre from int (y tau_z - z tau_y).
-// Biquadratic elements on a grid that is graded towards the corners. J comes out too large, F too small; the
-// error, measured against finer grids, is below 2e-4. Stresses are those of the elements; in
-// a re-entrant corner without fillet they are infinite, and what is given there means nothing.
-// References: S. Timoshenko, J. Goodier, Theory of Elasticity, ch. 10 and 11; F. Gruttmann, W. Wagner, Comput. Mech. 27
-// (2001) 199.
+// Biquadratic elements on a grid that is graded towards the corners. J comes out too large, F too small; the error,
+// measured against finer grids, is below 2e-4. Stresses are those of the elements; in a re-entrant corner without
+// fillet they are infinite, and what is given there means nothing. References: S. Timoshenko, J. Goodier, Theory of
+// Elasticity, ch. 10 and 11; F. Gruttmann, W. Wagner, Comput. Mech. 27 (2001) 199.
 #pragma once
 
 #include <array>

@@ -5,9 +5,8 @@
 //     (S. Timoshenko, J. Goodier, Theory of Elasticity, art. 109); shear factors 5/6, parabolic shear stress;
 //   circle and tube, m = inner/outer radius: polar moment; shear factor 6 (1+m^2)^2/(7+34 m^2+7 m^4), 6/7 for a full
 //     circle; shear stress grad [(a r^3 + b r + c/r) cos phi];
-//   i, t, l, box: walls of any thickness with sharp corners, by finite elements (saint_venant.hpp; 2e-4). Fillets,
-//   which
-//     make J of rolled sections larger by some 5 to 20 %, are not in it.
+//   i, t, l, box: walls of any thickness with sharp corners, by finite elements (saint_venant.hpp; 2e-4). Fillets are
+//     not in it: they make J of rolled sections larger by some 20 to 40 %.
 // Shear is that of Saint-Venant's flexure with Poisson's ratio 0 (for the symmetric shapes G. Cowper's factors, J.
 // Appl. Mech. 33 (1966) 335), so that it does not depend on the material. Torsion is free: restrained warping, which
 // matters for thin open sections near clamped ends, is not modelled.

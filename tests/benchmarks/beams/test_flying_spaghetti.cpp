@@ -2,10 +2,9 @@
 // 66 (1988) 125 (space); the loads as stated here.
 //
 // A free beam of length 10, EA = GA = 1e4, mass 1 and mass moments 10 per length, at rest from A = (6, 0, 0) to B = (0,
-// 8, 0). A dead force along x and a dead moment act at A: T rises linearly to its peak at 2.5 s and falls to zero at 5
-// s;
-//   plane: force T/10, moment -T about z, peak 80;      space: force T/10, moment (0, -T/2, -T), peak 200, EI = GJ =
-//   500.
+// 8, 0). A dead force along x and a dead moment act at A: T rises linearly to its peak at 2.5 s and is zero after 5 s.
+//   plane: force T/10, moment -T about z, peak 80
+//   space: force T/10, moment (0, -T/2, -T), peak 200, EI = GJ = 500
 // References: spectral elements in space, Runge-Kutta in time, agreeing on three meshes to 1e-6.
 #include <functional>
 #include <string>
