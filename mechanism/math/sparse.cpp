@@ -159,6 +159,10 @@ bool SparseLU::choose_ordering(const std::function<bool()>& factorise) {
 FactorStatus SparseLU::factor(const std::vector<double>& values, const VectorX& scale) {
   singular_column_ = -1;
   if (pattern_.size() == 0) return FactorStatus::good;
+  if (pattern_.entry_count() == 0) {  // KLU takes no matrix without entries
+    singular_column_ = 0;
+    return FactorStatus::singular;
+  }
   factors_->right = scale;
   return refactor(values) || factor_afresh(values) ? FactorStatus::good : FactorStatus::singular;
 }

@@ -50,11 +50,11 @@ bool Convergence::reached(const Eigen::Ref<const VectorX>& r, const ResidualScal
     const double allowed = options_.tolerance * reference + floor_[i];
     const double residual = std::abs(r[i]);
     const double ratio = residual == 0 ? 0 : residual / allowed;
-    if (!(ratio <= worst_ratio_)) {  // NaN counts as worst
+    if (ratio > worst_ratio_ || !std::isfinite(residual)) {
       worst_ratio_ = ratio;
       worst_ = i;
       worst_residual_ = r[i];
-      if (std::isnan(ratio)) return false;
+      if (!std::isfinite(residual)) return false;
     }
   }
   return worst_ratio_ <= 1;
@@ -62,6 +62,8 @@ bool Convergence::reached(const Eigen::Ref<const VectorX>& r, const ResidualScal
 
 std::string Convergence::worst() const {
   if (worst_ < 0) return "none";
+  if (!std::isfinite(worst_residual_))
+    return fmt::format("{}, which is beyond all numbers (overflow)", system_.equation_name(worst_));
   return fmt::format("{} ({:.2g} {})", system_.equation_name(worst_), worst_residual_, system_.equation_units(worst_));
 }
 

@@ -17,7 +17,8 @@ struct NewtonOptions {
 
 class Convergence {
  public:
-  Convergence(const System& system, const NewtonOptions& options) : system_(system), options_(options) {}
+  Convergence(const System& system, const NewtonOptions& options)
+      : system_(system), options_(options), floor_(VectorX::Zero(system.size())) {}
 
   /// Renews the rounding floor from the last tangent. Once per step is enough.
   void measure_rounding(const LinearStep& linear, const State& state);
