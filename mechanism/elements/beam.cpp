@@ -59,7 +59,7 @@ void read_beam(const std::string& name, const YamlValue& entry, Model& model) {
   const double damping_time = damping ? damping->non_negative_number() : 0;
   const SectionLaw section(entry.at("section"));
   const auto distributed = entry.find("distributed");
-  const std::vector<LineLoad> loads = distributed ? read_line_loads(*distributed) : std::vector<LineLoad>{};
+  const std::vector<LineLoad> loads = distributed ? read_line_loads(*distributed, count) : std::vector<LineLoad>{};
 
   const double total_twist = twist ? twist->number() : 0;
   const BeamLine line = read_beam_line(entry, model.node(ends[0]).frame.x, model.node(ends[1]).frame.x);

@@ -25,4 +25,15 @@ BeamSection BeamSection::homogeneous(const SectionConstants& k, double young, do
   return section;
 }
 
+BeamSection BeamSection::shifted(const Vector2& offset) const {
+  const Vector3 o(0, offset.x(), offset.y());
+  // Strains at the section's origin from those at the node line: Gamma + Kappa x o.
+  Matrix6 strains = Matrix6::Identity();
+  strains.topRightCorner<3, 3>() = -skew(o);
+  BeamSection section = *this;
+  section.stiffness = strains.transpose() * stiffness * strains;
+  section.mass_offset += o;
+  return section;
+}
+
 }  // namespace bielle::mechanism

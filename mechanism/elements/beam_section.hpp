@@ -32,6 +32,8 @@ struct BeamSection {
   /// @param offset  of the centroid from the node line [m]
   static BeamSection homogeneous(const SectionConstants& constants, double young, double shear, double density,
                                  const Vector2& offset = Vector2::Zero());
+  /// The same section with its origin at `offset` from the node line [m].
+  BeamSection shifted(const Vector2& offset) const;
 };
 
 /// The sections of one element: at the three Gauss points of its length. One section: the same everywhere.
@@ -58,15 +60,17 @@ class SectionLaw {
  private:
   /// One section as lists of numbers that may be interpolated.
   struct Definition {
-    std::string kind;       ///< the key that names it: "rectangle", ..., "EA", "stiffness"
-    VectorX numbers;        ///< dimensions of a shape, constants, or matrices
-    VectorX material;       ///< of a shape: Young's modulus, shear modulus, density
-    VectorX offset;         ///< (2)
-    VectorX shear_factors;  ///< (2), or empty: those of the shape
-    VectorX points;         ///< y and z of each stress point, from the centroid
+    std::string kind;  ///< the key that names it: "rectangle", ..., "EA", "stiffness"
+    VectorX numbers;   ///< dimensions of a shape, constants, or matrices
+    VectorX material;  ///< of a shape: Young's modulus, shear modulus, density
+    VectorX offset;    ///< (2) of the centroid, or of the origin of given constants, from the node line
+    bool has_density = false, has_offset = false;  ///< given
+    VectorX shear_factors;                         ///< (2), or empty: those of the shape
+    VectorX points;                                ///< y and z of each stress point, from the centroid
   };
   static Definition read(const YamlValue& value);
   static Definition read_shape(const std::string& kind, const YamlValue& value);
+  static void check_taper(const YamlValue& value, const Definition& start, const Definition& end);
   Definition between(double s) const;
   BeamSection evaluate(const Definition& definition) const;
   YamlValue value_;  ///< for messages

@@ -29,9 +29,19 @@ Vector2 positive_pair(const YamlValue& value, const std::string& expected) {
   return {value.at(std::size_t{0}).positive_number(), value.at(std::size_t{1}).positive_number()};
 }
 
+/// (2), zero when absent.
+Vector2 read_offset(const YamlValue& value, const std::string& what) {
+  const auto offset = value.find("offset");
+  if (!offset) return Vector2::Zero();
+  const VectorX numbers = offset->vector();
+  if (numbers.size() != 2) offset->fail("expected " + what + " [y, z] from the node line");
+  return numbers;
+}
+
 VectorX read_constants(const YamlValue& value) {
   std::vector<std::string> keys(constants_keys.begin(), constants_keys.end());
   keys.insert(keys.end(), mass_keys.begin(), mass_keys.end());
+  keys.emplace_back("offset");
   value.check_keys(keys, "a section by constants");
   VectorX numbers = VectorX::Zero(10);
   for (int k = 0; k < 6; ++k) numbers[k] = value.at(constants_keys[static_cast<std::size_t>(k)]).positive_number();
@@ -83,7 +93,7 @@ void check_mass(const YamlValue& value, const Matrix6& M) {
 }
 
 VectorX read_matrices(const YamlValue& value) {
-  value.check_keys({"stiffness", "mass"}, "a section by matrices");
+  value.check_keys({"stiffness", "mass", "offset"}, "a section by matrices");
   const YamlValue stiffness = value.at("stiffness");
   const Matrix6 C = stiffness.matrix(6, 6);
   check_positive_definite(stiffness, C, "a section's stiffness");
@@ -108,11 +118,9 @@ SectionLaw::Definition SectionLaw::read_shape(const std::string& kind, const Yam
   const double young = value.at("young").positive_number();
   const auto density = value.find("density");
   d.material = Vector3(young, shear_modulus(value, young), density ? density->non_negative_number() : 0);
-  d.offset = Vector2::Zero();
-  if (const auto offset = value.find("offset")) {
-    d.offset = offset->vector();
-    if (d.offset.size() != 2) offset->fail("expected the centroid [y, z] from the node line");
-  }
+  d.offset = read_offset(value, "the centroid");
+  d.has_density = density.has_value();
+  d.has_offset = value.has("offset");
   if (const auto factors = value.find("shear_factors")) d.shear_factors = positive_pair(*factors, "[k_y, k_z]");
   if (const auto points = value.find("stress_points")) {
     const auto shape = make_section_shape(kind, d.numbers);
@@ -141,9 +149,14 @@ SectionLaw::Definition SectionLaw::read(const YamlValue& value) {
         "or a "
         "6x6 `stiffness`");
   const std::string& kind = given.front();
-  if (kind == "EA") return {kind, read_constants(value), {}, {}, {}, {}};
-  if (kind == "stiffness") return {kind, read_matrices(value), {}, {}, {}, {}};
-  return read_shape(kind, value);
+  if (kind != "EA" && kind != "stiffness") return read_shape(kind, value);
+  Definition d;
+  d.kind = kind;
+  d.numbers = kind == "EA" ? read_constants(value) : read_matrices(value);
+  d.offset = read_offset(value, "the section's origin");
+  d.has_density = value.has("mass_per_length") || value.has("mass");
+  d.has_offset = value.has("offset");
+  return d;
 }
 
 BeamSection SectionLaw::evaluate(const Definition& d) const {
@@ -152,12 +165,12 @@ BeamSection SectionLaw::evaluate(const Definition& d) const {
     section.stiffness = d.numbers.head<6>().asDiagonal();
     section.mass = d.numbers[6];
     section.inertia = d.numbers.segment<3>(7).asDiagonal();
-    return section;
+    return section.shifted(d.offset);
   }
   if (d.kind == "stiffness") {
     section.stiffness = d.numbers.head<36>().reshaped(6, 6);
     take_apart(d.numbers.tail<36>().reshaped(6, 6), section);
-    return section;
+    return section.shifted(d.offset);
   }
   const auto shape = make_section_shape(d.kind, d.numbers);
   SectionConstants k = shape->constants();
@@ -174,6 +187,18 @@ BeamSection SectionLaw::evaluate(const Definition& d) const {
   return section;
 }
 
+void SectionLaw::check_taper(const YamlValue& value, const Definition& start, const Definition& end) {
+  if (start.kind != end.kind)
+    value.fail(
+        fmt::format("a beam cannot taper from '{}' to '{}': both ends must be of one kind", start.kind, end.kind));
+  if (start.shear_factors.size() != end.shear_factors.size())
+    value.fail("give `shear_factors` at both ends, or at none");
+  if (start.points.size() != end.points.size()) value.fail("give as many `stress_points` at the end as at the start");
+  // What is left out counts as zero: a taper to nothing would be a slip.
+  if (start.has_density != end.has_density) value.fail("give the density or mass at both ends, or at none");
+  if (start.has_offset != end.has_offset) value.fail("give `offset` at both ends, or at none");
+}
+
 SectionLaw::SectionLaw(const YamlValue& value) : value_(value) {
   if (!value.is_sequence()) {
     start_ = end_ = read(value);
@@ -183,22 +208,18 @@ SectionLaw::SectionLaw(const YamlValue& value) : value_(value) {
   if (value.size() != 2) value.fail("expected a section or a pair [start, end]");
   start_ = read(value.at(std::size_t{0}));
   end_ = read(value.at(std::size_t{1}));
-  if (start_.kind != end_.kind)
-    value.fail(
-        fmt::format("a beam cannot taper from '{}' to '{}': both ends must be of one kind", start_.kind, end_.kind));
-  if (start_.shear_factors.size() != end_.shear_factors.size())
-    value.fail("give `shear_factors` at both ends, or at none");
-  if (start_.points.size() != end_.points.size()) value.fail("give as many `stress_points` at the end as at the start");
+  check_taper(value, start_, end_);
 }
 
 SectionLaw::Definition SectionLaw::between(double s) const {
   const auto mix = [s](const VectorX& a, const VectorX& b) { return VectorX((1 - s) * a + s * b); };
-  return {start_.kind,
-          mix(start_.numbers, end_.numbers),
-          mix(start_.material, end_.material),
-          mix(start_.offset, end_.offset),
-          mix(start_.shear_factors, end_.shear_factors),
-          mix(start_.points, end_.points)};
+  Definition d = start_;
+  d.numbers = mix(start_.numbers, end_.numbers);
+  d.material = mix(start_.material, end_.material);
+  d.offset = mix(start_.offset, end_.offset);
+  d.shear_factors = mix(start_.shear_factors, end_.shear_factors);
+  d.points = mix(start_.points, end_.points);
+  return d;
 }
 
 BeamSection SectionLaw::at(double s) const { return uniform_ ? *uniform_ : evaluate(between(s)); }

@@ -4,12 +4,17 @@
 #include <cmath>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "mechanism/elements/beam_section.hpp"
 #include "mechanism/math/so3.hpp"
 
 namespace bielle::mechanism {
 namespace {
 
 constexpr std::size_t along_beam = 0, in_time = 1;  // arguments of the formulas
+constexpr auto gauss_place = ElementSections::place;
+constexpr auto gauss_weight = ElementSections::weight;
 
 Vector3 evaluate(const std::array<Expression, 3>& vector, double s, double t) {
   const std::array<double, 2> values{s, t};
@@ -17,17 +22,31 @@ Vector3 evaluate(const std::array<Expression, 3>& vector, double s, double t) {
 }
 
 /// Places inside an element, 0 < z < 1, where a formula of s jumps or has a kink; 0 and 1 beside them.
-std::vector<double> pieces(const LineLoad& load, const BeamSpan& span) {
+std::vector<double> pieces(const LineLoad& load, double s_A, double s_B) {
   std::vector<double> ends{0, 1};
   for (const auto* vector : {&load.force, &load.moment})
     for (const Expression& component : *vector)
       for (double s : component.break_points(along_beam)) {
-        const double z = (s - span.s_A) / (span.s_B - span.s_A);
+        const double z = (s - s_A) / (s_B - s_A);
         if (z > 1e-9 && z < 1 - 1e-9) ends.push_back(z);
       }
   std::sort(ends.begin(), ends.end());
   ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
   return ends;
+}
+
+/// Integral over the beam of a formula, or of its magnitude, by three Gauss points in each of `parts` equal parts of
+/// the pieces between kinks of each element.
+template <class Value>
+double integral(const std::vector<double>& ends, int parts, const Value& value) {
+  double sum = 0;
+  for (std::size_t k = 0; k + 1 < ends.size(); ++k)
+    for (int part = 0; part < parts; ++part)
+      for (std::size_t g = 0; g < 3; ++g) {
+        const double length = (ends[k + 1] - ends[k]) / parts;
+        sum += length * gauss_weight[g] * value(ends[k] + length * (part + gauss_place[g]));
+      }
+  return sum;
 }
 
 /// W_B: what a small rotation of end B turns the section at z by.
@@ -45,14 +64,13 @@ Matrix3 end_share_gradient(double z, const Vector3& psi, const Vector3& n) {
 
 DistributedLoad::DistributedLoad(std::string name, const BeamSpan& span, LineLoad load)
     : Component("beam", std::move(name)), span_(span), load_(std::move(load)) {
-  const double L = span.chord.norm(), offset = 0.5 * std::sqrt(0.6);
-  const std::array<double, 3> place{0.5 - offset, 0.5, 0.5 + offset}, weight{5.0 / 18, 8.0 / 18, 5.0 / 18};
-  const std::vector<double> ends = pieces(load_, span);
+  const double L = span.chord.norm();
+  const std::vector<double> ends = pieces(load_, span.s_A, span.s_B);
   for (std::size_t k = 0; k + 1 < ends.size(); ++k)
     for (std::size_t g = 0; g < 3; ++g) {
-      const double part = ends[k + 1] - ends[k], z = ends[k] + part * place[g];
+      const double part = ends[k + 1] - ends[k], z = ends[k] + part * gauss_place[g];
       const Vector3 bubble = 0.5 * z * (1 - z) * span.chord;
-      points_.push_back({L * part * weight[g], z, {1 - z, z}, {span.R_A * bubble, -(span.R_B * bubble)}});
+      points_.push_back({L * part * gauss_weight[g], z, {1 - z, z}, {span.R_A * bubble, -(span.R_B * bubble)}});
     }
 }
 
@@ -97,10 +115,12 @@ void DistributedLoad::add_residual(const LocalState& state, Eigen::Ref<VectorX> 
   }
 }
 
+// clang-format off
 // Columns dTheta_j, with  dTheta(z) = W_j R_Sj^T dTheta_j  and  dpsi = -T^-T R_SA^T dTheta_A + T^-1 R_SB^T dTheta_B:
-//   row x_i       -w N_i df                                                     df = -S F~ dTheta(z)  for followers,
-//   else 0 row Theta_i   -w [ a_i~ (R_i^T f)~ dTheta_i + a_i~ R_i^T df + R_Si (W_i^T dn + d(W_i^T n)/dpsi dpsi) ]
+//   row x_i       -w N_i df                                            df = -S F~ dTheta(z)  for followers, else 0
+//   row Theta_i   -w [ a_i~ (R_i^T f)~ dTheta_i + a_i~ R_i^T df + R_Si (W_i^T dn + d(W_i^T n)/dpsi dpsi) ]
 //                                            dn = ((S^T M)~ + c~ (S^T F)~) dTheta(z)  for dead loads, else 0
+// clang-format on
 void DistributedLoad::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   if (!tangent.wants_K) return;
   const std::array<Matrix3, 2> R_S{span_.R_A, span_.R_B};
@@ -183,12 +203,51 @@ LineLoad read_line_load(const YamlValue& value) {
   return load;
 }
 
+/// Refuses a formula that the points of the elements do not integrate: they would lose a part of it silently.
+void check_integrals(const YamlValue& value, const LineLoad& load, const Expression& formula, int elements) {
+  if (formula.is_constant()) return;
+  std::vector<double> times = formula.break_points(in_time);
+  times.push_back(0);
+  times.push_back(1);
+  for (const double t : times) {
+    const auto value_at = [&](double s) { return formula(std::array<double, 2>{s, t}); };
+    double coarse = 0, fine = 0, size = 0;
+    try {
+      for (int k = 0; k < elements; ++k) {
+        const double s_A = static_cast<double>(k) / elements, s_B = static_cast<double>(k + 1) / elements;
+        std::vector<double> ends = pieces(load, s_A, s_B);
+        for (double& z : ends) z = s_A + z * (s_B - s_A);
+        constexpr int many = 32;
+        coarse += integral(ends, 1, value_at);
+        fine += integral(ends, many, value_at);
+        size += integral(ends, many, [&](double s) { return std::abs(value_at(s)); });
+      }
+    } catch (const ComputationError& error) {
+      value.fail(error.what());
+    }
+    constexpr double allowed = 1e-2;
+    if (std::abs(coarse - fine) > allowed * size)
+      value.fail(
+          fmt::format("the {} elements of the beam make {:.4g} of the load's integral, which is {:.4g} (at t = "
+                      "{:.4g} s): write jumps as comparisons of `s` with numbers, or give more elements",
+                      elements, coarse, fine, t));
+  }
+}
+
 }  // namespace
 
-std::vector<LineLoad> read_line_loads(const YamlValue& value) {
+std::vector<LineLoad> read_line_loads(const YamlValue& value, int elements) {
+  const std::vector<YamlValue> items = value.is_sequence() ? value.items() : std::vector<YamlValue>{value};
+  if (items.empty()) value.fail("expected at least one load");
   std::vector<LineLoad> loads;
-  if (!value.is_sequence()) return {read_line_load(value)};
-  for (const YamlValue& item : value.items()) loads.push_back(read_line_load(item));
+  for (const YamlValue& item : items) {
+    loads.push_back(read_line_load(item));
+    const LineLoad& load = loads.back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (item.has("force")) check_integrals(item.at("force").at(k), load, load.force[k], elements);
+      if (item.has("moment")) check_integrals(item.at("moment").at(k), load, load.moment[k], elements);
+    }
+  }
   return loads;
 }
 

@@ -34,8 +34,10 @@ struct LineLoad {
   bool follower = false;
 };
 
-/// `{force, moment, at: [y, z], follower}`, or a list of such loads. @throws InputError
-std::vector<LineLoad> read_line_loads(const YamlValue& value);
+/// `{force, moment, at: [y, z], follower}`, or a list of such loads.
+/// @param elements  of the beam: three points on each, and between its kinks, have to integrate the load to 1 %
+/// @throws InputError
+std::vector<LineLoad> read_line_loads(const YamlValue& value, int elements);
 
 /// Where one element of a beam lies.
 struct BeamSpan {

@@ -1,6 +1,7 @@
 #include "mechanism/elements/solid_reader.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include <fmt/format.h>
@@ -58,7 +59,12 @@ const std::vector<Shape>& shapes() {
   return all;
 }
 
-MassProperties read_solid(const YamlValue& solid) {
+struct Solid {
+  MassProperties properties;  ///< of negative mass where it is cut out
+  double density = 0;         ///< [kg/m^3]
+};
+
+Solid read_solid(const YamlValue& solid) {
   std::vector<std::string> keys = {"density", "mass", "position", "cut"};
   keys.insert(keys.end(), orientation_keys().begin(), orientation_keys().end());
   std::string names;
@@ -75,30 +81,42 @@ MassProperties read_solid(const YamlValue& solid) {
   if (count != 1) solid.fail("expected exactly one of " + names);
   const MassProperties unit = given->read(solid.at(given->name));
   if (solid.has("mass") && solid.has("density")) solid.at("mass").fail("give either `density` or `mass` of a solid");
-  double factor =
+  const double density =
       solid.has("mass") ? solid.at("mass").positive_number() / unit.mass : solid.at("density").positive_number();
-  if (solid.has("cut") && solid.at("cut").boolean()) factor = -factor;
-  return placed(read_frame(solid), factor * unit);
+  const bool cut = solid.has("cut") && solid.at("cut").boolean();
+  return {placed(read_frame(solid), (cut ? -density : density) * unit), density};
+}
+
+/// What is taken out had the density of something that is there.
+void check_cut(const YamlValue& cut, double density, const std::vector<double>& densities) {
+  const auto same = [&](double other) { return std::abs(other - density) <= 1e-9 * density; };
+  if (std::none_of(densities.begin(), densities.end(), same))
+    cut.fail(fmt::format("what is cut out has the density {:.6g} kg/m^3, and none of the solids has it", density));
 }
 
 }  // namespace
 
 MassProperties read_solids(const YamlValue& value) {
   if (!value.is_sequence()) {
-    const MassProperties solid = read_solid(value);
+    const MassProperties solid = read_solid(value).properties;
     if (solid.mass < 0) value.at("cut").fail("there is nothing that this solid is cut out of");
     return solid;
   }
   if (value.size() == 0) value.fail("expected at least one solid");
   std::vector<MassProperties> solids;
+  std::vector<double> densities;  ///< of what has mass
   double mass = 0, solid_mass = 0;
   for (const YamlValue& item : value.items()) {
-    solids.push_back(read_solid(item));
-    mass += solids.back().mass;
-    solid_mass += std::max(0.0, solids.back().mass);
+    const auto [properties, density] = read_solid(item);
+    if (properties.mass > 0) densities.push_back(density);
+    solids.push_back(properties);
+    mass += properties.mass;
+    solid_mass += std::max(0.0, properties.mass);
   }
   if (!(mass > 1e-9 * solid_mass))
     value.fail(fmt::format("what is cut out leaves no mass: {:.6g} of {:.6g} kg", mass, solid_mass));
+  for (std::size_t k = 0; k < solids.size(); ++k)
+    if (solids[k].mass < 0) check_cut(value.at(k), read_solid(value.at(k)).density, densities);
   // Those with mass first: no partial sum is without mass.
   std::stable_partition(solids.begin(), solids.end(), [](const MassProperties& p) { return p.mass > 0; });
   MassProperties sum = solids.front();

@@ -1,5 +1,6 @@
 // Cross sections: closed forms and published constants.
 #include <cmath>
+#include <sstream>
 
 #include <catch2/catch.hpp>
 
@@ -103,6 +104,39 @@ TEST_CASE("a tapered section is interpolated in its dimensions") {
   CHECK_THAT(taper.at(1).stiffness(4, 4), WithinRel(3 * pi * 0.0081 / 4, 1e-14));
   CHECK_THROWS_WITH(section("[{circle: 0.1, young: 3, shear: 1}, {tube: [0.3, 0.1], young: 3, shear: 1}]"),
                     Contains("cannot taper from 'circle' to 'tube'"));
+}
+
+TEST_CASE("given constants and matrices may stand beside the node line, as a shape may") {
+  const std::string round = "circle: 0.1, young: 200, poisson: 0, density: 10";
+  const BeamSection centred = section("{" + round + "}").at(0);
+  const BeamSection beside = section("{" + round + ", offset: [0.3, -0.2]}").at(0);
+  const auto text = [](const Matrix6& A) {
+    const Eigen::IOFormat rows(Eigen::FullPrecision, 0, ", ", ", ", "[", "]");
+    std::ostringstream out;
+    out << "[" << A.format(rows) << "]";
+    return out.str();
+  };
+  Matrix6 mass = Matrix6::Zero();
+  mass.topLeftCorner<3, 3>().diagonal().setConstant(centred.mass);
+  mass.bottomRightCorner<3, 3>() = centred.inertia;
+  const BeamSection given =
+      section("{stiffness: " + text(centred.stiffness) + ", mass: " + text(mass) + ", offset: [0.3, -0.2]}").at(0);
+  CHECK((given.stiffness - beside.stiffness).norm() < 1e-14 * beside.stiffness.norm());
+  CHECK((given.mass_offset - beside.mass_offset).norm() < 1e-15);
+  CHECK((given.inertia - beside.inertia).norm() < 1e-14 * beside.inertia.norm());
+  const BeamSection constants = section("{EA: 1, GAy: 2, GAz: 3, GJ: 4, EIy: 5, EIz: 6, offset: [0.5, 0]}").at(0);
+  // The stretch at the origin is Gamma_x - 0.5 kappa_z: EIz about the node line grows by EA 0.25.
+  CHECK(constants.stiffness(5, 5) == Approx(6.25));
+  CHECK(constants.stiffness(0, 5) == Approx(-0.5));
+}
+
+TEST_CASE("what one end of a taper has, the other has to have") {
+  const std::string round = "circle: 0.1, young: 3, shear: 1";
+  CHECK_THROWS_WITH(section("[{" + round + ", density: 1}, {" + round + "}]"), Contains("both ends"));
+  CHECK_THROWS_WITH(section("[{" + round + "}, {" + round + ", offset: [0.1, 0]}]"), Contains("offset"));
+  const std::string constants = "EA: 1, GAy: 2, GAz: 3, GJ: 4, EIy: 5, EIz: 6";
+  CHECK_THROWS_WITH(section("[{" + constants + "}, {" + constants + ", mass_per_length: 1, Jx: 1, Jy: 1, Jz: 1}]"),
+                    Contains("both ends"));
 }
 
 TEST_CASE("a section that does not exist is refused with its key") {

@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
 
+#include "tests/support/messages.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/static_model.hpp"
 
@@ -141,4 +142,23 @@ TEST_CASE("a ring buckles at 3 EI/R^3 under pressure that follows it and at 4 EI
     // Dead forces act as exactly as the line is; the direction of followers is that of the helix.
     CHECK_THAT(std::log2(errors[1] / errors[2]), WithinAbs(follower ? 2 : 4, 0.1));
   }
+}
+
+TEST_CASE("a load that the elements' points would lose in part is refused with what they make of it") {
+  const auto refusal = [](const std::string& load) {
+    return bielle::test::message_of<bielle::InputError>([&] {
+      model_from_text(
+          "nodes: {a: {position: [0, 0, 0], fixed: true}, b: {position: [2, 0, 0]}}\n"
+          "elements:\n  beam: {type: beam, nodes: [a, b], elements: 3, section: {EA: 1, GAy: 1, GAz: 1, "
+          "GJ: 1, EIy: 1, EIz: 1}, distributed: " +
+          load + "}\n");
+    });
+  };
+  CHECK_THAT(refusal("{force: [0, \"if(abs(s-0.5)<0.01, 100, 0)\", 0]}"),
+             Catch::Contains("distributed.force[2]") && Catch::Contains("3 elements"));
+  CHECK_THAT(refusal("{moment: [\"1/(s-0.51)^2\", 0, 0]}"), Catch::Contains("distributed.moment[1]"));
+  CHECK_THAT(refusal("{force: [\"sqrt(s-0.5)\", 0, 0]}"), Catch::Contains("distributed.force[1]"));
+  CHECK_THAT(refusal("[]"), Catch::Contains("at least one load"));
+  // Kinks that the formula shows are integrated on both sides of them.
+  CHECK(refusal("{force: [\"100*(s>0.49)*(s<0.51)\", \"sin(3*s)\", 0]}") == "(nothing thrown)");
 }

@@ -214,6 +214,7 @@ TEST_CASE("solids that make no body are refused") {
   const std::string ball = "{sphere: 1, density: 1}";
   CHECK_THROWS_WITH(body("solid: {sphere: 1, density: 1, cut: true}"), Contains("solid.cut"));
   CHECK_THROWS_WITH(body("solid: [" + ball + ", {sphere: 1, density: 2, cut: true}]"), Contains("leaves no mass"));
+  CHECK_THROWS_WITH(body("solid: [" + ball + ", {sphere: 0.1, density: 2, cut: true}]"), Contains("has the density 2"));
   CHECK_THROWS_WITH(body("solid: [" + ball + ", {box: [0.1, 0.1, 0.1], density: 1, position: [30, 0, 0], cut: true}]"),
                     Contains("no body has this inertia") && Contains("inside of the other solids"));
   CHECK_THROWS_WITH(body("solid: []"), Contains("at least one solid"));
