@@ -35,17 +35,6 @@ class InvertedCells {
   std::atomic<Eigen::Index> lowest_{-1};
 };
 
-/// work(cell) for every cell, those of one colour at the same time.
-template <typename Work>
-void for_each_cell(const Solid& solid, int threads, const Work& work) {
-  for (const std::vector<int>& cells : colour_cells(solid.nodes, solid.points())) {
-#pragma omp parallel for num_threads(threads) schedule(static)
-    for (std::size_t k = 0; k < cells.size(); ++k) {
-      work(cells[k]);
-    }
-  }
-}
-
 /// Pattern of K: columns of node b hold the rest of its own block, then the blocks of its higher neighbours.
 SymmetricMatrix stiffness_pattern(const NodeGraph& graph) {
   SymmetricMatrix k;
@@ -78,7 +67,7 @@ void add_stiffness(const Solid& solid, const NodeGraph& graph, SymmetricMatrix& 
     tensors.push_back(elasticity_tensor(material.elasticity));
   }
   InvertedCells inverted;
-  for_each_cell(solid, threads, [&](Eigen::Index e) {
+  for_each_cell(solid.nodes, solid.points(), threads, [&](Eigen::Index e) {
     const CellPoints<N> x = cell_points<N>(solid.mesh.points, solid.nodes, e);
     const CellRule<N>& rule = rules.of(x);
     // w_(3a+j)(3b+l) = int dN_a/dx_j dN_b/dx_l dV
@@ -146,7 +135,7 @@ void add_mass(const Solid& solid, const NodeGraph& graph, NodeMatrix& m, int thr
   };
   const Eigen::Matrix<double, N, N> straight = integrate(rules.straight, [](std::size_t) { return 1.0; });
   InvertedCells inverted;
-  for_each_cell(solid, threads, [&](Eigen::Index e) {
+  for_each_cell(solid.nodes, solid.points(), threads, [&](Eigen::Index e) {
     const CellPoints<N> x = cell_points<N>(solid.mesh.points, solid.nodes, e);
     const CellRule<N>& rule = rules.of(x);
     const auto jacobian = [&](std::size_t p) {
@@ -164,36 +153,6 @@ void add_mass(const Solid& solid, const NodeGraph& graph, NodeMatrix& m, int thr
   inverted.check(solid);
 }
 
-template <int N>
-void add_geometric_stiffness(const Solid& solid, const NodeGraph& graph, const RowMatrix& fields,
-                             std::vector<NodeMatrix>& g, int threads) {
-  const CellRules<N> rules(N == 4 ? CellDegrees{0, 0} : CellDegrees{3, 5});
-  for_each_cell(solid, threads, [&](Eigen::Index e) {
-    const CellPoints<N> x = cell_points<N>(solid.mesh.points, solid.nodes, e);
-    const CellRule<N>& rule = rules.of(x);
-    const Eigen::Matrix<double, 6, 6>& elasticity = solid.materials[solid.material_of[e]].elasticity;
-    std::vector<Eigen::Matrix<double, N, N>> sums(g.size(), Eigen::Matrix<double, N, N>::Zero());
-    std::vector<Eigen::Matrix<double, 3, N>> u(g.size());
-    for (int a = 0; a < N; ++a) {
-      const double* rows = &fields.coeffRef(3 * solid.nodes(a, e), 0);
-      for (std::size_t f = 0; f < g.size(); ++f) {
-        u[f].col(a) << rows[f], rows[f + fields.cols()], rows[f + 2 * fields.cols()];
-      }
-    }
-    Eigen::Matrix<double, N, 3> gradients;
-    for (std::size_t p = 0; p < rule.size(); ++p) {
-      const double volume = map_point<N>(rule, p, x, gradients);
-      for (std::size_t f = 0; f < g.size(); ++f) {
-        const Eigen::Matrix3d stress = tensor_of(Vector6(elasticity * strain_of(u[f] * gradients)));
-        sums[f].noalias() += (volume * gradients * stress) * gradients.transpose();
-      }
-    }
-    for (std::size_t f = 0; f < g.size(); ++f) {
-      add_to_node_matrix<N>(solid, graph, e, sums[f], g[f]);
-    }
-  });
-}
-
 }  // namespace
 
 SymmetricMatrix assemble_stiffness(const Solid& solid, const NodeGraph& graph, int threads) {
@@ -207,14 +166,6 @@ NodeMatrix assemble_mass(const Solid& solid, const NodeGraph& graph, int threads
   NodeMatrix m{&graph, std::vector<double>(graph.neighbours.size(), 0.0)};
   solid.type == CellType::tet4 ? add_mass<4>(solid, graph, m, threads) : add_mass<10>(solid, graph, m, threads);
   return m;
-}
-
-std::vector<NodeMatrix> assemble_geometric_stiffness(const Solid& solid, const NodeGraph& graph,
-                                                     const RowMatrix& fields, int threads) {
-  std::vector<NodeMatrix> g(fields.cols(), NodeMatrix{&graph, std::vector<double>(graph.neighbours.size(), 0.0)});
-  solid.type == CellType::tet4 ? add_geometric_stiffness<4>(solid, graph, fields, g, threads)
-                               : add_geometric_stiffness<10>(solid, graph, fields, g, threads);
-  return g;
 }
 
 }  // namespace bielle::reduce

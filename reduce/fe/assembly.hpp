@@ -20,12 +20,4 @@ SymmetricMatrix assemble_stiffness(const Solid& solid, const NodeGraph& graph, i
 /// @throws ComputationError as above
 NodeMatrix assemble_mass(const Solid& solid, const NodeGraph& graph, int threads = 1);
 
-/// Geometric stiffness of the stresses of several displacement fields: g_ab = int dN_a/dx_i sigma_ij dN_b/dx_j dV
-/// [N/m], to be used as g (x) I3: u^T (g (x) I3) u / 2 is the work of the stress on the second-order strain
-/// (grad u)^T (grad u) / 2.
-/// @param fields  (3 points, k) displacements u0 whose linear elastic stress acts
-/// @returns one matrix per field
-std::vector<NodeMatrix> assemble_geometric_stiffness(const Solid& solid, const NodeGraph& graph,
-                                                     const RowMatrix& fields, int threads = 1);
-
 }  // namespace bielle::reduce

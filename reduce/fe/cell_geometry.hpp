@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 
+#include "reduce/fe/node_graph.hpp"
 #include "reduce/fe/quadrature.hpp"
 #include "reduce/fe/shape_functions.hpp"
 
@@ -73,6 +74,17 @@ struct CellRules {
       : straight(simplex_quadrature(3, degrees.straight)), curved(simplex_quadrature(3, degrees.curved)) {}
   const CellRule<N>& of(const CellPoints<N>& x) const { return is_straight<N>(x) ? straight : curved; }
 };
+
+/// work(cell) for every cell, those of one colour at the same time.
+template <typename Work>
+void for_each_cell(const Eigen::MatrixXi& nodes, Eigen::Index points, int threads, const Work& work) {
+  for (const std::vector<int>& cells : colour_cells(nodes, points)) {
+#pragma omp parallel for num_threads(threads) schedule(static)
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      work(cells[k]);
+    }
+  }
+}
 
 template <int N>
 CellPoints<N> cell_points(const Eigen::Matrix3Xd& points, const Eigen::MatrixXi& nodes, Eigen::Index cell) {

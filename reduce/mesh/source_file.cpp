@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 
 #include <fmt/format.h>
 
@@ -39,6 +40,28 @@ std::string ending_of(const std::string& path) {
   return ending;
 }
 
+std::string trimmed(const std::string& line) {
+  const auto first = line.find_first_not_of(" \t\r"), last = line.find_last_not_of(" \t\r");
+  return first == std::string::npos ? "" : line.substr(first, last - first + 1);
+}
+
+// gmsh 4.8 reads the groups of universal files from the older datasets 2435, 2452 and 2477, but passes over 2467, whose
+// records are those of 2477: a copy under that number keeps them. Returns false, and the copy is of no use, when there
+// is nothing to renumber.
+bool renumber_groups(const std::string& source, const std::string& target) {
+  std::ifstream in(source);
+  std::ofstream out(target);
+  bool found = false;
+  std::string before;
+  for (std::string line; std::getline(in, line); before = line) {
+    const bool groups = trimmed(before) == "-1" && trimmed(line) == "2467";  // -1 begins and ends each dataset
+    found = found || groups;
+    out << (groups ? "  2477" : line) << '\n';
+  }
+  if (!out.flush()) throw ComputationError(fmt::format("'{}' cannot be written: is the disk full?", target));
+  return found;
+}
+
 // Metres per unit of a geometry that carries none; for one that carries its own, a warning when the user says
 // otherwise.
 void settle_unit(const MeshRequest& request, const std::string& ending, SourceFile& source, Progress& progress) {
@@ -72,6 +95,11 @@ SourceFile prepare_source(const MeshRequest& request, Progress& progress) {
     source.folder = std::make_unique<ScratchFolder>();
     source.path = (source.folder->path() / "mesh.msh").string();
     placed(request.located, [&] { convert_mesh(request.path, source.path, progress); });
+  }
+  if (ending == ".unv") {
+    source.folder = std::make_unique<ScratchFolder>();
+    const std::string copy = (source.folder->path() / "mesh.unv").string();
+    if (renumber_groups(request.path, copy)) source.path = copy;
   }
   return source;
 }

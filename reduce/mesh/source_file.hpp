@@ -16,7 +16,7 @@ namespace bielle::reduce {
 /// A geometry or mesh, ready for gmsh.
 struct SourceFile {
   std::string name;           ///< as the user wrote it, for messages
-  std::string path;           ///< what gmsh opens: the file, or the MSH file to which it was converted
+  std::string path;           ///< what gmsh opens: the file, or what it was converted to
   bool geometry = false;      ///< to be meshed, by the ending of its name
   bool carries_unit = false;  ///< STEP and IGES: gmsh converts these to metres
   std::string unit_note;      ///< "read in mm as length_unit says": what is known of its unit, for people

@@ -5,7 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
-#include "reduce/fe/assembly.hpp"
+#include "reduce/fe/geometric_stiffness.hpp"
 #include "reduce/reduction/reduced_matrices.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
 
@@ -181,14 +181,14 @@ GeometricStiffness geometric_stiffness(const Solid& solid, const NodeGraph& grap
     rotations.push_back(interface_rotation(ties, static_cast<int>(i), basis));
   }
   GeometricStiffness result;
-  constexpr Eigen::Index chunk = 6;  // matrices of the mesh in memory at a time
+  constexpr Eigen::Index chunk = 18;  // matrices of the mesh in memory at a time: all of a body with two interfaces
   for (Eigen::Index first = 0; first < count; first += chunk) {
     const Eigen::Index width = std::min(chunk, count - first);
-    const std::vector<NodeMatrix> g =
-        assemble_geometric_stiffness(solid, graph, fields.middleCols(first, width), threads);
+    std::vector<Eigen::MatrixXd> reduced =
+        reduced_geometric_stiffness(solid, graph, fields.middleCols(first, width), basis.shapes, threads);
     for (Eigen::Index f = 0; f < width; ++f) {
       const Eigen::Index field = first + f;
-      Eigen::MatrixXd k = inner_products(basis.shapes, g[f].multiply(basis.shapes, 3, threads));
+      Eigen::MatrixXd& k = reduced[f];
       for (std::size_t i = 0; i < ties.interfaces.size(); ++i) {
         if (ties.surfaces[i].tie != Tie::free) {
           k += rotations[i].transpose() *

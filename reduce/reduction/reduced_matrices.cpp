@@ -1,13 +1,12 @@
 #include "reduce/reduction/reduced_matrices.hpp"
 
-#include <cblas.h>
-#include <fmt/format.h>
-
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
+#include <fmt/format.h>
 
 #include "reduce/common/error.hpp"
+#include "reduce/spectral/blas.hpp"
 
 namespace bielle::reduce {
 
@@ -18,10 +17,9 @@ Eigen::MatrixXd strided_product(const RowMatrix& a, int k, const RowMatrix& b, i
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(a.cols(), b.cols());
   if (result.size() > 0 && a.rows() > 0) {
     // A row-major block is its transpose stored by columns.
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, static_cast<int>(a.cols()), static_cast<int>(b.cols()),
-                static_cast<int>(a.rows() / stride), 1, a.data() + k * a.cols(), static_cast<int>(stride * a.cols()),
-                b.data() + l * b.cols(), static_cast<int>(stride * b.cols()), 0, result.data(),
-                static_cast<int>(a.cols()));
+    const Eigen::Index rows = a.rows() / stride;
+    add_dense_product({a.data() + k * a.cols(), a.cols(), rows, stride * a.cols(), false},
+                      {b.data() + l * b.cols(), rows, b.cols(), stride * b.cols(), true}, result.data(), result.rows());
   }
   return result;
 }
@@ -83,7 +81,8 @@ Eigen::MatrixXd modal_damping(const FreeModes& modes, const Eigen::MatrixXd& mas
   }
   const Eigen::Index elastic = modes.omega.size();
   if (static_cast<Eigen::Index>(ratios.size()) > std::max<Eigen::Index>(elastic, 1)) {
-    throw InputError(fmt::format("damping.ratio: {} values for a reduced body with {} elastic modes", ratios.size(), elastic));
+    throw InputError(
+        fmt::format("damping.ratio: {} values for a reduced body with {} elastic modes", ratios.size(), elastic));
   }
   Eigen::VectorXd coefficients(elastic);
   for (Eigen::Index k = 0; k < elastic; ++k) {

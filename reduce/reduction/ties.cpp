@@ -1,10 +1,10 @@
 #include "reduce/reduction/ties.hpp"
 
-#include <fmt/format.h>
-
-#include <Eigen/LU>
 #include <algorithm>
 #include <set>
+
+#include <Eigen/LU>
+#include <fmt/format.h>
 
 #include "reduce/common/error.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
@@ -46,8 +46,9 @@ class Claims {
     int shared = 0, first = -1, with = -1;
     for (const int node : nodes) {
       if (!inside_[node]) {
-        throw InputError(fmt::format("{}: point {} of surface '{}' at {} is no point of the solid", requests[request].located,
-                                     node, requests[request].group, place(solid_.mesh.points.col(node))));
+        throw InputError(fmt::format("{}: point {} of surface '{}' at {} is no point of the solid",
+                                     requests[request].located, node, requests[request].group,
+                                     place(solid_.mesh.points.col(node))));
       }
       if (owner_[node] >= 0) {
         with = owner_[node];
@@ -57,11 +58,12 @@ class Claims {
       }
     }
     if (shared > 0) {
-      throw InputError(fmt::format(
-          "{}: surface '{}' shares {} point{} with interface '{}', the first at {}; interfaces must not touch, leave a row "
-          "of elements between them",
-          requests[request].located, requests[request].group, shared, shared == 1 ? "" : "s", requests[with].name,
-          place(solid_.mesh.points.col(first))));
+      throw InputError(
+          fmt::format("{}: surface '{}' shares {} point{} with interface '{}', the first at {}; interfaces must not "
+                      "touch, leave a row "
+                      "of elements between them",
+                      requests[request].located, requests[request].group, shared, shared == 1 ? "" : "s",
+                      requests[with].name, place(solid_.mesh.points.col(first))));
     }
   }
 
@@ -78,7 +80,8 @@ Eigen::Matrix3Xd spread_unit_load(const SurfaceIntegrals& surface, const Interfa
   const Eigen::Vector3d force = axis < 3 ? direction : Eigen::Vector3d::Zero();
   const Eigen::Vector3d moment =
       axis < 3 ? Eigen::Vector3d(skew(interface.position - surface.centroid) * direction) : direction;
-  return force / surface.area * surface.weights.transpose() + skew(polar_moment(surface).inverse() * moment) * surface.first_moments;
+  return force / surface.area * surface.weights.transpose() +
+         skew(polar_moment(surface).inverse() * moment) * surface.first_moments;
 }
 
 }  // namespace
@@ -90,7 +93,8 @@ Eigen::Matrix3d polar_moment(const SurfaceIntegrals& surface) {
 Ties make_ties(const Solid& solid, const std::vector<InterfaceRequest>& requests) {
   if (requests.empty()) {
     throw InputError(
-        "interfaces: there is none, and a mechanism moves a body by its interfaces; one with 'tie: average' on any surface "
+        "interfaces: there is none, and a mechanism moves a body by its interfaces; one with 'tie: average' on any "
+        "surface "
         "leaves the body free");
   }
   Ties ties;
@@ -150,9 +154,10 @@ Ties make_ties(const Solid& solid, const std::vector<InterfaceRequest>& requests
     }
     if (request.tie == Tie::free) {
       for (const int node : surface.nodes) {
-        add_interface(request,
-                      {fmt::format("{}_{}", request.name, node), solid.mesh.points.col(node), request.rotation, directions},
-                      surface, {node});
+        add_interface(
+            request,
+            {fmt::format("{}_{}", request.name, node), solid.mesh.points.col(node), request.rotation, directions},
+            surface, {node});
       }
     } else {
       add_interface(request, {request.name, request.position.value_or(surface.centroid), request.rotation, directions},

@@ -48,6 +48,23 @@ BlasThreads::BlasThreads(int threads) : before_(openblas_get_num_threads()) { op
 
 BlasThreads::~BlasThreads() { openblas_set_num_threads(before_); }
 
+void add_dense_product(const DenseBlock& a, const DenseBlock& b, double* c, Eigen::Index stride) {
+  if (a.rows == 0 || a.columns == 0 || b.columns == 0) {
+    return;
+  }
+  const auto integer = [](Eigen::Index k) { return static_cast<int>(k); };
+  const auto order = [](const DenseBlock& block) { return block.row_major ? CblasTrans : CblasNoTrans; };
+  cblas_dgemm(CblasColMajor, order(a), order(b), integer(a.rows), integer(b.columns), integer(a.columns), 1, a.data,
+              integer(a.stride), b.data, integer(b.stride), 1, c, integer(stride));
+}
+
+Eigen::MatrixXd dense_product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b) {
+  Eigen::MatrixXd c = Eigen::MatrixXd::Zero(a.rows(), b.cols());
+  add_dense_product({a.data(), a.rows(), a.cols(), a.outerStride(), false},
+                    {b.data(), b.rows(), b.cols(), b.outerStride(), false}, c.data(), c.rows());
+  return c;
+}
+
 std::string blas_description() {
   const std::string config = openblas_get_config();  // "OpenBLAS 0.3.21 NO_AFFINITY ..."
   const auto end = config.find(' ', config.find(' ') + 1);

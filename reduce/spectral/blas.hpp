@@ -1,7 +1,10 @@
-// The BLAS below the factorisations: its threads, and whether it runs the kernels that this processor deserves.
+// The BLAS below the factorisations: its threads, products of dense matrices, and whether it runs the kernels that this
+// processor deserves.
 #pragma once
 
 #include <string>
+
+#include <Eigen/Core>
 
 namespace bielle {
 
@@ -17,6 +20,19 @@ class BlasThreads {
  private:
   int before_;
 };
+
+/// A dense matrix somewhere in memory: its columns (rows if `row_major`) are `stride` numbers apart.
+struct DenseBlock {
+  const double* data;
+  Eigen::Index rows, columns, stride;
+  bool row_major;
+};
+
+/// C += A B by dgemm, C stored by columns that are `stride` apart. Nothing happens where a dimension is zero.
+void add_dense_product(const DenseBlock& a, const DenseBlock& b, double* c, Eigen::Index stride);
+
+/// A B by dgemm.
+Eigen::MatrixXd dense_product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b);
 
 /// E.g. "OpenBLAS 0.3.21, kernels for SkylakeX".
 std::string blas_description();

@@ -106,6 +106,7 @@ Eigenpairs arpack_eigenpairs(const ShiftInvertProblem& problem, int count, const
   parameters[2] = options.restarts;  // on return: how many were made
   parameters[3] = 1;                 // block size, the only one implemented
   parameters[6] = 3;                 // shift-invert
+  const Eigen::MatrixXd mass_known = known.cols() > 0 ? problem.multiply_mass(known) : known;
   Eigenpairs pairs;
   a_int request = 0, info = 1;  // info = 1: start from `residual`
   const auto column = [&](int pointer) { return Eigen::Map<Eigen::VectorXd>(work.data() + pointers[pointer] - 1, n); };
@@ -115,7 +116,7 @@ Eigenpairs arpack_eigenpairs(const ShiftInvertProblem& problem, int count, const
       options.on_solve(pairs.solves);
     }
     Eigen::MatrixXd y = problem.solve(b);
-    if (known.cols() > 0) y -= known * (known.transpose() * problem.multiply_mass(y));
+    if (known.cols() > 0) y -= known * (mass_known.transpose() * y);
     return y;
   };
   while (request != 99) {

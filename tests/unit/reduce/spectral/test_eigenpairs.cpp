@@ -78,6 +78,15 @@ TEST_CASE("Every copy of a multiple eigenvalue is found") {
   check_pairs(cube, pairs);
 }
 
+TEST_CASE("Eigenvalues that are far from the shift take restarts, and none is missed") {
+  // Seen from the shift all of them lie close together: the best of a first subspace are far from converged.
+  const GridProblem cube({11, 11, 11}, 1, -4);
+  const Eigenpairs pairs = shift_invert_eigenpairs(cube.problem(), 11);
+  CHECK(pairs.restarts > 0);
+  REQUIRE(pairs.values.size() == 11);
+  check_pairs(cube, pairs);
+}
+
 TEST_CASE("Small problems give all of their eigenvalues") {
   const GridProblem plate({5, 4, 1});
   const Eigenpairs pairs = shift_invert_eigenpairs(plate.problem(), 20);

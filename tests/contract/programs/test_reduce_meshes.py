@@ -1,0 +1,199 @@
+"""bielle-reduce on every kind of geometry and mesh that a body file may name, what --list offers, and broken meshes."""
+
+import os
+import shutil
+import sys
+import unittest
+
+import h5py
+import meshio
+import numpy as np
+
+from command import CommandTest
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+MESHES = os.path.join(HERE, "..", "..", "..", "meshes")
+sys.path.insert(0, os.path.join(HERE, "..", "tools"))
+from box_mesh import box  # noqa: E402
+
+SIZE = (0.3, 0.2, 0.1)
+MASS = 7850 * 0.3 * 0.2 * 0.1
+BODY = """\
+body: box
+geometry: {file}
+materials:
+  steel: {{young: 210e9, poisson: 0.3, density: 7850}}
+regions: {{{region}: steel}}
+interfaces:
+  left: {{surface: {surface}, tie: rigid}}
+modes: {{count: 3}}
+"""
+SIDE = "{plane: {point: [0, 0, 0], normal: [1, 0, 0]}}"
+
+
+class Meshes(CommandTest):
+    program = "bielle-reduce"
+
+    def setUp(self):
+        super().setUp()
+        self.points, self.cells = box(size=SIZE)
+        self.left = np.flatnonzero(self.points[:, 0] == 0)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def reduce(self, file, region="all", surface=SIDE):
+        """Reduces the body in the file; @returns its fixed-boundary frequencies after checking mass and centre."""
+        self.write("body.yaml", BODY.format(file=file, region=region, surface=surface))
+        done = self.run_program("body.yaml")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertNotIn("FAILED", done.stdout)
+        with h5py.File(self.path("body.h5")) as result:
+            self.assertAlmostEqual(result["mass_properties/mass"][()] / MASS, 1, delta=1e-5)
+            np.testing.assert_allclose(result["mass_properties/centre"][()], np.array(SIZE) / 2, atol=1e-6)
+            return result["modes/frequencies"][()]
+
+    def sides(self):
+        """Triangles on x = 0 in VTK's node order."""
+        faces = [[0, 2, 1, 6, 5, 4], [0, 1, 3, 4, 8, 7], [1, 2, 3, 5, 9, 8], [0, 3, 2, 7, 9, 6]]
+        return np.array([row[face] for row in self.cells for face in faces if set(row[face]) <= set(self.left)])
+
+    def mesh(self, **data):
+        return meshio.Mesh(self.points, [("tetra10", self.cells), ("triangle6", self.sides())], **data)
+
+    def kinds(self, solid, side):
+        return [np.full(len(self.cells), solid), np.full(len(self.sides()), side)]
+
+    def abaqus(self):
+        # Abaqus numbers mid-side nodes as VTK does.
+        nodes = "".join(f"{i + 1}, {x:.17g}, {y:.17g}, {z:.17g}\n" for i, (x, y, z) in enumerate(self.points))
+        rows = "".join(f"{i + 1}, " + ", ".join(str(n + 1) for n in row) + "\n" for i, row in enumerate(self.cells))
+        left = ",\n".join(str(n + 1) for n in self.left)
+        return f"*Node\n{nodes}*Element, type=C3D10, elset=Body\n{rows}*Nset, nset=Left\n{left}\n"
+
+    def test_foreign_meshes_with_their_sets_give_one_body(self):
+        self.write("box.inp", self.abaqus())
+        self.mesh(cell_data={"nastran:ref": self.kinds(1, 7)}).write(self.path("box.bdf"))
+        self.mesh(cell_data={"region": self.kinds(1, 7)}).write(self.path("box.vtu"))
+        med = self.mesh(cell_data={"cell_tags": self.kinds(-1, -2)})
+        med.cell_tags = {-1: ["body"], -2: ["left"]}
+        med.write(self.path("box.med"))
+        reference = self.reduce("box.inp", "Body", "Left")
+        for file, region, surface in (("box.bdf", "property_1", "property_7"), ("box.vtu", "region_1", "region_7"),
+                                      ("box.med", "body", "left")):
+            with self.subTest(file):
+                # .bdf has 8 characters per number.
+                np.testing.assert_allclose(self.reduce(file, region, surface), reference, rtol=1e-5)
+
+    def test_universal_file(self):
+        self.write("box.inp", self.abaqus())
+        reference = self.reduce("box.inp", "Body", "Left")
+        for dataset in (2467, 2477):
+            with self.subTest(dataset):
+                write_unv(self.path("box.unv"), self.points, self.cells, self.sides(), dataset)
+                np.testing.assert_allclose(self.reduce("box.unv", "body", "left"), reference, rtol=1e-8)
+
+    def test_a_foreign_mesh_in_millimetres_with_a_side_selected_by_its_shape(self):
+        self.points *= 1000
+        self.write("box.inp", self.abaqus())
+        self.reduce("box.inp\nlength_unit: mm", "Body")
+
+    def test_a_set_that_a_foreign_mesh_does_not_have(self):
+        self.write("box.inp", self.abaqus())
+        self.write("body.yaml", BODY.format(file="box.inp", region="Body", surface="Lfet"))
+        self.expect_refusal(1, "body.yaml", says=["body.yaml:7", "Lfet", "did you mean 'Left'"])
+        self.write("body.yaml", BODY.format(file="box.inp", region="Bdy", surface="Left"))
+        self.expect_refusal(1, "body.yaml", says=["body.yaml:5", "did you mean 'Body'"])
+
+    def test_broken_foreign_meshes(self):
+        for name in ("bad.inp", "bad.bdf", "bad.vtu", "bad.med", "bad.unv"):
+            with self.subTest(name):
+                self.write(name, "this is not a mesh\n1 2 3\n")
+                self.write("body.yaml", BODY.format(file=name, region="all", surface=SIDE))
+                self.expect_refusal(1, "body.yaml", says=["body.yaml:2", name])
+                self.assertFalse(os.path.exists(self.path("body.h5")))
+
+    def test_an_empty_group(self):
+        # A physical surface that is named but has no triangle.
+        mesh = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 \"left\"\n3 2 \"body\"\n$EndPhysicalNames\n"
+        mesh += f"$Nodes\n{len(self.points)}\n" + "".join(
+            f"{i + 1} {x:.17g} {y:.17g} {z:.17g}\n" for i, (x, y, z) in enumerate(self.points)) + "$EndNodes\n"
+        gmsh = self.cells[:, [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]] + 1
+        mesh += f"$Elements\n{len(gmsh)}\n" + "".join(
+            f"{i + 1} 11 2 2 1 " + " ".join(map(str, row)) + "\n" for i, row in enumerate(gmsh)) + "$EndElements\n"
+        self.write("box.msh", mesh)
+        self.write("body.yaml", BODY.format(file="box.msh", region="body", surface="left"))
+        self.expect_refusal(1, "body.yaml", says=["body.yaml:7", "left"])
+
+    def test_a_foreign_mesh_in_two_pieces(self):
+        other = self.points + [1, 0, 0]
+        self.points, self.cells = np.concatenate([self.points, other]), np.concatenate(
+            [self.cells, self.cells + len(self.points)])
+        meshio.Mesh(self.points, [("tetra10", self.cells)]).write(self.path("box.vtu"))
+        self.write("body.yaml", BODY.format(file="box.vtu", region="all", surface=SIDE))
+        self.expect_refusal(1, "body.yaml", says=["body.yaml:2", "2 pieces"])
+
+    def test_what_a_list_offers(self):
+        self.write("box.inp", self.abaqus())
+        done = self.run_program("--list", "box.inp")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for word in ("Body", "Left", "plane", "tet10"):
+            self.assertIn(word, done.stdout)
+        done = self.run_program("--list", os.path.join(MESHES, "conrod.step"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for word in ("cylinder", "radius: 0.024", "radius: 0.011"):
+            self.assertIn(word, done.stdout)
+
+
+class Conrod(CommandTest):
+    program = "bielle-reduce"
+
+    def test_the_rod_is_the_same_body_as_geo_and_as_step(self):
+        for name in ("conrod.geo", "conrod.step", "conrod.yaml", "conrod_step.yaml"):
+            shutil.copy(os.path.join(MESHES, name), self.folder)
+        found = {}
+        for name in ("conrod", "conrod_step"):
+            with open(os.path.join(self.folder, name + ".yaml"), encoding="utf-8") as file:
+                text = file.read()
+            self.assertIn("size: 4.6e-3", text)
+            self.write(name + ".yaml", text.replace("size: 4.6e-3", "size: 8e-3"))
+            done = self.run_program(name + ".yaml", timeout=300)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertNotIn("FAILED", done.stdout)
+            with h5py.File(os.path.join(self.folder, name + ".h5")) as file:
+                found[name] = (file["mass_properties/mass"][()], file["mass_properties/centre"][()],
+                               file["interface/positions"][()], file["modes/frequencies"][()])
+        geo, step = found["conrod"], found["conrod_step"]
+        self.assertAlmostEqual(step[0] / geo[0], 1, delta=2e-3)  # two coarse meshes of one body
+        np.testing.assert_allclose(step[1], geo[1], atol=1e-4)
+        np.testing.assert_allclose(step[2], [[0, 0, 0], [0.2, 0, 0]], atol=1e-12)
+        np.testing.assert_allclose(step[3], geo[3], rtol=0.03)
+
+
+def write_unv(path, points, cells, sides, dataset):
+    """Universal file: nodes (2411), elements (2412: 118 tet10, 42 tri6), groups `body` and `left` (2467, or its forerunner 2477)."""
+    # Along edges the universal order is corner, middle, corner ...; then the three middles below the top, the top.
+    tet = [0, 4, 1, 5, 2, 6, 7, 8, 9, 3]
+    tri = [0, 3, 1, 4, 2, 5]
+    lines = ["    -1", "  2411"]
+    for i, x in enumerate(points):
+        lines += [f"{i + 1:10d}{1:10d}{1:10d}{11:10d}", "".join(f"{v:25.16E}" for v in x)]
+    lines += ["    -1", "    -1", "  2412"]
+    for i, (kind, row) in enumerate([(118, r[tet]) for r in cells] + [(42, r[tri]) for r in sides]):
+        lines.append(f"{i + 1:10d}{kind:10d}{7 if kind == 118 else 8:10d}{1:10d}{7:10d}{len(row):10d}")
+        numbers = [f"{n + 1:10d}" for n in row]
+        lines += ["".join(numbers[k:k + 8]) for k in range(0, len(numbers), 8)]
+    lines += ["    -1", "    -1", f"  {dataset}"]
+    first = 1
+    for group, (name, count) in enumerate((("body", len(cells)), ("left", len(sides))), start=1):
+        lines += [f"{group:10d}" + f"{0:10d}" * 6 + f"{count:10d}", name]
+        entries = [f"{8:10d}{n:10d}{0:10d}{0:10d}" for n in range(first, first + count)]
+        lines += ["".join(entries[k:k + 2]) for k in range(0, len(entries), 2)]
+        first += count
+    lines += ["    -1", ""]
+    with open(path, "w", encoding="utf-8") as file:
+        file.write("\n".join(lines))
+
+
+if __name__ == "__main__":
+    unittest.main()
