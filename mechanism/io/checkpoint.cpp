@@ -31,7 +31,15 @@ void for_each_dataset(const Hdf5File& file, const std::string& group,
 
 std::string fingerprint(const Model& model) {
   std::string text;
-  for (const Node& node : model.nodes()) text += fmt::format("node {}\n", node.name);
+  const auto numbers = [](const auto& matrix) {
+    std::string list;
+    for (const double value : matrix.reshaped()) list += fmt::format(" {}", value);
+    return list;
+  };
+  text += fmt::format("gravity{}\n", numbers(model.environment.gravity));
+  for (const auto& [name, value] : model.parameters) text += fmt::format("parameter {} {}\n", name, value);
+  for (const Node& node : model.nodes())
+    text += fmt::format("node {}{}{}\n", node.name, numbers(node.frame.x), numbers(node.frame.R));
   for (const Member& member : model.members())
     text += fmt::format("{} {}\n", member.component->type(), member.component->name());
   return text;
@@ -51,7 +59,7 @@ Checkpoint read_checkpoint(const std::string& results_path, const Model& model) 
                     results_path));
   if (file.read_text(root + "/model") != fingerprint(model))
     throw InputError(fmt::format(
-        "{}: is of another model: nodes, elements, joints, drives and loads have to be the same, in the same order",
+        "{}: is of another model: gravity, parameters, nodes, elements, joints, drives and loads have to be the same",
         results_path));
   const std::string group = root + analysis_name(checkpoint.analysis);
   const std::vector<double> rows = file.read(group + "/rows");

@@ -1,5 +1,6 @@
 #include "mechanism/io/describe_model.hpp"
 
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -16,6 +17,9 @@ std::string format_vector(const Vector3& v) {
   const auto clean = [](double x) { return std::abs(x) < 1e-14 ? 0.0 : x; };
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", clean(v.x()), clean(v.y()), clean(v.z()));
 }
+
+/// Gap in the balance of energy, beside the largest energy, from which results are not to be trusted unseen.
+constexpr double doubtful = 0.05;
 
 std::string format_start(const StartReport& start) {
   std::string text;
@@ -112,6 +116,8 @@ std::string format_summary(const MechanismFile& file, const std::vector<Analysis
           "  balance {:.3g} J, {:.2g} of the largest energy (negative: numerical dissipation)\n",
           s.energy.kinetic, s.energy.elastic, s.energy.gravity, s.energy.input, s.energy.dissipation, s.balance,
           s.balance / s.largest_energy);
+    if (std::abs(s.balance) > doubtful * s.largest_energy)
+      text += "  DOUBTFUL: so large a gap in the balance means steps too long for the motion, or a motion that jumps\n";
   }
   for (const PhaseReport& phase : phases) text += fmt::format("  {:<12} {:8.2f} s\n", phase.name, phase.seconds);
   text += fmt::format("results: {}\n", results_path);

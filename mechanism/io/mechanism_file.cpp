@@ -246,7 +246,8 @@ MechanismFile read_mechanism(YamlValue root, const std::map<std::string, std::st
       "a mechanism file");
   MechanismFile file;
   file.text = root.source_text();
-  root.set_parameters(read_parameters(root, overrides));
+  file.model.parameters = read_parameters(root, overrides);
+  root.set_parameters(file.model.parameters);
   if (root.has("mechanism")) file.model.title = root.at("mechanism").text();
   if (root.has("gravity")) file.model.environment.gravity = root.at("gravity").vector3();
 

@@ -206,12 +206,16 @@ ResultsFile::ResultsFile(const std::string& path, const Model& model, const std:
           fmt::format("{}: '{}' is not in it: a run goes on with the outputs that it began with", path, dataset));
   stream.link_from_root();
   stream.file.remove("/input");
+  if (stream.file.has("/parameters")) stream.file.remove("/parameters");
   stream.start(input_text);
 }
 
 void ResultsFile::Stream::start(const std::string& input_text) {
   file.write_attribute("/", "complete", std::int64_t{0});
   file.write_text("/input", input_text);
+  std::string parameters;
+  for (const auto& [name, value] : model.parameters) parameters += fmt::format("{} = {}\n", name, value);
+  if (!parameters.empty()) file.write_text("/parameters", parameters);
   file.flush();
   writer = std::thread([this] { write_until_told_to_stop(); });
 }

@@ -12,6 +12,7 @@
 #include "mechanism/io/results_file.hpp"
 #include "mechanism/solvers/redundancy.hpp"
 #include "mechanism/solvers/statics.hpp"
+#include "reduce/common/hdf5_file.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -178,7 +179,7 @@ class Run {
       progress_.note(fmt::format("step {:.6g} s in place of {:.6g} s, so that {} steps fill the duration", options.size,
                                  analysis.stepping.size, steps));
     if (static_cast<long>(options.break_points.size()) > steps) {
-      progress_.note(fmt::format("{} kinks (points of tables) in {} steps: steps do not end on them",
+      progress_.note(fmt::format("{} kinks of loads and motions in {} steps: steps do not end on them",
                                  options.break_points.size(), steps));
       options.break_points.clear();
     }
@@ -310,11 +311,26 @@ class Run {
   std::vector<std::string> redundant_;
 };
 
+/// What stands where the results will go may be results only: never a model, a superelement or a table.
+void check_may_be_replaced(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code none;
+  if (!fs::exists(path, none) || fs::file_size(path, none) == 0) return;
+  try {
+    if (Hdf5File::open(path).read_text_attribute("/", "format") == "bielle results") return;
+  } catch (const InputError&) {
+    // no HDF5 file at all, or none of ours
+  }
+  throw InputError(fmt::format(
+      "{}: exists and is no results file; the results would replace it: choose another name with -o", path));
+}
+
 }  // namespace
 
 std::vector<AnalysisSummary> run_analyses(const MechanismFile& file, const std::string& results_path,
                                           Progress& progress, const std::string& restart) {
   namespace fs = std::filesystem;
+  check_may_be_replaced(results_path);
   std::optional<Checkpoint> checkpoint;
   if (!restart.empty()) {
     checkpoint = read_checkpoint(restart, file.model);

@@ -73,6 +73,7 @@ class Model {
 
   Environment environment;  ///< gravity with load factor 1
   std::string title;
+  Parameters parameters;  ///< of the input file, overrides included
 
  private:
   std::vector<Node> nodes_;

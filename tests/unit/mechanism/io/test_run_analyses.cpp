@@ -1,5 +1,6 @@
 // What whole runs record.
 #include <filesystem>
+#include <fstream>
 
 #include <catch2/catch.hpp>
 
@@ -161,4 +162,20 @@ TEST_CASE("what cannot be continued is refused, and the file stays as it was") {
   CHECK_THAT(refusal(other, results), Catch::Contains("another model"));
   CHECK_THAT(refusal(pendulum("step: 1e-2", 0.1, "every: 1"), folder / "none.h5"), Catch::Contains("none.h5"));
   CHECK(Hdf5File::open(results).read_integer_attribute("/", "complete") == 1);
+}
+
+TEST_CASE("results take the place of results only") {
+  const test::TemporaryFolder folder;
+  const std::string text = pendulum("step: 1e-2", 0.1, "every: 1"), path = folder / "arm.yaml";
+  {
+    std::ofstream model(path);
+    model << text;
+  }
+  CHECK_THAT(test::message_of<InputError>([&] { run(text, path); }), Catch::Contains("arm.yaml: exists"));
+  const std::string body = folder / "link.h5";
+  Hdf5File::create(body).write_attribute("/", "format", std::string("bielle superelement"));
+  CHECK_THAT(test::message_of<InputError>([&] { run(text, body); }), Catch::Contains("no results file"));
+  const std::string results = folder / "arm.h5";
+  run(text, results);
+  run(text, results);
 }
