@@ -19,7 +19,7 @@ std::string format_vector(const Vector3& v) {
 }
 
 /// Gap in the balance of energy, beside the largest energy, from which results are not to be trusted unseen.
-constexpr double doubtful = 0.05;
+constexpr double doubtful = 0.05, rounding = 1e-18;  // [J]: less than that is noise
 
 std::string format_start(const StartReport& start) {
   std::string text;
@@ -116,7 +116,7 @@ std::string format_summary(const MechanismFile& file, const std::vector<Analysis
           "  balance {:.3g} J, {:.2g} of the largest energy (negative: numerical dissipation)\n",
           s.energy.kinetic, s.energy.elastic, s.energy.gravity, s.energy.input, s.energy.dissipation, s.balance,
           s.balance / s.largest_energy);
-    if (std::abs(s.balance) > doubtful * s.largest_energy)
+    if (s.largest_energy > rounding && std::abs(s.balance) > doubtful * s.largest_energy)
       text += "  DOUBTFUL: so large a gap in the balance means steps too long for the motion, or a motion that jumps\n";
   }
   for (const PhaseReport& phase : phases) text += fmt::format("  {:<12} {:8.2f} s\n", phase.name, phase.seconds);

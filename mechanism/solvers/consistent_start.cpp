@@ -66,11 +66,25 @@ void assemble_positions(const System& system, const Environment& environment, St
   const int first = system.size() - system.multipliers();
   const VectorX sizes = constraint_sizes(system, environment, state);
   constexpr double satisfied = 1e-13;  // beside the constraint's size
-  constexpr int iterations = 50;
+  constexpr double relaxed = 1e-7;     // motion of the last iteration beside the mechanism's size
+  constexpr double most_turn = 0.3;    // [rad] of a node per iteration
+  constexpr int iterations = 100;
   LinearStep linear(system);
   VectorX r(system.size()), step(system.size());
   const State start = state;
-  double previous = 0;
+  const double length = model_length(state);
+  // Forces of elastic parts as they are drawn stay as they are; what the motion adds is relaxed.
+  Environment unloaded;
+  unloaded.load_factor = environment.load_factor;
+  const auto unstressed = [&](const State& stressed) {
+    State still = stressed;
+    still.multiplier.setZero();
+    system.set_rates(still, VectorX::Zero(system.dofs()), VectorX::Zero(system.dofs()));
+    return still;
+  };
+  VectorX drawn(system.size()), elastic(system.size());
+  system.residual(unstressed(state), unloaded, drawn);
+  double previous = 0, motion = 0;
   for (int iteration = 0;; ++iteration) {
     system.residual(state, environment, r);
     double worst = 0;
@@ -86,29 +100,32 @@ void assemble_positions(const System& system, const Environment& environment, St
         worst_row = first + i;
       }
     }
-    if (worst <= satisfied || (iteration > 0 && worst <= 1e3 * satisfied && worst >= 0.5 * previous)) break;
+    const bool together = worst <= satisfied || (iteration > 0 && worst <= 1e3 * satisfied && worst >= 0.5 * previous);
+    if (together && (iteration == 0 || motion <= relaxed || iteration == iterations)) break;
     if (iteration == iterations || !std::isfinite(worst))
       throw ComputationError(fmt::format("the mechanism cannot be put together: {} stays violated by {:.3g} {}",
                                          system.equation_name(worst_row), r[worst_row],
                                          system.equation_units(worst_row)));
     previous = worst;
+    const State still = unstressed(state);
     const TangentWeights weights{1, 0, 0, 1, 1, true};
-    Environment unloaded;
-    unloaded.load_factor = environment.load_factor;
-    State unstressed = state;
-    unstressed.multiplier.setZero();
-    system.set_rates(unstressed, VectorX::Zero(system.dofs()), VectorX::Zero(system.dofs()));
-    linear.try_factor(unstressed, unloaded, weights, nullptr);
-    const VectorX extra = small_diagonal(system, linear, state, 1e-4);
-    if (!linear.try_factor(unstressed, unloaded, weights, nullptr, &extra)) linear.throw_singular(state.time);
-    r.head(first).setZero();
+    linear.try_factor(still, unloaded, weights, nullptr);
+    // So little that parts as slender as 1e4 turn rather than bend.
+    const VectorX extra = small_diagonal(system, linear, state, 1e-10);
+    if (!linear.try_factor(still, unloaded, weights, nullptr, &extra)) linear.throw_singular(state.time);
+    system.residual(still, unloaded, elastic);
+    r.head(first) = elastic.head(first) - drawn.head(first);
     linear.solve(r, step);
     VectorX dq = step.head(system.dofs());
-    // Far from assembled, a full step may overshoot: no node turns by more than a third of a turn at once.
+    // Far from assembled, a full step may overshoot: no node turns by more than this at once.
     double largest_turn = 0;
-    for (int i = 0; i < system.dofs(); ++i)
+    motion = 0;
+    for (int i = 0; i < system.dofs(); ++i) {
       if (system.kind(i) == Kind::rotation) largest_turn = std::max(largest_turn, std::abs(dq[i]));
-    if (largest_turn > 1) dq /= largest_turn;
+      if (system.kind(i) == Kind::translation) motion = std::max(motion, std::abs(dq[i]) / length);
+    }
+    motion = std::max(motion, largest_turn);
+    if (largest_turn > most_turn) dq *= most_turn / largest_turn;
     const State base = state;
     system.displace(state, base, dq);
   }

@@ -1,8 +1,9 @@
 // A start from which a motion can begin: positions that satisfy the constraints, velocities and accelerations that keep
 // them satisfied, and the multipliers that go with the accelerations.
 //
-//   positions:      least motion with K dq + B^T mu = 0, B dq = -Phi (repeated: Newton), K the elastic stiffness and a
-//                   little mass or unity beside it, so that bodies move rigidly rather than bend
+//   positions:      K dq + B^T mu = f_drawn - f(q), B dq = -Phi (repeated: Newton), K and f the elastic stiffness and
+//                   forces, and a very little of unity beside K: bodies move rigidly rather than bend, and are as
+//                   free of stress in the end as they were drawn
 //   velocities:     [M B^T; B 0][dv; mu] = [0; -dPhi/dt]          the least change in the kinetic energy's norm
 //   accelerations:  [M B^T; B 0][a; lambda] = [-g; -d2Phi/dt2 at a = 0],  first-order rates from their own equations
 #pragma once

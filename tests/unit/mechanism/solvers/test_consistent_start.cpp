@@ -2,8 +2,10 @@
 
 #include "mechanism/io/mechanism_file.hpp"
 #include "mechanism/solvers/consistent_start.hpp"
+#include "tests/support/run_model.hpp"
 
 using namespace bielle::mechanism;
+using bielle::test::ReadyModel;
 
 TEST_CASE("the start of a pendulum at an angle has its tension and acceleration in closed form") {
   // Point mass m on a rod of length L, held horizontally and moving at v: tension m v^2/L, acceleration g downwards.
@@ -127,4 +129,24 @@ elements:
   const NodeState &body = state.nodes[1], &middle = state.nodes[2];
   CHECK(std::abs(middle.a.x()) < 1e-2);  // of 40 N over nothing: 1e-12 of the body's mass would leave 1e13 m/s^2
   CHECK(body.a.x() == Approx(-100 * 0.5));
+}
+
+TEST_CASE("a drive that starts elsewhere than drawn turns slender parts there, and does not bend them") {
+  for (const double angle : {0.05, 1.5, 3.0}) {
+    const ReadyModel model(R"yaml(
+nodes: {a: {position: [0, 0, 0]}, b: {position: [0.3, 0, 0]}, tip: {position: [0.9, 0, 0]}}
+elements:
+  bar: {type: rigid_body, node: a, mass: 1, inertia: [0.01, 0.01, 0.01], also: [b]}
+  fore: {type: beam, nodes: [b, tip], elements: 6, section: {tube: [0.012, 0.010], young: 210e9, poisson: 0.3, density: 7850}}
+joints: {base: {type: hinge, nodes: [ground, a], axis: [0, 0, 1]}}
+drives: {motor: {joint: base, angle: )yaml" +
+                           std::to_string(angle) + "}}\n");
+    State state = model.system.start(0);
+    StartReport report;
+    assemble_positions(model.system, model.environment(), state, report);
+    CHECK((model.node(state, "tip").x - 0.9 * Vector3(std::cos(angle), std::sin(angle), 0)).norm() < 1e-9);
+    // A bend by 1e-6 rad would store 1e-9 J.
+    CHECK(model.system.energy(state, model.environment()).elastic < 1e-12);
+    CHECK(report.displaced_node == "tip");
+  }
 }
