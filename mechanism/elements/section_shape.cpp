@@ -174,15 +174,17 @@ VectorX read_walls(const std::string& shape, const YamlValue& value) {
     value.check_keys({"width", "height", "web", "flange"}, "an i section");
     const Vector2 width = one_or_two(value.at("width"), "[below, above]"),
                   flange = one_or_two(value.at("flange"), "[below, above]");
-    d << width, height, value.at("web").positive_number(), flange;
+    const double web = value.at("web").positive_number();
+    d << width, height, web, flange;
     check("web", d[3] < width.minCoeff(), "the web must be thinner than the flanges are wide");
     check("flange", flange.sum() < height, "the flanges must leave room for a web within the height");
     return d;
   }
   if (shape == "t") {
     value.check_keys({"width", "height", "web", "flange"}, "a t section");
-    d << value.at("width").positive_number(), height, value.at("web").positive_number(),
-        value.at("flange").positive_number(), 0, 0;
+    const double width = value.at("width").positive_number(), web = value.at("web").positive_number(),
+                 flange = value.at("flange").positive_number();
+    d << width, height, web, flange, 0, 0;
     check("web", d[2] < d[0], "the web must be thinner than the flange is wide");
     check("flange", d[3] < height, "the flange must leave room for a web within the height");
     return d.head<4>();
@@ -190,7 +192,8 @@ VectorX read_walls(const std::string& shape, const YamlValue& value) {
   value.check_keys({"width", "height", "thickness"}, shape == "l" ? "an l section" : "a box section");
   const Vector2 thickness = one_or_two(
       value.at("thickness"), shape == "l" ? "[leg along y, leg along z]" : "[walls across y, walls across z]");
-  d << value.at("width").positive_number(), height, thickness, 0, 0;
+  const double width = value.at("width").positive_number();
+  d << width, height, thickness, 0, 0;
   if (shape == "l")
     check("thickness", thickness[0] < height && thickness[1] < d[0],
           "the legs must be thinner than the section is wide and high");

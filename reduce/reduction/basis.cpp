@@ -120,7 +120,8 @@ Basis make_basis(const Solid& solid, const SymmetricMatrix& stiffness, const Nod
   basis.residuals = pairs.residuals;
   basis.solves = pairs.solves;
   Eigen::MatrixXd inside(held.size(), kept + pairs.values.size());
-  inside << solutions.leftCols(kept), pairs.vectors;
+  inside.leftCols(kept) = solutions.leftCols(kept);
+  if (pairs.vectors.cols() > 0) inside.rightCols(pairs.vectors.cols()) = pairs.vectors;
   basis.released = inside.bottomRows(released);
   basis.shapes = held.expand(inside);
   basis.shapes.leftCols(kept) += carried;
