@@ -135,7 +135,7 @@ std::vector<MatrixXd> reduced_geometric_stiffness(const Solid& solid, const Node
   const MatrixXd sums = reduce(graph, g, shapes, threads);
   std::vector<MatrixXd> result;
   for (Index f = 0; f < count; ++f) {
-    const auto half = sums(Eigen::all, Eigen::seqN(f, n, count));
+    const MatrixXd half = sums(Eigen::all, Eigen::seqN(f, n, count));
     result.push_back(half + half.transpose());
   }
   return result;
