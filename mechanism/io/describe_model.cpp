@@ -19,7 +19,7 @@ std::string format_vector(const Vector3& v) {
 }
 
 /// Gap in the balance of energy, beside the largest energy, from which results are not to be trusted unseen.
-constexpr double doubtful = 0.05, rounding = 1e-18;  // [J]: less than that is noise
+constexpr double doubtful = 0.05;
 
 std::string format_start(const StartReport& start) {
   std::string text;
@@ -71,9 +71,8 @@ std::string describe_model(const MechanismFile& file) {
   text += fmt::format("  freedom      {} degrees of freedom after {} independent constraints\n",
                       system.dofs() - independent, independent);
   text += format_start(report);
-  for (const int multiplier : redundant)
-    text += fmt::format("  redundant    {}: set aside, its multiplier stays zero\n",
-                        system.equation_name(system.size() - system.multipliers() + multiplier));
+  for (const std::string& names : name_constraints(system, redundant))
+    text += fmt::format("  redundant    {}: set aside, without reactions\n", names);
   for (const Member& member : model.members()) {
     const auto* joint = dynamic_cast<const Joint*>(member.component.get());
     if (!joint) continue;
@@ -104,7 +103,8 @@ std::string format_summary(const MechanismFile& file, const std::vector<Analysis
   for (const AnalysisSummary& s : summaries) {
     text += fmt::format("{}\n", s.name);
     text += format_start(s.start);
-    for (const std::string& name : s.redundant) text += fmt::format("  redundant: {}, set aside\n", name);
+    for (const std::string& name : s.redundant)
+      text += fmt::format("  redundant: {}; set aside, without reactions\n", name);
     if (s.steps == 0) continue;
     text +=
         fmt::format("  {} steps, {:.2f} Newton iterations per step, {} rows recorded, until t = {:.6g} s\n", s.steps,
@@ -116,7 +116,7 @@ std::string format_summary(const MechanismFile& file, const std::vector<Analysis
           "  balance {:.3g} J, {:.2g} of the largest energy (negative: numerical dissipation)\n",
           s.energy.kinetic, s.energy.elastic, s.energy.gravity, s.energy.input, s.energy.dissipation, s.balance,
           s.balance / s.largest_energy);
-    if (s.largest_energy > rounding && std::abs(s.balance) > doubtful * s.largest_energy)
+    if (s.largest_energy > s.energy_noise && std::abs(s.balance) > doubtful * s.largest_energy)
       text += "  DOUBTFUL: so large a gap in the balance means steps too long for the motion, or a motion that jumps\n";
   }
   for (const PhaseReport& phase : phases) text += fmt::format("  {:<12} {:8.2f} s\n", phase.name, phase.seconds);

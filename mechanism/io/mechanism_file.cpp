@@ -45,7 +45,7 @@ void read_holds(const YamlValue& entry, Node& node) {
   if (const auto fixed = entry.find("fixed")) {
     if (fixed->is_sequence()) {
       for (const YamlValue& item : fixed->items())
-        node.freedom[direction_index(item.word(directions, "direction"))] = Freedom::fixed;
+        node.freedom[direction_index(item.word(directions, "a direction"))] = Freedom::fixed;
     } else if (fixed->boolean()) {
       node.freedom.fill(Freedom::fixed);
     }
@@ -108,7 +108,7 @@ void read_node(const std::string& name, const YamlValue& entry, Model& model) {
 
 Scheme read_scheme(const YamlValue& entry, std::string& description) {
   const std::string name = entry.has("scheme")
-                               ? entry.at("scheme").word({"generalized_alpha", "hht", "newmark"}, "scheme")
+                               ? entry.at("scheme").word({"generalized_alpha", "hht", "newmark"}, "a scheme")
                                : std::string("generalized_alpha");
   const auto refuse = [&](const char* key) {
     if (entry.has(key)) entry.at(key).fail(fmt::format("is no parameter of the scheme '{}'", name));
@@ -146,12 +146,15 @@ StepOptions read_stepping(const YamlValue& entry, double duration) {
       entry.at("tolerance").fail("expected less than 1: it is relative to the mechanism's size");
     options.size = entry.has("step") ? entry.at("step").positive_number() : 1e-4 * duration;
     if (entry.has("largest_step")) options.largest = entry.at("largest_step").positive_number();
-    if (options.size > options.largest) entry.at("step").fail("is longer than the largest step");
+    if (options.size > options.largest)
+      entry.at("step").fail(
+          fmt::format("{:.6g} s is longer than the largest step, {:.6g} s", options.size, options.largest));
   } else {
     options.size = entry.at("step").positive_number();
     if (entry.has("largest_step")) entry.at("largest_step").fail("is for adaptive steps: give a `tolerance` as well");
   }
-  if (options.size > duration) entry.at("step").fail("is longer than the duration");
+  if (options.size > duration)
+    entry.at("step").fail(fmt::format("{:.6g} s is longer than the duration, {:.6g} s", options.size, duration));
   return options;
 }
 
@@ -163,7 +166,7 @@ Analysis read_analysis(const YamlValue& entry) {
     entry.at("type").fail(
         fmt::format("the analysis '{}' is not in this version; there are assembly, static and dynamic", type));
   Analysis analysis;
-  analysis.name = entry.at("type").word({"assembly", "static", "dynamic"}, "analysis");
+  analysis.name = entry.at("type").word({"assembly", "static", "dynamic"}, "a type of analysis");
   if (analysis.name == "assembly") {
     entry.check_keys({"type"}, "the analysis 'assembly'");
     analysis.type = Analysis::Type::assembly;
@@ -180,7 +183,7 @@ Analysis read_analysis(const YamlValue& entry) {
     analysis.stepping = read_stepping(entry, analysis.duration);
     analysis.scheme = read_scheme(entry, analysis.scheme_name);
     if (entry.has("constraints") &&
-        entry.at("constraints").word({"position", "stabilized"}, "form of constraints") == "stabilized") {
+        entry.at("constraints").word({"position", "stabilized"}, "a form of constraints") == "stabilized") {
       analysis.form = ConstraintForm::stabilised;
       analysis.scheme_name += ", stabilised constraints";
     }
@@ -197,7 +200,7 @@ void read_fields(const YamlValue& fields, Model& model) {
     if (available.empty())
       names.fail(fmt::format("a {} has no further fields: all that it knows is recorded already", component.type()));
     for (const YamlValue& name : names.items()) {
-      const std::string field = name.word(available, "field of '" + element + "'");
+      const std::string field = name.word(available, "a field of '" + element + "'");
       for (const OutputField& recorded : component.output_fields())
         if (recorded.name == field) name.fail("is asked for twice");
       try {

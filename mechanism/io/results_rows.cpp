@@ -43,9 +43,12 @@ ResultsRows::ResultsRows(const Model& model) : model_(model) {
 }
 
 std::size_t ResultsRows::add_column(const std::string& dataset, std::vector<std::size_t> shape,
-                                    const std::string& units, const std::string& description) {
-  for (const ResultsColumn& column : columns_)
-    if (column.dataset == dataset) throw std::logic_error("two components record the results '" + dataset + "'");
+                                    const std::string& units, const std::string& description, bool summed) {
+  for (const ResultsColumn& column : columns_) {
+    if (column.dataset != dataset) continue;
+    if (summed && column.shape == shape) return column.begin;
+    throw std::logic_error("two components record the results '" + dataset + "'");
+  }
   const std::size_t begin = size_, size = count_of(shape);
   columns_.push_back({dataset, std::move(shape), units, description, begin, size});
   size_ += size;
@@ -111,13 +114,14 @@ void ResultsRows::add_members() {
     for (const OutputField& field : fields) {
       std::vector<std::size_t> shape = field.shape;
       if (member.stacked) shape.insert(shape.begin(), alike_members.size());
-      begins.push_back(add_column(member.group + "/" + field.name, std::move(shape), field.units, field.description));
+      begins.push_back(
+          add_column(member.group + "/" + field.name, std::move(shape), field.units, field.description, field.summed));
     }
     for (std::size_t row = 0; row < alike_members.size(); ++row) {
       MemberPlace place{alike_members[row], {}};
       std::size_t total = 0;
       for (std::size_t f = 0; f < fields.size(); ++f) {
-        place.fields.push_back({begins[f] + row * fields[f].size(), fields[f].size()});
+        place.fields.push_back({begins[f] + row * fields[f].size(), fields[f].size(), fields[f].summed});
         total += fields[f].size();
       }
       largest = std::max(largest, total);
@@ -139,13 +143,20 @@ void ResultsRows::fill(const State& state, const std::vector<Slots>& slots, cons
                        const StepRecord& step, double* values) {
   for (const NodePlace& place : nodes_) fill_node(place, state.nodes[static_cast<std::size_t>(place.node)], values);
   quaternions_known_ = true;
+  for (const MemberPlace& place : members_)
+    for (const FieldPlace& field : place.fields)
+      if (field.summed) std::fill_n(values + field.begin, field.size, 0.0);
   for (const MemberPlace& place : members_) {
     if (place.fields.empty()) continue;
     const LocalState local(state, slots[place.member], environment);
     model_.members()[place.member].component->write_output(local, output_.data());
     const double* from = output_.data();
     for (const FieldPlace& field : place.fields) {
-      copy(from, field.size, values + field.begin);
+      double* to = values + field.begin;
+      if (field.summed)
+        std::transform(from, from + field.size, to, to, std::plus<>());
+      else
+        copy(from, field.size, to);
       from += field.size;
     }
   }

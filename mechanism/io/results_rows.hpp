@@ -51,13 +51,14 @@ class ResultsRows {
   };
   struct FieldPlace {
     std::size_t begin, size;  ///< in the row
+    bool summed;              ///< added to what other members put there
   };
   struct MemberPlace {
     std::size_t member;
     std::vector<FieldPlace> fields;
   };
   std::size_t add_column(const std::string& dataset, std::vector<std::size_t> shape, const std::string& units,
-                         const std::string& description);
+                         const std::string& description, bool summed = false);
   void add_nodes();
   void add_chains();
   void add_members();

@@ -10,6 +10,7 @@
 
 #include "mechanism/io/energy_balance.hpp"
 #include "mechanism/io/results_file.hpp"
+#include "mechanism/solvers/model_length.hpp"
 #include "mechanism/solvers/redundancy.hpp"
 #include "mechanism/solvers/statics.hpp"
 #include "reduce/common/hdf5_file.hpp"
@@ -55,8 +56,7 @@ class Run {
         progress_(progress) {
     const std::vector<int> redundant = find_redundant(system_, environment_, state_);
     system_.set_aside(redundant);
-    for (const int multiplier : redundant)
-      redundant_.push_back(system_.equation_name(system_.size() - system_.multipliers() + multiplier));
+    redundant_ = name_constraints(system_, redundant);
   }
 
   std::vector<AnalysisSummary> all() {
@@ -229,7 +229,18 @@ class Run {
     summary.energy_start = motion.books.energy_at_start();
     summary.balance = motion.books.balance();
     summary.largest_energy = motion.books.largest();
+    summary.energy_noise = energy_noise();
     return summary;
+  }
+
+  /// Newton's method knows positions to some 1e-9 of the model's size; energies below the work of the largest forces
+  /// along that mean nothing [J].
+  double energy_noise() const {
+    constexpr double positions = 1e-9;
+    VectorX r(system_.size());
+    ResidualScale scale;
+    system_.residual(state_, environment_, r, &scale);
+    return positions * (scale[Kind::translation] * model_length(state_) + scale[Kind::rotation]);
   }
 
   void set_off(const Analysis& analysis, Motion& motion) {

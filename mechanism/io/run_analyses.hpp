@@ -23,6 +23,7 @@ struct AnalysisSummary {
   double energy_start = 0;             ///< kinetic + elastic + gravity at the start [J]
   double balance = 0;                  ///< at the end: what is missing [J]
   double largest_energy = 0;           ///< largest of kinetic, elastic and change of gravity: to judge the balance by
+  double energy_noise = 0;             ///< work of the forces along what positions are known to [J]
 };
 
 /// Runs all analyses and writes the results file.

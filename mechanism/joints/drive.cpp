@@ -5,72 +5,82 @@
 #include <fmt/format.h>
 
 namespace bielle::mechanism {
-namespace {
+// -- what all drives are
 
-void declare_on_joint(const Joint& joint, Declaration& declaration) {
-  declaration.nodes = {joint.frames().first, joint.frames().second};
+Drive::Drive(std::string name, const Joint& joint, std::size_t coordinate, Expression f)
+    : Component("drive", std::move(name)), joint_(joint), coordinate_(coordinate), f_(std::move(f)) {}
+
+Measure Drive::measure(const LocalState& state) const {
+  return joint_.calc_coordinate(coordinate_, state.node(0), state.node(1));
 }
 
-std::string force_units(const JointCoordinate& coordinate) {
+void Drive::declare_nodes(Declaration& declaration) const {
+  declaration.nodes = {joint_.frames().first, joint_.frames().second};
+  declaration.stiffness = true;
+}
+
+namespace {
+std::string force_units_along(const JointCoordinate& coordinate) {
   return coordinate.kind == JointCoordinate::Kind::displacement ? "N" : "N m";
 }
+}  // namespace
 
-/// Recorded with the joint: one column per coordinate, zero where this drive does not act.
-OutputField force_field(const Joint& joint, std::size_t coordinate) {
-  return {"drive_force",
-          {joint.coordinates().size()},
-          force_units(joint.coordinates()[coordinate]),
-          "force or torque of the drive along the joint's coordinates"};
+std::string Drive::force_units() const { return force_units_along(coordinate()); }
+
+std::vector<OutputField> Drive::output_fields() const {
+  std::string units;
+  for (const JointCoordinate& each : joint_.coordinates())
+    units += (units.empty() ? "" : ", ") + force_units_along(each);
+  return {{"drive_force",
+           {joint_.coordinates().size()},
+           units,
+           "force or torque of the drives along the joint's coordinates; zero where none acts",
+           true}};
 }
 
-void write_force(const Joint& joint, std::size_t coordinate, double force, double* values) {
-  for (std::size_t k = 0; k < joint.coordinates().size(); ++k) values[k] = k == coordinate ? force : 0.0;
+void Drive::write_output(const LocalState& state, double* values) const {
+  for (std::size_t k = 0; k < joint_.coordinates().size(); ++k) values[k] = k == coordinate_ ? force(state) : 0.0;
 }
 
-void append_break_points(const Expression& f, std::vector<double>& times) {
-  const std::vector<double> points = f.break_points();
+void Drive::add_break_points(std::vector<double>& times) const {
+  const std::vector<double> points = f_.break_points();
   times.insert(times.end(), points.begin(), points.end());
 }
 
-}  // namespace
-
 // -- position
 
-PositionDrive::PositionDrive(std::string name, const Joint& joint, std::size_t coordinate, Expression f)
-    : Component("drive", std::move(name)), joint_(joint), coordinate_(coordinate), f_(std::move(f)) {}
-
-Measure PositionDrive::measure(const LocalState& state) const {
-  Measure m = joint_.calc_coordinate(coordinate_, state.node(0), state.node(1));
-  double target = f_(state.time());
+Measure PositionDrive::distance(const LocalState& state) const {
+  Measure m = measure(state);
+  double target = law()(state.time());
   const double s = state.environment().load_factor;
   if (s != 1) target = s * target + (1 - s) * state.memory()[0];
   // An angle is wanted modulo turns: the drive counts them by time, not by memory, so that steps of any size and
   // restarts find the same. Whole turns are taken off the target by itself: rounding of large angles would otherwise
   // keep Newton's method from its tolerance.
-  if (joint_.coordinates()[coordinate_].kind == JointCoordinate::Kind::angle)
+  if (coordinate().kind == JointCoordinate::Kind::angle)
     m.value = std::remainder(m.value - std::remainder(target, 2 * M_PI), 2 * M_PI);
   else
     m.value -= target;
   return m;
 }
 
+double PositionDrive::force(const LocalState& state) const { return -state.multiplier()[0]; }
+
 void PositionDrive::declare(Declaration& declaration) const {
-  declare_on_joint(joint_, declaration);
-  declaration.stiffness = true;
-  const JointCoordinate& coordinate = joint_.coordinates()[coordinate_];
-  declaration.multipliers.push_back({coordinate.name, force_units(coordinate)});
+  declare_nodes(declaration);
+  declaration.multipliers.push_back({coordinate().name, force_units()});
   declaration.memory = {0};  // the coordinate under full load, for statics
 }
 
 void PositionDrive::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
-  const Measure m = measure(state);
+  const Measure m = distance(state);
   r.head<12>() += state.multiplier()[0] * m.gradient;
   r[12] += m.value;
 }
 
 void PositionDrive::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   if (!tangent.wants_K) return;
-  const Measure m = measure(state);
+  const Measure m = distance(state);
   tangent.K.topLeftCorner<12, 12>() += state.multiplier()[0] * m.second;
   tangent.K.block<12, 1>(0, 12) += m.gradient;
   tangent.K.block<1, 12>(12, 0) += m.gradient.transpose();
@@ -80,44 +90,32 @@ void PositionDrive::add_constraint_rates(const LocalState& state, Eigen::Ref<Vec
                                          Eigen::Ref<VectorX> acceleration) const {
   const Measure m = measure(state);
   const Vector12 v = pair_rate(state.node(0), state.node(1)), a = pair_acceleration(state.node(0), state.node(1));
-  velocity[0] += m.rate(v) - f_.derivative(state.time(), 1);
-  acceleration[0] += m.acceleration(v, a) - f_.derivative(state.time(), 2);
+  velocity[0] += m.rate(v) - law().derivative(state.time(), 1);
+  acceleration[0] += m.acceleration(v, a) - law().derivative(state.time(), 2);
 }
 
 void PositionDrive::add_energy(const LocalState& state, Energy& energy) const {
-  energy.input -= state.multiplier()[0] * f_.derivative(state.time(), 1);
+  energy.input += force(state) * law().derivative(state.time(), 1);
 }
 
-std::vector<OutputField> PositionDrive::output_fields() const { return {force_field(joint_, coordinate_)}; }
-void PositionDrive::write_output(const LocalState& state, double* values) const {
-  write_force(joint_, coordinate_, -state.multiplier()[0], values);
-}
 void PositionDrive::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {
-  if (state.environment().load_factor == 1) memory[0] = f_(state.time());
+  if (state.environment().load_factor == 1) memory[0] = law()(state.time());
 }
-void PositionDrive::add_break_points(std::vector<double>& times) const { append_break_points(f_, times); }
 
 // -- rate
 
-RateDrive::RateDrive(std::string name, const Joint& joint, std::size_t coordinate, Expression f)
-    : Component("drive", std::move(name)), joint_(joint), coordinate_(coordinate), f_(std::move(f)) {}
-
-Measure RateDrive::measure(const LocalState& state) const {
-  return joint_.calc_coordinate(coordinate_, state.node(0), state.node(1));
-}
+double RateDrive::force(const LocalState& state) const { return -state.multiplier()[0]; }
 
 void RateDrive::declare(Declaration& declaration) const {
-  declare_on_joint(joint_, declaration);
-  declaration.stiffness = declaration.damping = true;
-  const JointCoordinate& coordinate = joint_.coordinates()[coordinate_];
-  declaration.multipliers.push_back(
-      {coordinate.name + " rate", force_units(coordinate), 0, ConstraintKind::nonholonomic});
+  declare_nodes(declaration);
+  declaration.damping = true;
+  declaration.multipliers.push_back({coordinate().name + " rate", force_units(), 0, ConstraintKind::nonholonomic});
 }
 
 void RateDrive::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
   const Measure m = measure(state);
   r.head<12>() += state.multiplier()[0] * m.gradient;
-  r[12] += m.rate(pair_rate(state.node(0), state.node(1))) - f_(state.time());
+  r[12] += m.rate(pair_rate(state.node(0), state.node(1))) - law()(state.time());
 }
 
 void RateDrive::add_tangent(const LocalState& state, LocalTangent& tangent) const {
@@ -135,35 +133,21 @@ void RateDrive::add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX
                                      Eigen::Ref<VectorX> acceleration) const {
   const Measure m = measure(state);
   const Vector12 v = pair_rate(state.node(0), state.node(1)), a = pair_acceleration(state.node(0), state.node(1));
-  velocity[0] += m.rate(v) - f_(state.time());
-  acceleration[0] += m.acceleration(v, a) - f_.derivative(state.time(), 1);
+  velocity[0] += m.rate(v) - law()(state.time());
+  acceleration[0] += m.acceleration(v, a) - law().derivative(state.time(), 1);
 }
 
 void RateDrive::add_energy(const LocalState& state, Energy& energy) const {
-  energy.input -= state.multiplier()[0] * f_(state.time());
+  energy.input += force(state) * law()(state.time());
 }
-
-std::vector<OutputField> RateDrive::output_fields() const { return {force_field(joint_, coordinate_)}; }
-void RateDrive::write_output(const LocalState& state, double* values) const {
-  write_force(joint_, coordinate_, -state.multiplier()[0], values);
-}
-void RateDrive::add_break_points(std::vector<double>& times) const { append_break_points(f_, times); }
 
 // -- force
 
-ForceDrive::ForceDrive(std::string name, const Joint& joint, std::size_t coordinate, Expression f)
-    : Component("drive", std::move(name)), joint_(joint), coordinate_(coordinate), f_(std::move(f)) {}
-
-Measure ForceDrive::measure(const LocalState& state) const {
-  return joint_.calc_coordinate(coordinate_, state.node(0), state.node(1));
+double ForceDrive::force(const LocalState& state) const {
+  return state.environment().load_factor * law()(state.time());
 }
 
-double ForceDrive::force(const LocalState& state) const { return state.environment().load_factor * f_(state.time()); }
-
-void ForceDrive::declare(Declaration& declaration) const {
-  declare_on_joint(joint_, declaration);
-  declaration.stiffness = true;
-}
+void ForceDrive::declare(Declaration& declaration) const { declare_nodes(declaration); }
 
 void ForceDrive::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
   r.head<12>() -= force(state) * measure(state).gradient;
@@ -176,12 +160,6 @@ void ForceDrive::add_tangent(const LocalState& state, LocalTangent& tangent) con
 void ForceDrive::add_energy(const LocalState& state, Energy& energy) const {
   energy.input += force(state) * measure(state).rate(pair_rate(state.node(0), state.node(1)));
 }
-
-std::vector<OutputField> ForceDrive::output_fields() const { return {force_field(joint_, coordinate_)}; }
-void ForceDrive::write_output(const LocalState& state, double* values) const {
-  write_force(joint_, coordinate_, force(state), values);
-}
-void ForceDrive::add_break_points(std::vector<double>& times) const { append_break_points(f_, times); }
 
 // -- reader
 
@@ -214,16 +192,15 @@ void read_drive(const std::string& name, const YamlValue& entry, Model& model) {
     entry.fail(
         fmt::format("joint '{}' has several coordinates: give `coordinate`{}", joint->name(), did_you_mean("", names)));
   const std::string chosen = entry.has("coordinate")
-                                 ? entry.at("coordinate").word(names, fmt::format("coordinate for '{}'", law))
+                                 ? entry.at("coordinate").word(names, fmt::format("a coordinate for '{}'", law))
                                  : names.front();
   std::size_t index = 0;
   while (joint->coordinates()[index].name != chosen) ++index;
 
   const std::string group = "joints/" + joint->name();
-  for (const Member& member : model.members())
-    if (member.group == group && member.component->type() == "drive")
-      entry.at("joint").fail(
-          fmt::format("joint '{}' is driven by '{}' already", joint->name(), member.component->name()));
+  for (const Component* other : model.components_in(group))
+    if (const auto* driver = dynamic_cast<const Drive*>(other); driver && driver->coordinate().name == chosen)
+      entry.fail(fmt::format("the {} of joint '{}' is driven by '{}' already", chosen, joint->name(), driver->name()));
 
   Expression f = entry.at(law).expression({"t"});
   if (law == "angle") joint->start_at(index, f(0));

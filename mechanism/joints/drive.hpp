@@ -14,67 +14,72 @@
 
 namespace bielle::mechanism {
 
-/// Prescribes a coordinate: c = f(t).
-class PositionDrive final : public Component {
+/// What all drives are: a law f(t) on one coordinate of a joint. Drives of one joint record their forces together.
+class Drive : public Component {
  public:
-  PositionDrive(std::string name, const Joint& joint, std::size_t coordinate, Expression f);
+  Drive(std::string name, const Joint& joint, std::size_t coordinate, Expression f);
+  const JointCoordinate& coordinate() const { return joint_.coordinates()[coordinate_]; }
+  std::vector<OutputField> output_fields() const final;
+  void write_output(const LocalState& state, double* values) const final;
+  void add_break_points(std::vector<double>& times) const final;
+
+ protected:
+  Measure measure(const LocalState& state) const;           ///< the joint's coordinate
+  void declare_nodes(Declaration& declaration) const;       ///< those of the joint, with a stiffness
+  std::string force_units() const;                          ///< of the driven coordinate
+  virtual double force(const LocalState& state) const = 0;  ///< along the coordinate [N] or [N m]
+
+  const Expression& law() const { return f_; }
+
+ private:
+  const Joint& joint_;
+  std::size_t coordinate_;
+  Expression f_;
+};
+
+/// Prescribes a coordinate: c = f(t).
+class PositionDrive final : public Drive {
+ public:
+  using Drive::Drive;
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   void add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
                             Eigen::Ref<VectorX> acceleration) const override;
   void add_energy(const LocalState& state, Energy& energy) const override;
-  std::vector<OutputField> output_fields() const override;
-  void write_output(const LocalState& state, double* values) const override;
   void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
-  void add_break_points(std::vector<double>& times) const override;
 
  private:
-  Measure measure(const LocalState& state) const;
-  const Joint& joint_;
-  std::size_t coordinate_;
-  Expression f_;
+  Measure distance(const LocalState& state) const;  ///< from where the law wants the coordinate
+  double force(const LocalState& state) const override;
 };
 
 /// Prescribes a coordinate's rate: cdot = f(t).
-class RateDrive final : public Component {
+class RateDrive final : public Drive {
  public:
-  RateDrive(std::string name, const Joint& joint, std::size_t coordinate, Expression f);
+  using Drive::Drive;
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   void add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
                             Eigen::Ref<VectorX> acceleration) const override;
   void add_energy(const LocalState& state, Energy& energy) const override;
-  std::vector<OutputField> output_fields() const override;
-  void write_output(const LocalState& state, double* values) const override;
-  void add_break_points(std::vector<double>& times) const override;
 
  private:
-  Measure measure(const LocalState& state) const;
-  const Joint& joint_;
-  std::size_t coordinate_;
-  Expression f_;
+  double force(const LocalState& state) const override;
 };
 
 /// Acts along a coordinate with a given force or torque.
-class ForceDrive final : public Component {
+class ForceDrive final : public Drive {
  public:
-  ForceDrive(std::string name, const Joint& joint, std::size_t coordinate, Expression f);
+  using Drive::Drive;
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   void add_energy(const LocalState& state, Energy& energy) const override;
-  std::vector<OutputField> output_fields() const override;
-  void write_output(const LocalState& state, double* values) const override;
-  void add_break_points(std::vector<double>& times) const override;
 
  private:
-  Measure measure(const LocalState& state) const;
-  double force(const LocalState& state) const;
-  const Joint& joint_;
-  std::size_t coordinate_;
-  Expression f_;
+  double force(const LocalState& state) const override;
 };
 
 /// Reads an entry of `drives`: `{joint: main, angle: "speed*t"}`.

@@ -66,6 +66,29 @@ std::vector<int> find_redundant(const System& system, const Environment& environ
   return dependent_columns(transposed, tolerance);
 }
 
+std::vector<std::string> name_constraints(const System& system, const std::vector<int>& multipliers) {
+  const int first = system.size() - system.multipliers();
+  std::vector<std::string> result;
+  std::size_t member = 0;
+  for (std::size_t k = 0; k < multipliers.size();) {
+    const auto of_member = [&](int multiplier) {
+      const Slots& slots = system.slots()[member];
+      return multiplier < slots.multiplier_begin + slots.multipliers;
+    };
+    while (!of_member(multipliers[k])) ++member;
+    std::string names, owner;
+    int count = 0;
+    for (; k < multipliers.size() && of_member(multipliers[k]); ++k, ++count) {
+      const std::string name = system.unknown_name(first + multipliers[k]);  // "x of joint 'crank'"
+      const std::size_t of = name.find(" of ");
+      names += (count == 0 ? "" : ", ") + name.substr(0, of);
+      owner = name.substr(of);
+    }
+    result.push_back(names + owner + (count == system.slots()[member].multipliers ? " (all that it holds)" : ""));
+  }
+  return result;
+}
+
 void check_set_aside(const System& system, const Environment& environment, const State& state) {
   if (system.set_aside().empty()) return;
   // Rounding and Newton's tolerance leave far less; a contradiction shows at once.

@@ -6,6 +6,7 @@
 // unaffected, and the reactions are those of the joints that were written first.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "mechanism/system/system.hpp"
@@ -14,6 +15,9 @@ namespace bielle::mechanism {
 
 /// Multipliers whose constraint depends on earlier ones at this state, ascending.
 std::vector<int> find_redundant(const System& system, const Environment& environment, const State& state);
+
+/// The constraints of ascending multipliers in the user's terms, one text per joint: "x, y, rz of joint 'crank'".
+std::vector<std::string> name_constraints(const System& system, const std::vector<int>& multipliers);
 
 /// Checks that constraints set aside hold all the same.
 /// @throws ComputationError naming one that does not: it contradicts the others (a drive on a joint that cannot move),

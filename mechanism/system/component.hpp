@@ -57,6 +57,7 @@ struct OutputField {
   std::vector<std::size_t> shape;  ///< of one row; {} for a number
   std::string units;
   std::string description;
+  bool summed = false;  ///< several components of a group may record it; their values are added up
   std::size_t size() const {
     std::size_t n = 1;
     for (std::size_t s : shape) n *= s;

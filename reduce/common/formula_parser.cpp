@@ -188,6 +188,16 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+/// The nearest known name, or what may stand there: variables and parameters by name, functions by their number.
+std::string known_names(const std::string& name, const std::vector<std::string>& names) {
+  if (!nearest_name(name, names).empty()) return did_you_mean(name, names);
+  std::vector<std::string> own;
+  for (const std::string& known : names)
+    if (known != "pi" && !contains(function_names(), known)) own.push_back(known);
+  if (own.empty()) return "; there are no parameters or variables here, only pi and functions (sin, sqrt, step, ...)";
+  return did_you_mean(name, own) + "; pi; or a function (sin, sqrt, step, ...)";
+}
+
 std::string explanation(const mu::ParserError& error, const std::vector<std::string>& names) {
   std::string token = error.GetToken();
   token.erase(token.find_last_not_of(' ') + 1);
@@ -203,7 +213,7 @@ std::string explanation(const mu::ParserError& error, const std::vector<std::str
       if (contains(function_names(), name))
         return fmt::format("the function '{}'{} needs '(' right behind it", name, place());
       if (length > 0 && !std::isdigit(static_cast<unsigned char>(name[0])))
-        return fmt::format("unknown name '{}'{}{}", name, place(), did_you_mean(name, names));
+        return fmt::format("unknown name '{}'{}{}", name, place(), known_names(name, names));
       if (token.starts_with("=")) return fmt::format("'='{} is no operator; to compare, write ==", place());
       return fmt::format("'{}'{} is not understood", token, place());
     }

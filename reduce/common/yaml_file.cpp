@@ -29,6 +29,24 @@ std::string located_at(const std::string& file, int line, const std::string& pat
   return fmt::format("{}:{}: {}{}{}", file, line, path, path.empty() ? "" : ": ", message);
 }
 
+/// The parser complains of a tab in the indentation in words that do not mention it, some lines behind it at worst.
+std::string hint_at_tabs(const std::string& text, int up_to_line) {
+  std::istringstream lines(text);
+  std::string line;
+  for (int number = 1; number <= up_to_line && std::getline(lines, line); ++number) {
+    const std::size_t word = line.find_first_not_of(" \t");
+    if (line.substr(0, word).find('\t') != std::string::npos)
+      return fmt::format(" (line {} begins with a tab; YAML wants spaces there)", number);
+  }
+  return "";
+}
+
+/// What an unknown key most likely is when it is a number: the second half of "1,5", or of a formula.
+std::string hint_at_comma(const std::string& key) {
+  const bool number = !key.empty() && key.find_first_not_of("0123456789.eE+-") == std::string::npos;
+  return number ? "; a comma separates keys: decimals are written with a point (1.5)" : "";
+}
+
 /// yaml-cpp passes duplicate keys and keeps `<<` as a key like any other: refuse both, and keys that are no words.
 void check_keys_of_all_maps(const YAML::Node& node, const std::string& file, const std::string& path, int depth) {
   if (depth > deepest)
@@ -76,7 +94,8 @@ YamlValue YamlValue::parse(const std::string& text, const std::string& name) {
   try {
     roots = YAML::LoadAll(text);
   } catch (const YAML::Exception& error) {
-    throw InputError(located_at(name, std::max(error.mark.line, 0) + 1, "", "no valid YAML: " + error.msg));
+    const int line = std::max(error.mark.line, 0) + 1;
+    throw InputError(located_at(name, line, "", "no valid YAML: " + error.msg + hint_at_tabs(text, line)));
   }
   if (roots.empty()) throw InputError(fmt::format("{}: the file is empty", name));
   if (roots.size() > 1)
@@ -135,8 +154,10 @@ void YamlValue::check_keys(const std::vector<std::string>& allowed, const std::s
   for (const auto& entry : *node_) {
     const std::string& key = entry.first.Scalar();
     if (std::find(allowed.begin(), allowed.end(), key) != allowed.end()) continue;
-    throw InputError(located_at(document_->file, entry.first.Mark().line + 1, path_,
-                                fmt::format("'{}' is not a key of {}{}", key, of, did_you_mean(key, allowed))));
+    const std::string comma = hint_at_comma(key);
+    throw InputError(located_at(
+        document_->file, entry.first.Mark().line + 1, path_,
+        fmt::format("'{}' is not a key of {}{}", key, of, comma.empty() ? did_you_mean(key, allowed) : comma)));
   }
 }
 
@@ -231,7 +252,10 @@ Eigen::VectorXd YamlValue::vector() const {
 }
 
 Eigen::Vector3d YamlValue::vector3() const {
-  if (!is_sequence() || size() != 3) fail("expected a list of three numbers (`[x, y, z]`)");
+  if (!is_sequence()) fail("expected a list of three numbers (`[x, y, z]`)");
+  if (size() != 3)
+    fail(fmt::format("expected a list of three numbers (`[x, y, z]`), found {}{}", size(),
+                     size() > 3 ? "; decimals are written with a point, formulas with commas in quotes" : ""));
   return vector();
 }
 

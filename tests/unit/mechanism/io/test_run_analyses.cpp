@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "mechanism/io/describe_model.hpp"
 #include "mechanism/io/run_analyses.hpp"
 #include "reduce/common/hdf5_file.hpp"
 #include "tests/support/messages.hpp"
@@ -32,6 +33,58 @@ analysis: [{type: static, steps: 2}]
   REQUIRE(torque.size() == 2);
   CHECK(torque(0, 0) == Approx(2));
   CHECK(torque(1, 0) == Approx(4));
+}
+
+TEST_CASE("two drives on one joint move its two coordinates, and record their forces side by side") {
+  // A shaft of 2 kg and 0.5 kg m^2 that is turned and pushed along its axis, against its weight.
+  const test::TemporaryFolder folder;
+  const MechanismFile file = read_mechanism_text(R"yaml(
+gravity: [0, 0, -10]
+nodes: {shaft: {position: [0, 0, 0]}}
+elements: {shaft: {type: rigid_body, node: shaft, mass: 2, inertia: [0.3, 0.3, 0.5]}}
+joints: {sleeve: {type: cylindrical, nodes: [ground, shaft], axis: [0, 0, 1]}}
+drives:
+  motor: {joint: sleeve, angle: "4*t^2"}
+  lift: {joint: sleeve, displacement: "3*t^2"}
+analysis: [{type: dynamic, duration: 0.5, step: 0.01}]
+)yaml",
+                                                 "shaft.yaml");
+  const std::string path = folder / "shaft.h5";
+  Progress progress(true);
+  run_analyses(file, path, progress);
+  const Hdf5File results = Hdf5File::open(path);
+  const Eigen::MatrixXd coordinates = results.read_matrix("/joints/sleeve/coordinate");
+  const Eigen::MatrixXd forces = results.read_matrix("/joints/sleeve/drive_force");
+  REQUIRE(forces.rows() == 51);
+  // Both laws are quadratic, for which the scheme is exact.
+  CHECK(coordinates(50, 0) == Approx(0.75));
+  CHECK(coordinates(50, 1) == Approx(1));
+  for (const Eigen::Index row : {1, 25, 50}) {
+    CHECK(forces(row, 0) == Approx(2 * (10 + 6)).epsilon(1e-8));
+    CHECK(forces(row, 1) == Approx(0.5 * 8).epsilon(1e-8));
+  }
+}
+
+TEST_CASE("repeated joints are summed up by joint; a mechanism at rest is not called doubtful") {
+  const test::TemporaryFolder folder;
+  const MechanismFile file = read_mechanism_text(R"yaml(
+gravity: [0, 0, -9.81]
+nodes: {arm: {position: [1, 0, 0]}}
+elements: {arm: {type: rigid_body, node: arm, mass: 1, inertia: [0.1, 0.1, 0.1]}}
+joints:
+  front: {type: hinge, nodes: [ground, arm], position: [0, 0, 0.2], axis: [0, 1, 0]}
+  rear: {type: hinge, nodes: [ground, arm], position: [0, 0, 0], axis: [0, 1, 0]}
+analysis: [{type: dynamic, duration: 0.1, step: 0.01}]
+)yaml",
+                                                 "blocked.yaml");
+  const std::string path = folder / "blocked.h5";
+  Progress progress(true);
+  const std::vector<AnalysisSummary> summaries = run_analyses(file, path, progress);
+  REQUIRE(summaries.front().redundant == std::vector<std::string>{"y, z, rx, ry of joint 'rear'"});
+  const std::string summary = format_summary(file, summaries, {}, path);
+  using Catch::Contains;
+  CHECK_THAT(summary, Contains("redundant: y, z, rx, ry of joint 'rear'; set aside"));
+  CHECK_THAT(summary, !Contains("DOUBTFUL"));
 }
 
 TEST_CASE("given times are recorded exactly, on the motion between the steps") {

@@ -60,6 +60,8 @@ TEST_CASE("drives refuse what they cannot drive, in one sentence") {
   const auto refuse = [](const std::string& drive) { ReadyModel model(arm(drive)); };
   CHECK_THROWS_WITH(refuse("displacement: \"t\""), Contains("a hinge joint has no displacement to drive"));
   CHECK_THROWS_WITH(refuse("angle: \"t\", torque: \"1\""), Contains("one law"));
+  CHECK_THROWS_WITH(refuse("angle: 1}, second: {joint: axle, torque: 2"),
+                    Contains("the angle of joint 'axle' is driven by 'motor' already"));
   CHECK_THROWS_WITH(refuse("angel: \"t\""), Contains("did you mean 'angle'"));
   CHECK_THROWS_WITH(refuse("angle: \"t*speeed\""), Contains("speeed"));
 }

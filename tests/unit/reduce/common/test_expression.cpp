@@ -139,6 +139,8 @@ TEST_CASE("What muParser would read silently and wrongly is refused") {
 TEST_CASE("A wrong formula is explained with the place and the nearest name") {
   CHECK_THAT(why_wrong("2*spede*t", {{"speed", 1}}),
              Contains("unknown name 'spede' at character 3; did you mean 'speed'?"));
+  CHECK_THAT(why_wrong("2*omega*t", {{"length", 1}, {"mass", 1}}),
+             Contains("unknown name 'omega' at character 3; expected one of 'length', 'mass', 't'; pi; or a function"));
   CHECK_THAT(why_wrong("2*sqr(t)"), Contains("unknown name 'sqr' at character 3; did you mean 'sqrt'?"));
   CHECK_THAT(why_wrong("2*spede*t", {{"speed", 1}}), Contains("in '2*spede*t': "));
   CHECK_THAT(why_wrong(""), Contains("the formula is empty"));

@@ -58,6 +58,8 @@ TEST_CASE("A missing or unreadable file is an error in one sentence") {
 TEST_CASE("Invalid YAML is an error with its line") {
   CHECK_THAT(why_wrong("a: 1\nb: [1, 2\nc: 3\n"), Contains("crank.yaml:3: no valid YAML"));
   CHECK_THAT(why_wrong("a: 1\n\tb: 2\n"), Contains("crank.yaml:2: no valid YAML"));
+  CHECK_THAT(why_wrong("a:\n  \tb: 2\n"), Contains("(line 2 begins with a tab; YAML wants spaces there)"));
+  CHECK_THAT(why_wrong("a: [1\tb: {"), !Contains("tab"));
   CHECK_THAT(why_wrong("a: *nowhere\n"), Contains("crank.yaml:1: no valid YAML"));
   CHECK_THAT(why_wrong("a: 1\n---\nb: 2\n"), Contains("crank.yaml:3: a second document"));
 }
@@ -90,6 +92,10 @@ TEST_CASE("Unknown keys are refused with the nearest one") {
           main.check_keys({"type", "damping"}, "a hinge");
         }) == "crank.yaml:4: joints.main: 'dampng' is not a key of a hinge; did you mean 'damping'?");
   CHECK_NOTHROW(main.check_keys({"type", "dampng"}, "a hinge"));
+  CHECK_THAT(why([&] {
+               parsed("{mass: 1,5}").check_keys({"mass", "node"}, "a body");
+             }),
+             Contains("'5' is not a key of a body; a comma separates keys: decimals are written with a point (1.5)"));
   CHECK(why([&] { main.at("type").check_keys({"x"}, "a hinge"); }) ==
         "crank.yaml:3: joints.main.type: expected a hinge as keys with values (`key: value`)");
 }
@@ -159,6 +165,8 @@ TEST_CASE("Vectors, directions and matrices have the shapes asked for") {
   CHECK((file.at("v").direction() - Eigen::Vector3d(1, 2, 3) / std::sqrt(14.0)).norm() < 1e-15);
   CHECK(file.at("m").matrix(2, 3)(1, 0) == 4);
   CHECK_THAT(why([&] { file.at("two").vector3(); }), Contains("expected a list of three numbers"));
+  CHECK_THAT(why([&] { parsed("v: [max(1, 2), 3, 4]").at("v").vector3(); }),
+             Contains("found 4; decimals are written with a point, formulas with commas in quotes"));
   CHECK_THAT(why([&] { file.at("zero").direction(); }), Contains("a direction must not be zero"));
   CHECK_THAT(why([&] { file.at("m").matrix(3, 3); }), Contains("expected 3 rows of 3 numbers"));
   CHECK_THAT(why([&] { file.at("ragged").matrix(2, 2); }), Contains("ragged[2]: expected 2 rows of 2 numbers"));
