@@ -173,11 +173,13 @@ void resolve_sizes(const ReductionOptions& options, MeshRequest& request) {
   request.sizes = resolved;
 }
 
-void read_regions(const YamlValue& root, ReductionOptions& options, MeshRequest& request) {
+void read_regions(const YamlValue& root, BodyFile& body) {
+  ReductionOptions& options = body.options;
   const YamlValue materials = root.at("materials");
   std::vector<std::string> names;
   for (const auto& [name, value] : materials.entries()) {
     options.materials.emplace(name, read_material(value));
+    for (const std::string& doubt : doubts_about_material(value)) body.doubts.push_back(doubt);
     names.push_back(name);
   }
   if (names.empty()) materials.fail("expected at least one material");
@@ -188,7 +190,7 @@ void read_regions(const YamlValue& root, ReductionOptions& options, MeshRequest&
     if (!options.materials.contains(material))
       value.fail(fmt::format("there is no material '{}'{}", material, did_you_mean(material, names)));
     options.regions[group] = material;
-    request.volumes.push_back({group, place_of(value)});
+    body.mesh.volumes.push_back({group, place_of(value)});
   }
   if (options.regions.empty()) regions.fail("expected at least one region, e.g. all: " + names.front());
   if (options.regions.contains("all") && options.regions.size() > 1)
@@ -231,6 +233,8 @@ void read_recovery(const YamlValue& value, ReductionOptions& options) {
   value.check_keys({"displacement", "stress"}, "the recovery");
   if (const auto displacement = value.find("displacement")) options.displacement_recovery = read_extent(*displacement);
   if (const auto stress = value.find("stress")) options.stress_recovery = read_extent(*stress);
+  if (options.stress_recovery == RecoveryExtent::all && options.displacement_recovery == RecoveryExtent::surface)
+    value.fail("'stress: all' needs 'displacement: all': the superelement then keeps the whole mesh");
 }
 
 void read_parameters(YamlValue& root) {
@@ -251,11 +255,17 @@ BodyFile read(YamlValue root) {
   BodyFile body;
   body.options.name = root.at("body").text();
   body.options.input_text = root.source_text();
+  for (const auto& [key, value] : root.entries())
+    body.options.lines[key] = fmt::format("{}:{}", value.file(), value.line());
   read_mesh(root, body.mesh);
-  read_regions(root, body.options, body.mesh);
-  if (const auto interfaces = root.find("interfaces"))
-    for (const auto& [name, value] : interfaces->entries())
-      body.options.interfaces.push_back(read_interface(name, value, body.mesh));
+  read_regions(root, body);
+  const YamlValue interfaces = root.at("interfaces");
+  for (const auto& [name, value] : interfaces.entries())
+    body.options.interfaces.push_back(read_interface(name, value, body.mesh));
+  if (body.options.interfaces.empty())
+    interfaces.fail(
+        "expected at least one: a mechanism moves a body by its interfaces, and one with 'tie: average' on "
+        "any surface leaves the body free");
   read_modes(root.at("modes"), body.options);
   if (const auto damping = root.find("damping")) read_damping(*damping, body.options);
   if (const auto loads = root.find("loads"))
@@ -271,6 +281,12 @@ BodyFile read_body_file(const std::string& path) { return read(YamlValue::load(p
 
 BodyFile parse_body_file(const std::string& text, const std::string& name) {
   return read(YamlValue::parse(text, name));
+}
+
+GeometryFile read_geometry_of(const std::string& body_path) {
+  const YamlValue root = YamlValue::load(body_path);
+  const auto unit = root.find("length_unit");
+  return {root.at("geometry").file_path(), unit ? std::optional(unit->text()) : std::nullopt};
 }
 
 }  // namespace bielle::reduce

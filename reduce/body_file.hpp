@@ -1,7 +1,9 @@
 // The body file: a YAML file that says of what a body consists and how it is to be reduced (format: reduce/README.md).
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "reduce/mesh/mesh_request.hpp"
 #include "reduce/reduction/options.hpp"
@@ -12,6 +14,7 @@ namespace bielle::reduce {
 struct BodyFile {
   MeshRequest mesh;
   ReductionOptions options;
+  std::vector<std::string> doubts;  ///< sentences about values that are possible but hardly meant, each with its place
 };
 
 /// Reads and checks a body file: keys, types, ranges, names that the file itself must explain. What only the geometry
@@ -22,5 +25,14 @@ BodyFile read_body_file(const std::string& path);
 
 /// The same from text; `name` stands for the file, and its folder for the place of the geometry.
 BodyFile parse_body_file(const std::string& text, const std::string& name);
+
+/// The geometry that a body file names, which may be unfinished otherwise.
+struct GeometryFile {
+  std::string path;
+  std::optional<std::string> length_unit;
+};
+
+/// @throws InputError when the file is no YAML or names no geometry
+GeometryFile read_geometry_of(const std::string& body_path);
 
 }  // namespace bielle::reduce

@@ -1,10 +1,13 @@
 // bielle-reduce: a body file in, a superelement out.
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <optional>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "reduce/body_file.hpp"
 #include "reduce/common/command_line.hpp"
@@ -29,8 +32,11 @@ void check_output(const std::string& path, const std::string& input, const std::
   if (!folder.empty() && !fs::is_directory(folder)) {
     throw InputError(fmt::format("{}: there is no folder '{}'", path, folder.string()));
   }
-  if (fs::is_directory(path)) {
-    throw InputError(fmt::format("{}: is a folder; expected a file name for the superelement", path));
+  if (access(folder.empty() ? "." : folder.c_str(), W_OK) != 0) {
+    throw InputError(fmt::format("{}: no file can be written there: {}", path, std::strerror(errno)));
+  }
+  if (fs::exists(path) && !fs::is_regular_file(path)) {
+    throw InputError(fmt::format("{}: is a folder or a device; expected a file name for the superelement", path));
   }
   for (const std::string& source : {input, geometry}) {
     std::error_code missing;
@@ -49,6 +55,9 @@ void reduce(const std::string& input, std::string output, const CommonOptions& c
   Progress progress(common.quiet);
   if (const std::string warning = blas_warning(); !warning.empty()) {
     progress.warn(warning);
+  }
+  for (const std::string& doubt : file.doubts) {
+    progress.warn(doubt);
   }
   const Mesh mesh = import_mesh(file.mesh, progress);
   ReductionReport report;
@@ -84,6 +93,20 @@ void inspect(const std::string& path) {
   }
 }
 
+/// @param path  a geometry, a mesh, or a body file that names one and its unit
+void list(const std::string& path, std::optional<std::string> length_unit) {
+  GeometryFile geometry{path, length_unit};
+  const std::string ending = std::filesystem::path(path).extension().string();
+  if (ending == ".yaml" || ending == ".yml") {
+    if (length_unit) {
+      throw InputError("--length-unit goes with a geometry; a body file has its own length_unit");
+    }
+    geometry = read_geometry_of(path);
+  }
+  Progress progress(true);
+  fmt::print("{}", describe_geometry(geometry.path, geometry.length_unit, progress));
+}
+
 int body(int argc, char** argv) {
   CLI::App app{"Reduces a solid body to the motions of its interfaces and its lowest modes.", "bielle-reduce"};
   std::string input, output, geometry, superelement;
@@ -92,27 +115,28 @@ int body(int argc, char** argv) {
   const auto* input_option = app.add_option("BODY", input, "body file (YAML)");
   const auto* output_option =
       app.add_option("-o,--output", output, "superelement file (default: BODY with the ending .h5)");
-  const auto* list =
-      app.add_option("--list", geometry, "show what a geometry or mesh offers: volumes, surfaces, groups, units");
-  const auto* unit = app.add_option("--length-unit", length_unit, "with --list: unit of a geometry that carries none");
+  const auto* list_option =
+      app.add_option("--list", geometry,
+                     "show what a geometry or mesh (or that of a body file) offers: volumes, surfaces, groups, units");
+  const auto* unit = app.add_option("--length-unit", length_unit,
+                                    "with --list: unit of a geometry that carries none: m mm cm um km in ft");
   const auto* inspect_option =
       app.add_option("--inspect", superelement, "show what is in a superelement file, check it again");
   add_common_options(app, common);
   if (!parse_command_line(app, argc, argv)) {
     return 0;
   }
-  if (input_option->count() + list->count() + inspect_option->count() != 1) {
+  if (input_option->count() + list_option->count() + inspect_option->count() != 1) {
     throw InputError("expected one of: a body file, --list GEOMETRY, --inspect SUPERELEMENT; see --help");
   }
   if (output_option->count() > 0 && input_option->count() == 0) {
     throw InputError("-o goes with a body file: --list and --inspect write nothing");
   }
-  if (unit->count() > 0 && list->count() == 0) {
+  if (unit->count() > 0 && list_option->count() == 0) {
     throw InputError("--length-unit goes with --list; a body file has its own length_unit");
   }
-  if (list->count() > 0) {
-    Progress progress(true);
-    fmt::print("{}", describe_geometry(geometry, length_unit, progress));
+  if (list_option->count() > 0) {
+    list(geometry, length_unit);
     return 0;
   }
   if (inspect_option->count() > 0) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -65,11 +66,15 @@ std::string did_you_mean(const std::string& name, std::span<const std::string> c
 
 int run_program(const std::string& program, int (*body)(int argc, char** argv), int argc, char** argv) {
   const auto report = [&](const std::string& message, int status) {
-    fmt::print(stderr, "{}: error: {}\n", program, message);
+    std::fputs(fmt::format("{}: error: {}\n", program, message).c_str(), stderr);
     return status;
   };
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows beyond the user's limit is an error like a full disk
   try {
-    return body(argc, argv);
+    const int status = body(argc, argv);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+      throw ComputationError("standard output cannot be written; is the disk full?");
+    return status;
   } catch (const InputError& error) {
     return report(error.what(), 1);
   } catch (const ComputationError& error) {

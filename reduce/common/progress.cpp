@@ -18,6 +18,9 @@ constexpr int bar_width = 24;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
+/// Never throws: that progress cannot be shown is no reason to give up the work.
+void say(const std::string& text) { std::fputs(text.c_str(), stderr); }
+
 std::string duration(double seconds) {
   if (seconds < 9.95) return fmt::format("{:.1f} s", seconds);
   const auto whole = static_cast<long>(std::lround(seconds));
@@ -46,7 +49,7 @@ void Progress::start(const std::string& phase) {
   if (terminal_)
     draw(false);
   else
-    fmt::print(stderr, "{} ...\n", phase_);
+    say(phase_ + " ...\n");
 }
 
 void Progress::update(double fraction, const std::string& detail) {
@@ -66,31 +69,31 @@ void Progress::finish() {
 }
 
 void Progress::warn(const std::string& message) {
-  if (running_ && terminal_ && !quiet_) fmt::print(stderr, "\r\033[K");
-  fmt::print(stderr, "warning: {}\n", message);
+  if (running_ && terminal_ && !quiet_) say("\r\033[K");
+  say("warning: " + message + "\n");
 }
 
 void Progress::note(const std::string& message) {
   if (quiet_) return;
-  if (running_ && terminal_) fmt::print(stderr, "\r\033[K");
-  fmt::print(stderr, "{}\n", message);
+  if (running_ && terminal_) say("\r\033[K");
+  say(message + "\n");
 }
 
 void Progress::draw(bool end) {
   const double elapsed = seconds_since(phase_start_);
   const std::string detail = detail_.empty() ? "" : ", " + detail_;
   if (end) {
-    fmt::print(stderr, "{}{}: {}\n", terminal_ ? "\r\033[K" : "", phase_, duration(elapsed));
+    say(fmt::format("{}{}: {}\n", terminal_ ? "\r\033[K" : "", phase_, duration(elapsed)));
   } else {
     const std::string left =
         fraction_ > 0 ? fmt::format(", {} left", duration(elapsed * (1 - fraction_) / fraction_)) : "";
     const std::string percent = fmt::format("{:.0f} %", 100 * fraction_);
     if (terminal_) {
       const int full = static_cast<int>(std::lround(bar_width * fraction_));
-      fmt::print(stderr, "\r\033[K{} [{:#<{}}{:.<{}}] {}{}{}", phase_, "", full, "", bar_width - full, percent, left,
-                 detail);
+      say(fmt::format("\r\033[K{} [{:#<{}}{:.<{}}] {}{}{}", phase_, "", full, "", bar_width - full, percent, left,
+                      detail));
     } else {
-      fmt::print(stderr, "{}: {}{}{}\n", phase_, percent, left, detail);
+      say(fmt::format("{}: {}{}{}\n", phase_, percent, left, detail));
     }
   }
   std::fflush(stderr);

@@ -175,9 +175,12 @@ CoincidentNodes coincident_nodes(const Mesh& mesh, const FaceTable& faces) {
 }
 
 std::string doubtful_size(const Mesh& mesh) {
-  const double extent = (mesh.points.rowwise().maxCoeff() - mesh.points.rowwise().minCoeff()).maxCoeff();
-  if (extent <= 1e3 && extent >= 1e-3) return "";
-  return fmt::format("the body is {:.3g} m long: is length_unit right?", extent);
+  return doubtful_length((mesh.points.rowwise().maxCoeff() - mesh.points.rowwise().minCoeff()).maxCoeff());
+}
+
+std::string doubtful_length(double metres) {
+  if (metres <= 150 && metres >= 1e-3) return "";
+  return fmt::format("the body is {:.3g} m long: is length_unit right?", metres);
 }
 
 MeshQuality mesh_quality(const Mesh& mesh) {

@@ -29,9 +29,10 @@ struct CoincidentNodes {
 };
 CoincidentNodes coincident_nodes(const Mesh& mesh, const FaceTable& faces);
 
-/// A sentence when the body is larger than 1 km or smaller than 1 mm, which a wrong unit of length explains; else
+/// A sentence when the body is longer than 150 m or smaller than 1 mm, which a wrong unit of length explains; else
 /// empty.
 std::string doubtful_size(const Mesh& mesh);
+std::string doubtful_length(double metres);  ///< the same of its largest extent
 
 /// Quality of the solid cells.
 struct MeshQuality {

@@ -279,10 +279,12 @@ std::string describe_geometry(const std::string& path, const std::optional<std::
   const SourceFile source = prepare_source(request, progress);
   GmshSession session;
   open_model(session, source);
+  const double extent = model_extent(session);
   std::string text;
   session.read(fmt::format("'{}' cannot be listed", path), [&] {
     const bool mesh = !source.geometry || model_has_cells(3);
     text = fmt::format("{}: {}; {}\n", path, mesh ? "a mesh" : "a geometry", source.unit_note);
+    if (const std::string doubt = doubtful_length(source.metres * extent); !doubt.empty()) text += doubt + "\n";
     text += groups_text();
     text += mesh ? mesh_text(session, source) : geometry_text(source.metres);
   });

@@ -1,7 +1,6 @@
 #include "reduce/mesh/gmsh_model.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <set>
 #include <unordered_map>
 
@@ -145,52 +144,6 @@ void drop_unused_nodes(const Eigen::Matrix3Xd& points, ExtractedModel& model) {
       for (int& node : triangle) node = number[node];
 }
 
-// Size on an entity of any dimension: the least of those of the groups to whose closure it belongs.
-std::map<std::pair<int, int>, double> sizes_of_closures(const std::vector<EntitySize>& sizes) {
-  std::map<std::pair<int, int>, double> size_of;
-  for (const EntitySize& wish : sizes) {
-    gmsh::vectorpair closure, boundary;
-    for (int entity : wish.entities) closure.emplace_back(wish.dimension, entity);
-    for (int dim = wish.dimension; dim >= 0; --dim) {
-      for (const auto& [d, tag] : closure) {
-        const auto [place, is_new] = size_of.emplace(std::pair(d, std::abs(tag)), wish.size);
-        if (!is_new) place->second = std::min(place->second, wish.size);
-      }
-      if (dim == 0) break;
-      gmsh::model::getBoundary(closure, boundary, false, false, false);
-      closure = boundary;
-    }
-  }
-  return size_of;
-}
-
-// gmsh may leave a volume without cells and only say so in its log.
-void check_volumes_meshed(const std::string& name) {
-  for (int volume : entities(3)) {
-    std::vector<int> types;
-    std::vector<Tags> elements, nodes;
-    gmsh::model::mesh::getElements(types, elements, nodes, 3, volume);
-    if (types.empty())
-      throw ComputationError(
-          fmt::format("'{}': gmsh could not mesh volume {}; another mesh.size may help", name, volume));
-  }
-}
-
-// Edge lengths by place, until the end of a scope: gmsh would keep them beyond its own finalisation.
-struct SizeCallback {
-  explicit SizeCallback(std::function<double(int, int, double, double, double)> size) {
-    gmsh::model::mesh::setSizeCallback(std::move(size));
-  }
-  ~SizeCallback() {
-    try {
-      gmsh::model::mesh::removeSizeCallback();
-    } catch (...) {  // never without a session
-    }
-  }
-  SizeCallback(const SizeCallback&) = delete;
-  SizeCallback& operator=(const SizeCallback&) = delete;
-};
-
 }  // namespace
 
 void open_model(GmshSession& session, const SourceFile& source) {
@@ -243,36 +196,10 @@ std::vector<PhysicalGroup> physical_groups() {
   return groups;
 }
 
-void mesh_model(GmshSession& session, const std::string& name, int dimension, std::optional<double> size,
-                const std::vector<EntitySize>& sizes) {
-  session.compute(fmt::format("'{}' cannot be meshed", name), [&] {
-    gmsh::model::mesh::clear();
-    const std::map<std::pair<int, int>, double> size_of = sizes_of_closures(sizes);
-    double largest = size.value_or(0);
-    for (const auto& [entity, wish] : size_of) largest = std::max(largest, wish);
-    if (size) gmsh::option::setNumber("Mesh.MeshSizeMax", largest);
-    std::optional<SizeCallback> callback;
-    if (!size_of.empty())
-      callback.emplace([size_of, size](int dim, int tag, double, double, double) {
-        const auto found = size_of.find({dim, tag});
-        return found != size_of.end() ? found->second : size.value_or(1e22);
-      });
-    // The geometry may ask for order 2 itself: it is raised later, when the straight cells are known to be sound.
-    gmsh::option::setNumber("Mesh.ElementOrder", 1);
-    gmsh::option::setNumber("Mesh.RecombineAll", 0);
-    gmsh::model::mesh::generate(dimension);
-    if (dimension == 3) check_volumes_meshed(name);
-  });
-}
-
-void make_second_order(GmshSession& session, const std::string& name) {
-  session.compute(fmt::format("'{}' cannot be meshed with second-order elements", name), [&] {
-    // gmsh's own repair of curved elements throws on real parts (4.8): ours follows in straighten.cpp.
-    gmsh::option::setNumber("Mesh.HighOrderOptimize", 0);
-    gmsh::option::setNumber("Mesh.SecondOrderLinear", 0);
-    gmsh::option::setNumber("Mesh.SecondOrderIncomplete", 0);
-    gmsh::model::mesh::setOrder(2);
-  });
+double model_extent(GmshSession& session) {
+  double x0 = 0, y0 = 0, z0 = 0, x1 = 0, y1 = 0, z1 = 0;
+  session.read("the geometry has no box", [&] { gmsh::model::getBoundingBox(-1, -1, x0, y0, z0, x1, y1, z1); });
+  return std::max({x1 - x0, y1 - y0, z1 - z0});
 }
 
 ExtractedModel extract_model(GmshSession& session, const std::string& name, double metres) {

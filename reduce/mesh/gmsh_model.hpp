@@ -35,13 +35,6 @@ struct ExtractedModel {
   std::size_t dropped_nodes = 0;
 };
 
-/// Edge length on some entities.
-struct EntitySize {
-  int dimension;  ///< 2 or 3
-  std::vector<int> entities;
-  double size;  ///< in the geometry's own unit
-};
-
 /// Opens a geometry or mesh that gmsh reads. STEP and IGES come in metres, whatever their unit.
 /// @throws InputError "<name>: ..." when gmsh cannot read it, or nothing is in it
 void open_model(GmshSession& session, const SourceFile& source);
@@ -59,17 +52,8 @@ std::vector<PhysicalGroup> physical_groups();
 
 // What follows translates.
 
-/// Meshes the geometry with straight cells, in surfaces (dimension 2) or also in volumes (3), instead of an earlier
-/// mesh.
-/// @param name   of the file in messages, here and below
-/// @param size   largest edge in the geometry's own unit; absent: as the geometry says
-/// @param sizes  on some entities; fades into `size` away from them
-/// @throws ComputationError when gmsh fails, or leaves a volume without cells
-void mesh_model(GmshSession& session, const std::string& name, int dimension, std::optional<double> size,
-                const std::vector<EntitySize>& sizes);
-
-/// Puts mid-side nodes on the edges of a meshed geometry, on its curves and surfaces.
-void make_second_order(GmshSession& session, const std::string& name);
+/// Largest side of the model's box, in its own unit.
+double model_extent(GmshSession& session);
 
 /// @param metres  per unit of the model
 /// @throws InputError for cells that are no tetrahedra (no triangles on surfaces), for none at all, for linear and

@@ -1,8 +1,6 @@
 #include "reduce/mesh/import.hpp"
 
-#include <algorithm>
 #include <filesystem>
-#include <set>
 
 #include <fmt/format.h>
 
@@ -12,74 +10,14 @@
 #include "reduce/mesh/foreign_mesh.hpp"
 #include "reduce/mesh/gmsh_model.hpp"
 #include "reduce/mesh/groups.hpp"
+#include "reduce/mesh/mesh_geometry.hpp"
 #include "reduce/mesh/place.hpp"
-#include "reduce/mesh/selectors.hpp"
 #include "reduce/mesh/source_file.hpp"
 #include "reduce/mesh/straighten.hpp"
 
 namespace bielle::reduce {
 
 namespace {
-
-std::optional<double> in_unit(std::optional<double> length, double metres) {
-  if (length) *length /= metres;
-  return length;
-}
-
-// Entities of the geometry on which `sizes` asks for another edge length than elsewhere.
-std::vector<EntitySize> entity_sizes(GmshSession& session, const MeshRequest& request, const SourceFile& source,
-                                     const std::vector<PhysicalGroup>& groups) {
-  std::vector<EntitySize> result;
-  BodySurface surface;  // triangles of a first mesh, made when a shape needs it
-  Eigen::Matrix3Xd points;
-  for (const auto& [name, wish] : request.sizes) {
-    if (const PhysicalGroup* group = find_group(groups, name)) {
-      result.push_back({group->dimension, group->entities, wish.size / source.metres});
-      continue;
-    }
-    const auto selection = std::find_if(request.surfaces.begin(), request.surfaces.end(),
-                                        [&](const SurfaceSelection& s) { return s.group == name; });
-    if (selection == request.surfaces.end()) {
-      std::vector<std::string> names = group_names(groups, 2);
-      for (const std::string& volume : group_names(groups, 3)) names.push_back(volume);
-      for (const SurfaceSelection& s : request.surfaces) names.push_back(s.group);
-      throw InputError(at_place(
-          wish.located, fmt::format("'{}' is no physical group and no interface{}", name, did_you_mean(name, names))));
-    }
-    if (surface.triangles.empty()) {
-      mesh_model(session, source.name, 2, in_unit(request.size, source.metres), {});
-      surface = body_surface(extract_surfaces(session, source.name, source.metres, points));
-    }
-    std::set<int> entities;
-    for (const SurfaceSelector& selector : selection->selectors) {
-      if (const auto* group_name = std::get_if<std::string>(&selector)) {
-        const std::vector<int>& of_group = find_group(groups, *group_name)->entities;
-        entities.insert(of_group.begin(), of_group.end());
-        continue;
-      }
-      const std::vector<int> triangles = placed(
-          selection->located, [&] { return select_triangles(std::get<ShapeSelector>(selector), points, surface); });
-      for (int triangle : triangles) entities.insert(surface.entities[triangle]);
-    }
-    result.push_back({2, {entities.begin(), entities.end()}, wish.size / source.metres});
-  }
-  return result;
-}
-
-void mesh_geometry(GmshSession& session, const MeshRequest& request, const SourceFile& source,
-                   const std::vector<PhysicalGroup>& groups, Progress& progress) {
-  const std::string ending = std::filesystem::path(source.name).extension().string();
-  if (!request.size && !ending.starts_with(".geo"))
-    throw InputError(at_place(
-        request.located,
-        fmt::format("'{}' is a geometry: say how fine to mesh it, e.g. mesh: {{size: 3e-3}} [m]", source.name)));
-  progress.start("meshing " + std::filesystem::path(source.name).filename().string());
-  const std::vector<EntitySize> sizes = entity_sizes(session, request, source, groups);
-  placed(request.located, [&] {
-    mesh_model(session, source.name, 3, in_unit(request.size, source.metres), sizes);
-    if (request.order.value_or(2) == 2) make_second_order(session, source.name);
-  });
-}
 
 // Second-order elements are made sound, everything else must be.
 void check_mesh(const MeshRequest& request, const ExtractedModel& model, const FaceTable& faces, Mesh& mesh,

@@ -14,6 +14,8 @@ namespace bielle::reduce {
 
 namespace {
 
+constexpr int most_modes_below = 1000;  // what a frequency may ask for: more is a slip in its unit
+
 /// M times the linear fields.
 RowMatrix linear_inertia(const Solid& solid, const NodeMatrix& mass, const Eigen::Vector3d& centre, int threads) {
   RowMatrix functions(solid.points(), 4);
@@ -55,7 +57,12 @@ Eigenpairs fixed_boundary_modes(const NodeMatrix& mass, const HeldBody& held, co
   }
   const double limit = std::pow(2 * std::numbers::pi * *modes.below, 2);
   if (!modes.count) {
-    return shift_invert_eigenpairs_below(problem, limit, 20, options);
+    try {
+      return shift_invert_eigenpairs_below(problem, limit, 20, options, most_modes_below);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("modes.below: {}; more than {} modes are computed only when `count` asks for them",
+                                   error.what(), most_modes_below));
+    }
   }
   Eigenpairs pairs = shift_invert_eigenpairs(problem, *modes.count, options);
   const Eigen::Index below = (pairs.values.array() <= limit).count();

@@ -44,6 +44,7 @@ enum class RecoveryExtent { none, surface, all };
 struct ReductionOptions {
   std::string name;
   std::string input_text;
+  std::map<std::string, std::string> lines;  ///< "modes" -> "rod.yaml:20", put before messages about a section
   std::map<std::string, Material> materials;
   std::map<std::string, std::string> regions;  ///< volume group -> material name; key "all" for the whole body
   std::vector<InterfaceRequest> interfaces;    ///< at least one: a mechanism moves a body by its interfaces

@@ -8,6 +8,7 @@
 #include "reduce/common/error.hpp"
 #include "reduce/fe/assembly.hpp"
 #include "reduce/mesh/checks.hpp"
+#include "reduce/mesh/place.hpp"
 #include "reduce/reduction/basis.hpp"
 #include "reduce/reduction/free_body.hpp"
 #include "reduce/reduction/recovery.hpp"
@@ -79,6 +80,17 @@ void warn_about_rigid_ties(const Ties& ties, Progress& progress) {
   }
 }
 
+/// Stiffness, mass, damping, six inertia components and six geometric stiffnesses are full matrices.
+void warn_about_size(Eigen::Index coordinates, Progress& progress) {
+  const double gigabytes = 15 * 8e-9 * static_cast<double>(coordinates) * static_cast<double>(coordinates);
+  if (gigabytes > 1) {
+    progress.warn(
+        fmt::format("the superelement gets {} coordinates, and its matrices {:.0f} GB; free ties cost three for "
+                    "each node of their surface",
+                    coordinates, gigabytes));
+  }
+}
+
 void fail_when_a_check_does(const std::vector<Check>& checks) {
   for (const Check& check : checks) {
     if (!check.passed()) {
@@ -90,24 +102,35 @@ void fail_when_a_check_does(const std::vector<Check>& checks) {
   }
 }
 
+/// What `work` returns; an InputError from it gets the line of the section of the body file in front.
+template <class Work>
+auto in_section(const ReductionOptions& options, const std::string& section, const Work& work) {
+  const auto line = options.lines.find(section);
+  return placed(line == options.lines.end() ? "" : line->second, work);
+}
+
 }  // namespace
 
 Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Progress& progress, int threads,
                          ReductionReport* report) {
   progress.start("stiffness and mass");
   check_connected(mesh);
-  const Solid solid = make_solid(mesh, options.materials, options.regions);
+  const Solid solid =
+      in_section(options, "regions", [&] { return make_solid(mesh, options.materials, options.regions); });
   const MassProperties properties = mass_properties(solid);
   const Ties ties = make_ties(solid, options.interfaces);
   warn_about_rigid_ties(ties, progress);
+  warn_about_size(static_cast<Eigen::Index>(ties.kept.size()) + options.mode_count.value_or(0), progress);
   const NodeGraph graph = node_graph(solid.nodes, solid.points(), threads);
   const SymmetricMatrix stiffness = assemble_stiffness(solid, graph, threads);
   const NodeMatrix mass = assemble_mass(solid, graph, threads);
 
   progress.start("factorisation");
   const HeldBody held(solid, stiffness, ties, threads);
-  const Basis basis = make_basis(solid, stiffness, mass, ties, held, properties,
-                                 {options.mode_count, options.modes_below}, progress, threads);
+  const Basis basis = in_section(options, "modes", [&] {
+    return make_basis(solid, stiffness, mass, ties, held, properties, {options.mode_count, options.modes_below},
+                      progress, threads);
+  });
 
   progress.start("reduced matrices");
   Superelement body;
@@ -126,9 +149,10 @@ Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Prog
   body.effective_mass = effective_masses(body);
   Eigen::MatrixXd rigid = Eigen::MatrixXd::Zero(body.size(), 6);
   rigid.topRows(basis.kept()) = interface_rigid_motions(body.interfaces, body.centre);
-  body.damping = options.rayleigh
-                     ? Eigen::MatrixXd((*options.rayleigh)[0] * body.mass + (*options.rayleigh)[1] * body.stiffness)
-                     : modal_damping(free_modes(body.stiffness, body.mass, rigid), body.mass, options.damping_ratios);
+  body.damping = in_section(options, "damping", [&]() -> Eigen::MatrixXd {
+    if (options.rayleigh) return (*options.rayleigh)[0] * body.mass + (*options.rayleigh)[1] * body.stiffness;
+    return modal_damping(free_modes(body.stiffness, body.mass, rigid), body.mass, options.damping_ratios);
+  });
 
   progress.start("geometric stiffness");
   GeometricStiffness geometric = geometric_stiffness(solid, graph, stiffness, ties, basis, properties, body.stiffness,

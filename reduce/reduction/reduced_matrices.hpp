@@ -1,5 +1,5 @@
-// Matrices of the reduced body: K~ = T^T K T, the inertia components S_kl = T_k^T m T_l, C~ of modal or Rayleigh damping,
-// and the free body's modes.
+// Matrices of the reduced body: K~ = T^T K T, the inertia components S_kl = T_k^T m T_l, C~ of modal or Rayleigh
+// damping, and the free body's modes.
 #pragma once
 
 #include <array>

@@ -73,6 +73,19 @@ class Claims {
   std::vector<int> owner_;
 };
 
+/// An arm of a hundred times the body makes its matrices worthless, and is a slip in the unit.
+void check_position(const InterfaceRequest& request, const SurfaceIntegrals& surface, const Mesh& mesh) {
+  const double size = (mesh.points.rowwise().maxCoeff() - mesh.points.rowwise().minCoeff()).norm();
+  const double arm = request.position ? (*request.position - surface.centroid).norm() : 0;
+  if (arm > 100 * size) {
+    throw InputError(
+        fmt::format("{}: its position is {:.3g} m from its surface, which is more than a hundred times the body's size "
+                    "of {:.3g} m; "
+                    "positions are in metres",
+                    request.located, arm, size));
+  }
+}
+
 /// C^T of an average tie for one direction of the interface: the force that each node of the surface gets from a unit
 /// load. Force F on X acts as F on the centroid and the moment (X - X_c) x F; a moment is spread as J^-1 M x r.
 Eigen::Matrix3Xd spread_unit_load(const SurfaceIntegrals& surface, const Interface& interface, int axis) {
@@ -144,6 +157,7 @@ Ties make_ties(const Solid& solid, const std::vector<InterfaceRequest>& requests
     } catch (const InputError& error) {
       throw InputError(fmt::format("{}: {}", request.located, error.what()));
     }
+    check_position(request, surface, solid.mesh);
     claims.claim(surface.nodes, static_cast<int>(k), requests);
     std::array<bool, 6> directions = request.kept;
     if (request.tie == Tie::free) {

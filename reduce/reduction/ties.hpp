@@ -3,16 +3,17 @@
 // rigid    u_s = R d + (R theta) x (X_s - X): the nodes s of the surface are carried, their freedoms disappear.
 // average  d and theta are those of the rigid motion nearest to the surface's displacement: with r from the centroid,
 //          u_c = int u dA / A,  theta_b = J^-1 int r x u dA,  J = int (r.r I - r r^T) dA,
-//          R d = u_c + theta_b x (X - X_c),  R theta = theta_b: conditions C u = q on nodes that stay free, and a force on
-//          the interface is spread over the surface by C^T.
+//          R d = u_c + theta_b x (X - X_c),  R theta = theta_b: conditions C u = q on nodes that stay free, and a force
+//          on the interface is spread over the surface by C^T.
 // free     every node of the surface is an interface of its own with its three translations.
-// R: interface's axes to body axes, X: interface node. Directions that are not kept do not hold the body: those of a rigid
-// tie move with it as unknowns of its inside ("released"), those of an average are just not looked at.
+// R: interface's axes to body axes, X: interface node. Directions that are not kept do not hold the body: those of a
+// rigid tie move with it as unknowns of its inside ("released"), those of an average are just not looked at.
 #pragma once
 
-#include <Eigen/SparseCore>
 #include <string>
 #include <vector>
+
+#include <Eigen/SparseCore>
 
 #include "reduce/fe/solid.hpp"
 #include "reduce/fe/surface.hpp"
@@ -37,8 +38,8 @@ struct TiedSurface {
   std::string located;
 };
 
-/// All ties of a body. `b` counts the kept directions, the order of the superelement's coordinates; columns of directions
-/// that a matrix does not concern are zero.
+/// All ties of a body. `b` counts the kept directions, the order of the superelement's coordinates; columns of
+/// directions that a matrix does not concern are zero.
 struct Ties {
   std::vector<Interface> interfaces;
   std::vector<TiedSurface> surfaces;  ///< one for each interface
@@ -55,7 +56,8 @@ struct Ties {
 Eigen::Matrix3d polar_moment(const SurfaceIntegrals& surface);
 
 /// @throws InputError, with the place of the request before it: no interfaces at all, a surface that the mesh has not,
-///         points outside the solid, two interfaces that share points, no direction kept, two interfaces of one name
+///         points outside the solid, two interfaces that share points, no direction kept, two interfaces of one name,
+///         an interface node far away from the body
 Ties make_ties(const Solid& solid, const std::vector<InterfaceRequest>& requests);
 
 }  // namespace bielle::reduce

@@ -213,14 +213,14 @@ Eigenpairs shift_invert_eigenpairs(const ShiftInvertProblem& problem, int count,
 }
 
 Eigenpairs shift_invert_eigenpairs_below(const ShiftInvertProblem& problem, double limit, int first_guess,
-                                         const EigenpairOptions& options) {
-  const auto most = static_cast<int>(problem.size);
-  int count = std::min(std::max(first_guess, 1), most);
+                                         const EigenpairOptions& options, int most) {
+  const auto all = static_cast<int>(problem.size);
+  int count = std::min(std::max(first_guess, 1), all);
   while (true) {
     Eigenpairs pairs = shift_invert_eigenpairs(problem, count, options);
     const Eigen::Index found = pairs.values.size();
     const Eigen::Index below = (pairs.values.array() <= limit).count();
-    if (below < found || found < count || count == most) {
+    if (below < found || found < count || count == all) {
       pairs.values.conservativeResize(below);
       pairs.vectors.conservativeResize(Eigen::NoChange, below);
       pairs.residuals.conservativeResize(below);
@@ -228,7 +228,9 @@ Eigenpairs shift_invert_eigenpairs_below(const ShiftInvertProblem& problem, doub
     }
     // Frequencies of a solid are spaced evenly or denser: extrapolate what was found, and a little more.
     const double ratio = std::sqrt(std::max(1.0, (limit - problem.shift) / (pairs.values(found - 1) - problem.shift)));
-    count = std::min(most, std::max(count + 10, static_cast<int>(std::ceil(1.2 * ratio * count)) + 5));
+    const double more = std::min<double>(all, std::max(count + 10.0, std::ceil(1.2 * ratio * count) + 5));
+    if (more > most) throw InputError(fmt::format("about {:.0f} modes seem to lie below it", ratio * count));
+    count = static_cast<int>(more);
   }
 }
 

@@ -48,7 +48,9 @@ Eigenpairs shift_invert_eigenpairs(const ShiftInvertProblem& problem, int count,
 
 /// All eigenpairs with eigenvalues in (shift, limit], found by asking for growing counts.
 /// @param first_guess  how many to ask for first
+/// @param most         more than this are not sought
+/// @throws InputError when there are more than `most`, or seem to be from the spacing of those found: about how many
 Eigenpairs shift_invert_eigenpairs_below(const ShiftInvertProblem& problem, double limit, int first_guess = 10,
-                                         const EigenpairOptions& options = {});
+                                         const EigenpairOptions& options = {}, int most = 1000000);
 
 }  // namespace bielle

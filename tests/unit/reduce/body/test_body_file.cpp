@@ -99,13 +99,14 @@ TEST_CASE("a body file becomes a request for a mesh and the options of a reducti
 TEST_CASE("what may be left out is left out") {
   const BodyFile file = parse_body_file(
       "body: bar\ngeometry: /data/bar.msh\nmaterials: {steel: {young: 210e9, poisson: 0.3, density: 7850}}\n"
-      "regions: {all: steel}\nmodes: {below: \"5*1000\"}\n",
+      "regions: {all: steel}\ninterfaces: {end: {surface: end}}\nmodes: {below: \"5*1000\"}\n",
       "bar.yaml");
   CHECK(file.mesh.path == "/data/bar.msh");
   CHECK_FALSE(file.mesh.length_unit.has_value());
   CHECK_FALSE(file.mesh.size.has_value());
   CHECK_FALSE(file.mesh.order.has_value());
-  CHECK(file.options.interfaces.empty());
+  CHECK(file.options.interfaces[0].tie == Tie::rigid);
+  CHECK_FALSE(file.options.interfaces[0].position.has_value());
   CHECK(file.options.modes_below == 5000);
   CHECK_FALSE(file.options.mode_count.has_value());
   CHECK(file.options.damping_ratios.empty());
@@ -218,6 +219,8 @@ TEST_CASE("recovery") {
   const BodyFile file = read("{displacement: all, stress: surface}", "{displacement: surface, stress: none}");
   CHECK(file.options.displacement_recovery == RecoveryExtent::surface);
   CHECK(file.options.stress_recovery == RecoveryExtent::none);
+  check("displacement: all, stress: surface", "displacement: surface, stress: all",
+        "15: recovery: 'stress: all' needs 'displacement: all'");
   check("stress: surface", "stress: some", "15: recovery.stress: 'some' is not an extent of recovery");
   check("stress: surface", "strain: surface", "15: recovery: 'strain' is not a key of the recovery");
 }
@@ -247,6 +250,10 @@ TEST_CASE("unknown keys, missing ones and numbers that are none") {
   check("interfaces:", "interfacs:", "8: 'interfacs' is not a key of a body file; did you mean 'interfaces'?");
   check("body: rod\n", "", "1: the key 'body' is missing");
   check("geometry: conrod.geo\n", "", "1: the key 'geometry' is missing");
+  check(
+      "interfaces:\n  big_end: {surface: bore_big, tie: rigid}\n  small_end: {surface: bore_small, tie: average, "
+      "position: [0.2, 0, 0]}\n",
+      "", "1: the key 'interfaces' is missing");
   check("young: 210e9", "young: stiff", "6: materials.steel.young: ");
   CHECK(message_of<InputError>([] { read_body_file("/nowhere/rod.yaml"); }) ==
         "/nowhere/rod.yaml: there is no such file");

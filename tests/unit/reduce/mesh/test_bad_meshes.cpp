@@ -273,7 +273,7 @@ TEST_CASE("an unknown unit of length is answered with those that are known") {
   CHECK_THAT(import_message(wish), StartsWith("rod.yaml:3: length_unit: 'mn' is not a unit of length"));
 }
 
-TEST_CASE("a body of more than 1 km or less than 1 mm is doubtful") {
+TEST_CASE("a body of more than 150 m or less than 1 mm is doubtful") {
   CHECK(doubtful_size(box_mesh({{1, 1, 1}, {1, 1, 1}, false})).empty());
   CHECK_THAT(doubtful_size(box_mesh({{2000, 1, 1}, {1, 1, 1}, false})),
              Contains("2e+03 m long: is length_unit right?"));

@@ -98,6 +98,8 @@ TEST_CASE("a selector that finds nothing names the shapes that come nearest") {
   for (const std::string name : {"plate.geo", "plate.msh"}) {
     CAPTURE(name);
     MeshRequest wish = plate_request(folder / name, name.ends_with(".msh"));
+    // On a geometry the search ends before there are solid cells, which tell bores from pins.
+    const std::string bore = name.ends_with(".msh") ? " (a bore)" : "";
     wish.surfaces = {{"bore",
                       {ShapeSelector(CylinderSelector{{0.05, 0.05, 0}, {0, 0, 1}, 0.031})},
                       "plate.yaml:7: interfaces.bore.surface"}};
@@ -105,9 +107,9 @@ TEST_CASE("a selector that finds nothing names the shapes that come nearest") {
         import_message(wish),
         Catch::StartsWith(
             "plate.yaml:7: interfaces.bore.surface: no surface of the body lies on the cylinder with radius 0.031 m") &&
-            Contains("the nearest cylinders are: cylinder with radius 0.03 m about (0.05, 0.05, 0.01) m along (0, 0, "
-                     "1) (a bore); "
-                     "cylinder with radius 0.02 m about (0.15, 0.05, 0.01) m along (0, 0, 1) (a bore)"));
+            Contains(
+                "the nearest cylinders are: cylinder with radius 0.03 m about (0.05, 0.05, 0.01) m along (0, 0, 1)" +
+                bore + "; cylinder with radius 0.02 m about (0.15, 0.05, 0.01) m along (0, 0, 1)" + bore));
     wish.surfaces = {selection("top", PlaneSelector{{0, 0, 0.021}, {0, 0, 1}})};
     CHECK_THAT(import_message(wish),
                Contains("the nearest planes are: plane through (") && Contains("0.02) m normal to (0, 0, 1)"));

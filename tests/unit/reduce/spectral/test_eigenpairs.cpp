@@ -108,6 +108,7 @@ TEST_CASE("All eigenvalues below a limit are found") {
   REQUIRE(pairs.values.size() == 42);
   check_pairs(cube, pairs);
   CHECK(shift_invert_eigenpairs_below(cube.problem(), exact[0] / 2).values.size() == 0);
+  CHECK_THROWS_AS(shift_invert_eigenpairs_below(cube.problem(), limit, 5, {}, 20), InputError);
 }
 
 TEST_CASE("Constraints worked into the solution remove their directions from the spectrum") {

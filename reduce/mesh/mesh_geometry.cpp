@@ -1,0 +1,129 @@
+#include "reduce/mesh/mesh_geometry.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "reduce/common/error.hpp"
+#include "reduce/common/progress.hpp"
+#include "reduce/mesh/groups.hpp"
+#include "reduce/mesh/meshing.hpp"
+#include "reduce/mesh/place.hpp"
+#include "reduce/mesh/selectors.hpp"
+
+namespace bielle::reduce {
+
+namespace {
+
+// Far above what a large machine can factorise, and what takes an hour and tens of gigabytes.
+constexpr double most_cells = 20e6, many_cells = 3e6;
+constexpr double freedoms_per_cell = 4.3;  // of tet10
+
+// Refuses, or announces, meshes that are larger than anyone wants.
+void check_cell_count(GmshSession& session, const MeshRequest& request, const SourceFile& source,
+                      const MeshSizes& sizes, Progress& progress) {
+  const double cells = expected_cells(session, source.name, sizes);
+  if (cells <= many_cells) return;
+  double least = sizes.largest.value_or(0);
+  for (const EntitySize& wish : sizes.on_entities) least = least > 0 ? std::min(least, wish.size) : wish.size;
+  const std::string body = fmt::format("the body is {} long", length_name(source.metres * model_extent(session)));
+  if (cells > most_cells)
+    throw InputError(at_place(
+        request.mesh_located,
+        fmt::format("elements of {} would be about {:.2g} ({}), and more than {:.0f} million are not meshed: {}",
+                    length_name(source.metres * least), cells, body, 1e-6 * most_cells,
+                    source.carries_unit ? "are the sizes in metres?"
+                                        : fmt::format("is the geometry's length_unit {}, and are the sizes in metres?",
+                                                      request.length_unit.value_or("m")))));
+  progress.warn(at_place(request.mesh_located,
+                         fmt::format("about {:.2g} elements with {:.2g} degrees of freedom will be meshed ({}): this "
+                                     "takes hours and much memory; a larger size may serve",
+                                     cells, freedoms_per_cell * cells, body)));
+}
+
+// The surfaces of a selection.
+std::vector<int> selected_entities(const SurfaceSelection& selection, const std::vector<PhysicalGroup>& groups,
+                                   const Eigen::Matrix3Xd& points, const BodySurface& surface) {
+  std::set<int> entities;
+  for (const SurfaceSelector& selector : selection.selectors) {
+    if (const auto* group_name = std::get_if<std::string>(&selector)) {
+      const std::vector<int>& of_group = find_group(groups, *group_name)->entities;
+      entities.insert(of_group.begin(), of_group.end());
+      continue;
+    }
+    const std::vector<int> triangles =
+        placed(selection.located, [&] { return select_triangles(std::get<ShapeSelector>(selector), points, surface); });
+    for (int triangle : triangles) entities.insert(surface.entities[triangle]);
+  }
+  return {entities.begin(), entities.end()};
+}
+
+bool selects_by_shape(const SurfaceSelection& selection) {
+  return std::any_of(selection.selectors.begin(), selection.selectors.end(),
+                     [](const SurfaceSelector& s) { return std::holds_alternative<ShapeSelector>(s); });
+}
+
+// Throws for selections by shape that find nothing on the surface mesh.
+void check_selections(GmshSession& session, const MeshRequest& request, const SourceFile& source,
+                      const std::vector<PhysicalGroup>& groups) {
+  if (std::none_of(request.surfaces.begin(), request.surfaces.end(), selects_by_shape)) return;
+  Eigen::Matrix3Xd points;
+  const BodySurface surface = body_surface(extract_surfaces(session, source.name, source.metres, points));
+  for (const SurfaceSelection& selection : request.surfaces) selected_entities(selection, groups, points, surface);
+}
+
+// Entities of the geometry on which `sizes` asks for another edge length than elsewhere.
+std::vector<EntitySize> entity_sizes(GmshSession& session, const MeshRequest& request, const SourceFile& source,
+                                     const std::vector<PhysicalGroup>& groups, const MeshSizes& plain) {
+  std::vector<EntitySize> result;
+  BodySurface surface;  // triangles of a first mesh, made when a shape needs it
+  Eigen::Matrix3Xd points;
+  for (const auto& [name, wish] : request.sizes) {
+    if (const PhysicalGroup* group = find_group(groups, name)) {
+      result.push_back({group->dimension, group->entities, wish.size / source.metres});
+      continue;
+    }
+    const auto selection = std::find_if(request.surfaces.begin(), request.surfaces.end(),
+                                        [&](const SurfaceSelection& s) { return s.group == name; });
+    if (selection == request.surfaces.end()) {
+      std::vector<std::string> names = group_names(groups, 2);
+      for (const std::string& volume : group_names(groups, 3)) names.push_back(volume);
+      for (const SurfaceSelection& s : request.surfaces) names.push_back(s.group);
+      throw InputError(at_place(
+          wish.located, fmt::format("'{}' is no physical group and no interface{}", name, did_you_mean(name, names))));
+    }
+    if (surface.triangles.empty()) {
+      mesh_surfaces(session, source.name, plain);
+      surface = body_surface(extract_surfaces(session, source.name, source.metres, points));
+    }
+    result.push_back({2, selected_entities(*selection, groups, points, surface), wish.size / source.metres});
+  }
+  return result;
+}
+
+}  // namespace
+
+void mesh_geometry(GmshSession& session, const MeshRequest& request, const SourceFile& source,
+                   const std::vector<PhysicalGroup>& groups, Progress& progress) {
+  const std::filesystem::path path(source.name);
+  if (!request.size && !path.extension().string().starts_with(".geo"))
+    throw InputError(at_place(
+        request.located,
+        fmt::format("'{}' is a geometry: say how fine to mesh it, e.g. mesh: {{size: 3e-3}} [m]", source.name)));
+  progress.start("meshing " + path.filename().string());
+  MeshSizes sizes;
+  if (request.size) sizes.largest = *request.size / source.metres;
+  check_cell_count(session, request, source, sizes, progress);
+  sizes.on_entities = entity_sizes(session, request, source, groups, sizes);
+  if (!sizes.on_entities.empty()) check_cell_count(session, request, source, sizes, progress);
+  placed(request.located, [&] { mesh_surfaces(session, source.name, sizes); });
+  check_selections(session, request, source, groups);
+  placed(request.located, [&] {
+    mesh_volumes(session, source.name, sizes);
+    if (request.order.value_or(2) == 2) make_second_order(session, source.name);
+  });
+}
+
+}  // namespace bielle::reduce

@@ -1,0 +1,43 @@
+// Meshing of the geometry that gmsh has open: surfaces, then volumes, then mid-side nodes.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reduce/mesh/gmsh_session.hpp"
+
+namespace bielle::reduce {
+
+/// Edge length on some entities.
+struct EntitySize {
+  int dimension;  ///< 2 or 3
+  std::vector<int> entities;
+  double size;  ///< in the geometry's own unit
+};
+
+/// Edge lengths of a mesh, in the geometry's own unit.
+struct MeshSizes {
+  std::optional<double> largest;        ///< absent: as the geometry says
+  std::vector<EntitySize> on_entities;  ///< fade into `largest` away from them
+};
+
+/// How many cells a mesh of the open geometry would have in its volumes: 8 per cube of the edge length, and 10 per
+/// square on surfaces that are meshed finer than the rest. Good to a factor of two for compact bodies, too low for
+/// bodies thinner than an edge length. Geometries of gmsh's own kernel do not know their volume: a hundredth of their
+/// box counts. 0 where the geometry alone decides.
+double expected_cells(GmshSession& session, const std::string& name, const MeshSizes& sizes);
+
+/// Meshes the surfaces with straight cells, instead of an earlier mesh.
+/// @param name  of the file in messages, here and below
+/// @throws ComputationError when gmsh fails
+void mesh_surfaces(GmshSession& session, const std::string& name, const MeshSizes& sizes);
+
+/// Meshes the volumes between meshed surfaces, of the same sizes.
+/// @throws ComputationError when gmsh fails, or leaves a volume without cells
+void mesh_volumes(GmshSession& session, const std::string& name, const MeshSizes& sizes);
+
+/// Puts mid-side nodes on the edges of a meshed geometry, on its curves and surfaces.
+void make_second_order(GmshSession& session, const std::string& name);
+
+}  // namespace bielle::reduce
