@@ -94,8 +94,8 @@ Eigenpairs arpack_eigenpairs(const ShiftInvertProblem& problem, int count, const
                              const Eigen::MatrixXd& known, int seed) {
   const auto n = static_cast<a_int>(problem.size);
   const a_int wanted = count;
-  // Enough vectors that most problems converge in one or two sweeps: solutions are dear, vectors are not.
-  const a_int basis = std::min<a_int>(n, std::max<a_int>(2 * wanted + 10, known.cols() > 0 ? 0 : 30));
+  // Enough vectors that most problems converge in one sweep: solutions are dear, vectors are not.
+  const a_int basis = std::min<a_int>(n, 2 * wanted + (known.cols() > 0 ? 12 : 20));
   const a_int work_size = basis * (basis + 8);
   Eigen::VectorXd residual = start_vectors(n, seed).rightCols(1);
   Eigen::MatrixXd lanczos(n, basis);
@@ -204,7 +204,7 @@ Eigenpairs shift_invert_eigenpairs(const ShiftInvertProblem& problem, int count,
     throw ComputationError(
         fmt::format("all {} eigenpairs of a problem of that size cannot be computed; ask for fewer", n));
   }
-  const bool dense = n <= small || (n <= large && 2 * static_cast<Eigen::Index>(count) + 10 > n);
+  const bool dense = n <= small || (n <= large && 2 * static_cast<Eigen::Index>(count) + 20 > n);
   Eigenpairs pairs = dense ? dense_eigenpairs(problem, count) : arpack_eigenpairs(problem, count, options, {}, 1);
   if (!dense) add_missed_copies(problem, options, pairs);
   put_in_order(pairs);
