@@ -14,6 +14,8 @@
 namespace bielle::mechanism {
 namespace {
 
+constexpr double degrees = 180 / std::numbers::pi;
+
 /// Velocities of a frame between two nodes: each end alone would move it rigidly.
 void set_start_velocity(Node& inner, const Node& a, const Node& b, double s) {
   const Vector3 omega_a = a.frame.R * a.angular_velocity, omega_b = b.frame.R * b.angular_velocity;
@@ -52,7 +54,9 @@ void read_beam(const std::string& name, const YamlValue& entry, Model& model) {
   const auto elements = entry.find("elements"), twist = entry.find("twist"), damping = entry.find("damping"),
              bending = entry.find("bending");
   const int count = elements ? elements->integer() : 8;
+  constexpr int most = 100000;
   if (count < 1) elements->fail(fmt::format("expected at least one element; found {}", count));
+  if (count > most) elements->fail(fmt::format("a beam has at most {} elements; found {}", most, count));
   const BeamBending law = bending && bending->word({"residual", "constant"}, "bending of a beam") == "constant"
                               ? BeamBending::constant
                               : BeamBending::residual;
@@ -68,10 +72,10 @@ void read_beam(const std::string& name, const YamlValue& entry, Model& model) {
   for (int k = 0; k <= count; ++k) sections.push_back(line.frame(static_cast<double>(k) / count, R_start, total_twist));
   const double turn = std::hypot(line.angle(), total_twist) / count;
   if (turn > BeamElement::largest_turn)
-    entry.fail(
-        fmt::format("with its arc and twist each of {} elements would turn by {:.0f} degrees, and none can follow 180: "
-                    "give more `elements`",
-                    count, turn * 180 / std::numbers::pi));
+    entry.fail(fmt::format(
+        "with its arc and twist each of {} elements would turn by {:.0f} degrees, and none follows more than {:.0f}: "
+        "give more `elements`",
+        count, turn * degrees, BeamElement::largest_turn * degrees));
 
   const std::vector<int> nodes = make_nodes(name, entry, ends, sections, model);
   for (int k = 0; k < count; ++k) {

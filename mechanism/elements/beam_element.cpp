@@ -8,6 +8,7 @@
 #include <Eigen/Cholesky>
 #include <fmt/format.h>
 
+#include "mechanism/math/gauss.hpp"
 #include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
@@ -17,6 +18,8 @@ using Vector12 = Eigen::Matrix<double, 12, 1>;
 using Matrix12 = Eigen::Matrix<double, 12, 12>;
 using Matrix6x12 = Eigen::Matrix<double, 6, 12>;
 using Matrix12x6 = Eigen::Matrix<double, 12, 6>;
+
+constexpr double degrees = 180 / std::numbers::pi;
 
 Matrix6 inverse(const Matrix6& A) {
   const Matrix6 B = A.llt().solve(Matrix6::Identity());
@@ -31,7 +34,7 @@ Matrix6 equilibrium(const Vector6& d, double z) {
 
 /// Flexibility at z: the parabola through those of the Gauss points (constant for a uniform section).
 Matrix6 flexibility_at(const std::array<Matrix6, 3>& S, double z) {
-  const std::array<double, 3>& p = ElementSections::place;
+  const std::array<double, 3>& p = Gauss3::place;
   Matrix6 sum = Matrix6::Zero();
   for (std::size_t g = 0; g < 3; ++g) {
     const std::size_t i = (g + 1) % 3, j = (g + 2) % 3;
@@ -46,14 +49,14 @@ Matrix6 element_stiffness(const ElementSections& sections, const Vector6& d0, Be
   Matrix6 mean = Matrix6::Zero(), sum = Matrix6::Zero();
   for (std::size_t g = 0; g < 3; ++g) {
     S[g] = inverse(sections.at[g].stiffness);
-    mean += ElementSections::weight[g] * sections.at[g].stiffness;
+    mean += Gauss3::weight[g] * sections.at[g].stiffness;
   }
   if (bending == BeamBending::constant) return mean;
   for (int part = 0; part < parts; ++part)
     for (std::size_t g = 0; g < 3; ++g) {
-      const double z = (part + ElementSections::place[g]) / parts;
+      const double z = (part + Gauss3::place[g]) / parts;
       const Matrix6 A = equilibrium(d0, z);
-      sum += ElementSections::weight[g] / parts * A.transpose() * flexibility_at(S, z) * A;
+      sum += Gauss3::weight[g] / parts * A.transpose() * flexibility_at(S, z) * A;
     }
   return inverse(sum);
 }
@@ -73,7 +76,9 @@ BeamElement::BeamElement(std::string name, BeamPlace place, int node_a, int node
       L_(d0.head<3>().norm()),
       bending_(bending),
       stiffness_(element_stiffness(sections, d0, bending)),
-      flexibility_(inverse(sections.middle().stiffness)),
+      section_(sections.middle().stiffness),
+      flexibility_(inverse(section_)),
+      mass_(L_ * sections.mean_mass()),
       stress_(sections.middle().stress),
       damping_(damping),
       inertia_(sections, R_A, R_B, d0.head<3>()) {}
@@ -101,22 +106,25 @@ Vector6 BeamElement::relative_motion(const LocalState& state, const Matrix3& R_A
   const Vector6 d = log_se3({R_A.transpose() * (state.node(1).x - state.node(0).x), R_A.transpose() * R_B});
   // Past 180 degrees the logarithm takes the other way round.
   if ((d.tail<3>() - state.memory()).norm() > std::numbers::pi)
-    throw ComputationError(
-        fmt::format("t = {:.6g} s: beam '{}', element {} of {}: its ends have turned past 180 degrees against each "
-                    "other, which one "
-                    "element cannot follow; give the beam more `elements`, or take smaller steps",
-                    state.time(), name(), place_.element, place_.elements));
+    refuse(state, "its ends have turned past 180 degrees against each other", ", or take smaller steps");
   return d;
+}
+
+void BeamElement::refuse(const LocalState& state, const std::string& why, const char* or_else) const {
+  const std::string when = state.environment().statics
+                               ? fmt::format("load factor {:.6g}", state.environment().load_factor)
+                               : fmt::format("t = {:.6g} s", state.time());
+  throw ComputationError(
+      fmt::format("{}: beam '{}', element {} of {}: {}, and one element follows up to {:.0f}: give "
+                  "the beam more `elements`{}",
+                  when, name(), place_.element, place_.elements, why, largest_turn * degrees, or_else));
 }
 
 void BeamElement::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {
   const NodeState &A = state.node(0), &B = state.node(1);
   const Vector3 psi = relative_motion(state, A.R * R_A_, B.R * R_B_).tail<3>();
   if (psi.norm() > largest_turn)
-    throw ComputationError(fmt::format(
-        "t = {:.6g} s: beam '{}', element {} of {}: its ends are turned by {:.0f} degrees against each other, and one "
-        "element cannot follow 180; give the beam more `elements`",
-        state.time(), name(), place_.element, place_.elements, psi.norm() * 180 / std::numbers::pi));
+    refuse(state, fmt::format("its ends are turned by {:.0f} degrees against each other", psi.norm() * degrees), "");
   memory = psi;
 }
 

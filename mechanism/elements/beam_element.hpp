@@ -69,10 +69,16 @@ class BeamElement : public Component {
   /// `largest_turn`
   void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
 
+  const BeamPlace& place() const { return place_; }
+  double length() const { return L_; }                 ///< [m]
+  double mass() const { return mass_; }                ///< [kg]
+  const Matrix6& section() const { return section_; }  ///< stiffness of the section in the middle
+
  private:
   struct Deformation;
   /// d at a state. @throws ComputationError when the ends have turned past 180 degrees since the last accepted step
   Vector6 relative_motion(const LocalState& state, const Matrix3& R_A, const Matrix3& R_B) const;
+  [[noreturn]] void refuse(const LocalState& state, const std::string& why, const char* or_else) const;
   Deformation deformation(const LocalState& state) const;
   void add_stiffness(const Deformation& D, Eigen::Ref<MatrixX> K) const;
 
@@ -83,7 +89,8 @@ class BeamElement : public Component {
   double L_;
   BeamBending bending_;
   Matrix6 stiffness_;                                ///< C_e
-  Matrix6 flexibility_;                              ///< C^-1 in the middle
+  Matrix6 section_, flexibility_;                    ///< C and C^-1 in the middle
+  double mass_;                                      ///< [kg]
   std::vector<Eigen::Matrix<double, 3, 6>> stress_;  ///< at the stress points, of unit resultants
   double damping_;
   BeamInertia inertia_;

@@ -87,7 +87,9 @@ BeamLine read_beam_line(const YamlValue& entry, const Vector3& start, const Vect
   const auto centre = entry.find("arc_centre"), through = entry.find("arc_through");
   if (centre && through) through->fail("give either `arc_centre` or `arc_through`");
   if ((end - start).norm() <= coincident * std::max(start.norm(), end.norm()))
-    entry.at("nodes").fail("both ends of the beam are at the same place");
+    entry.at("nodes").fail(centre || through
+                               ? "both ends of the beam are at the same place: make a full circle of two arcs or more"
+                               : "both ends of the beam are at the same place");
   if (centre) return arc_about(*centre, start, end);
   if (through) return arc_through(*through, start, end);
   return BeamLine::straight(start, end);

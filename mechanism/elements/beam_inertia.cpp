@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "mechanism/math/gauss.hpp"
 #include "mechanism/math/so3.hpp"
 
 namespace bielle::mechanism {
@@ -23,7 +24,7 @@ BeamInertia::BeamInertia(const ElementSections& sections, const Matrix3& R_A, co
   for (std::size_t g = 0; g < 3; ++g) {
     const BeamSection& section = sections.at[g];
     const Vector3& c = section.mass_offset;
-    const double z = ElementSections::place[g], w = ElementSections::weight[g];
+    const double z = Gauss3::place[g], w = Gauss3::weight[g];
     const Vector3 bubble = 0.5 * z * (1 - z) * chord;
     points_[g] = {section.mass * L * w, {1 - z, z}, {R_A * ((1 - z) * c + bubble), R_B * (z * c - bubble)}};
     mass += w * section.mass;
@@ -59,13 +60,14 @@ void BeamInertia::add_force(const LocalState& state, Eigen::Ref<VectorX> r) cons
                                       node[k]->Omega.cross(J_[k][0] * node[0]->Omega + J_[k][1] * node[1]->Omega);
 }
 
+// clang-format off
 // Each point moves by sum_k (N_k dx_k + A_k dTheta_k), A_k = -R_k a_k~; with its inertia force f the blocks (i,j) are
-//        dx_j          dTheta_j
-//   M = w [ N_i N_j I   N_i A_j   ]    C = w [ 0  N_i V_j   ]    K = w [ 0  N_i W_j   ]  and a_i~ (R_i^T f)~ in
-//   (Theta_i, Theta_i)
-//         [ N_j A_i^T   A_i^T A_j ]          [ 0  A_i^T V_j ]          [ 0  A_i^T W_j ]
+//          dx_j       dTheta_j
+//   M = w [ N_i N_j I   N_i A_j   ]    C = w [ 0  N_i V_j   ]    K = w [ 0  N_i W_j   ]
+//         [ N_j A_i^T   A_i^T A_j ]          [ 0  A_i^T V_j ]          [ 0  A_i^T W_j ],   and a_i~ (R_i^T f)~ in (Theta_i, Theta_i)
 //   V_k = -R_k ((Omega_k~ a_k)~ + Omega_k~ a_k~),   W_k = -R_k (Omegadot_k~ a_k + Omega_k~ Omega_k~ a_k)~;
 // rotary inertia, with p_k = sum_l J_kl Omega_l:   M = J_kl,   C = Omega_k~ J_kl - delta_kl p_k~.
+// clang-format on
 void BeamInertia::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   const auto node = ends(state);
   for (const Point& p : points_) {

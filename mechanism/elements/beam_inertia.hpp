@@ -1,14 +1,14 @@
 // Inertia of one beam element.
 //
+// clang-format off
 // Line of mass centres between nodes A and B, z in [0, 1], with the mass offset c and the reference chord d = d0_u of
 // length L, both fixed in the section frames of A and B (R_A, R_B here their axes):
 //     x(z) = (1-z)(x_A + R_A c) + z (x_B + R_B c) + z (1-z) (R_A d - R_B d)/2
 // so that the rotations of the ends bend the line. Kinetic energy, m and J (about the mass centre) per length:
-//     T = 1/2 m L int |xdot|^2 dz                              consistent, by three Gauss points (exact for the mass
-//     matrix)
+//     T = 1/2 m L int |xdot|^2 dz                     consistent, by three Gauss points (exact for the mass matrix)
 //       + 1/2 (m L/12) |ydot|^2,   y = (x_B + R_B c) - (x_A + R_A c) - (R_A d + R_B d)/2
-//       + 1/2 (L/2) (Omega_A.J Omega_A + Omega_B.J Omega_B) - 1/2 (J_t L/12) (t.(Omega_A - Omega_B))^2    (section
-//       components)
+//       + 1/2 (L/2) (Omega_A.J Omega_A + Omega_B.J Omega_B) - 1/2 (J_t L/12) (t.(Omega_A - Omega_B))^2   (section axes)
+// clang-format on
 // with J_t = t.J t about the chord's direction t. The terms with 1/12 are the mean of consistent and lumped masses,
 // whose errors in the frequencies of axial, shear and torsional waves, +-(k L)^2/24, cancel (G. Goudreau, R. Taylor,
 // Comput. Methods Appl. Mech. Eng. 2 (1973) 69); in bending y is of third order, and the lumped rotary inertia is the
@@ -16,7 +16,8 @@
 // with the fourth power of L, but for a part E/(k_s G) (k r)^2 (k L)^2/24 in bending (wave number k, radius of gyration
 // r, shear factor k_s): the line does not see how the shear varies along it. Everything turns with the nodes, and y
 // sees no translation: energy and momenta are conserved exactly. No term depends on the deformation. In a tapered beam
-// m, c and J are those of the Gauss points; J goes to the ends by linear shares, and the terms with 1/12 take means.
+// m, c and J are those of the Gauss points; J goes to the ends by linear shares, and the terms with 1/12 take means:
+// frequencies of tapered beams converge with the second power of L.
 #pragma once
 
 #include <array>

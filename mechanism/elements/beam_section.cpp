@@ -25,6 +25,12 @@ BeamSection BeamSection::homogeneous(const SectionConstants& k, double young, do
   return section;
 }
 
+void BeamSection::set_mass(const Matrix6& M) {
+  mass = M.topLeftCorner<3, 3>().trace() / 3;
+  mass_offset = mass > 0 ? Vector3(skew_vector(M.bottomLeftCorner<3, 3>()) / mass) : Vector3::Zero();
+  inertia = M.bottomRightCorner<3, 3>() + mass * skew(mass_offset) * skew(mass_offset);
+}
+
 BeamSection BeamSection::shifted(const Vector2& offset) const {
   const Vector3 o(0, offset.x(), offset.y());
   // Strains at the section's origin from those at the node line: Gamma + Kappa x o.

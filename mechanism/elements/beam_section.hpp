@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "mechanism/elements/section_shape.hpp"
+#include "mechanism/elements/wall_taper.hpp"
 #include "mechanism/math/types.hpp"
 #include "reduce/common/yaml_file.hpp"
 
@@ -32,19 +32,20 @@ struct BeamSection {
   /// @param offset  of the centroid from the node line [m]
   static BeamSection homogeneous(const SectionConstants& constants, double young, double shear, double density,
                                  const Vector2& offset = Vector2::Zero());
+  /// Mass, offset and inertia of [[m I, -m c~], [m c~, J]], J about the node line. @param M  per length
+  void set_mass(const Matrix6& M);
   /// The same section with its origin at `offset` from the node line [m].
   BeamSection shifted(const Vector2& offset) const;
 };
 
-/// The sections of one element: at the three Gauss points of its length. One section: the same everywhere.
+/// The sections of one element: at the three Gauss points (gauss.hpp) of its length. One section: the same everywhere.
 struct ElementSections {
-  static constexpr std::array<double, 3> place{0.1127016653792583, 0.5, 0.8872983346207417};  ///< from A (0) to B (1)
-  static constexpr std::array<double, 3> weight{5.0 / 18, 8.0 / 18, 5.0 / 18};
   std::array<BeamSection, 3> at;
 
   ElementSections(const BeamSection& uniform) : at{uniform, uniform, uniform} {}  // NOLINT: a section is one
   explicit ElementSections(std::array<BeamSection, 3> sections) : at(std::move(sections)) {}
   const BeamSection& middle() const { return at[1]; }
+  double mean_mass() const;  ///< per length [kg/m]
 };
 
 /// Section along a beam: s in [0, 1] from start to end. A pair [start, end] tapers linearly in its dimensions and
@@ -72,10 +73,12 @@ class SectionLaw {
   static Definition read_shape(const std::string& kind, const YamlValue& value);
   static void check_taper(const YamlValue& value, const Definition& start, const Definition& end);
   Definition between(double s) const;
-  BeamSection evaluate(const Definition& definition) const;
+  void check_points(const Definition& definition) const;
+  BeamSection evaluate(double s) const;
   YamlValue value_;  ///< for messages
   Definition start_, end_;
   std::optional<BeamSection> uniform_;  ///< without taper
+  std::optional<WallTaper> walls_;      ///< with taper, of shapes that take finite elements
 };
 
 }  // namespace bielle::mechanism

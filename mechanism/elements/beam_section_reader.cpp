@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/elements/beam_section.hpp"
+#include "mechanism/math/gauss.hpp"
 #include "mechanism/math/so3.hpp"
 
 namespace bielle::mechanism {
@@ -13,6 +14,10 @@ namespace {
 
 constexpr std::array constants_keys{"EA", "GAy", "GAz", "GJ", "EIy", "EIz"};
 constexpr std::array mass_keys{"mass_per_length", "Jx", "Jy", "Jz"};
+
+/// Beside the shape itself.
+const std::vector<std::string> shape_keys{"young",         "poisson", "shear",        "density",
+                                          "shear_factors", "offset",  "stress_points"};
 
 double shear_modulus(const YamlValue& value, double young_modulus) {
   const auto modulus = value.find("shear"), poisson = value.find("poisson");
@@ -22,11 +27,6 @@ double shear_modulus(const YamlValue& value, double young_modulus) {
   const double nu = poisson->number();
   if (!(nu > -1 && nu <= 0.5)) poisson->fail(fmt::format("Poisson's ratio lies in (-1, 0.5]; found {:.6g}", nu));
   return young_modulus / (2 * (1 + nu));
-}
-
-Vector2 positive_pair(const YamlValue& value, const std::string& expected) {
-  if (!value.is_sequence() || value.size() != 2) value.fail("expected " + expected);
-  return {value.at(std::size_t{0}).positive_number(), value.at(std::size_t{1}).positive_number()};
 }
 
 /// (2), zero when absent.
@@ -69,18 +69,9 @@ void check_positive_definite(const YamlValue& value, const MatrixX& A, const std
   if (!positive) value.fail(what + " must be positive definite");
 }
 
-/// Mass, offset and inertia of [[m I, -m c~], [m c~, J]], J about the node line.
-void take_apart(const Matrix6& M, BeamSection& section) {
-  section.mass = M.topLeftCorner<3, 3>().trace() / 3;
-  section.mass_offset =
-      section.mass > 0 ? Vector3(skew_vector(M.bottomLeftCorner<3, 3>()) / section.mass) : Vector3::Zero();
-  const Matrix3 c = skew(section.mass_offset);
-  section.inertia = M.bottomRightCorner<3, 3>() + section.mass * c * c;
-}
-
 void check_mass(const YamlValue& value, const Matrix6& M) {
   BeamSection section;
-  take_apart(M, section);
+  section.set_mass(M);
   if (!(section.mass > 0)) value.fail("the mass per length must be > 0");
   Matrix6 rigid = Matrix6::Zero();
   const Matrix3 mc = section.mass * skew(section.mass_offset);
@@ -107,11 +98,33 @@ VectorX read_matrices(const YamlValue& value) {
   return numbers;
 }
 
+/// The one key that says what the section is.
+std::string kind_of(const YamlValue& value) {
+  std::vector<std::string> kinds = section_shape_names(), given;
+  kinds.insert(kinds.end(), {"EA", "stiffness"});
+  std::copy_if(kinds.begin(), kinds.end(), std::back_inserter(given),
+               [&](const std::string& k) { return value.has(k); });
+  if (given.size() == 1) return given.front();
+  if (given.size() > 1)
+    value.at(given[1]).fail(fmt::format("a section is given by one of `{}` and `{}`, not by both", given[0], given[1]));
+  std::vector<std::string> others = shape_keys;
+  others.insert(others.end(), constants_keys.begin(), constants_keys.end());
+  others.insert(others.end(), mass_keys.begin(), mass_keys.end());
+  others.emplace_back("mass");
+  for (const auto& [key, item] : value.entries())
+    if (std::find(others.begin(), others.end(), key) == others.end())
+      item.fail(fmt::format("'{}' is no kind of section{}", key, did_you_mean(key, kinds)));
+  value.fail(
+      "expected exactly one of `rectangle`, `circle`, `tube`, `i`, `t`, `l`, `box`, the constants `EA`, `GAy`, ..., or "
+      "a 6x6 `stiffness`");
+}
+
 }  // namespace
 
 SectionLaw::Definition SectionLaw::read_shape(const std::string& kind, const YamlValue& value) {
-  value.check_keys({kind, "young", "poisson", "shear", "density", "shear_factors", "offset", "stress_points"},
-                   "a section '" + kind + "'");
+  std::vector<std::string> keys = shape_keys;
+  keys.push_back(kind);
+  value.check_keys(keys, "a section '" + kind + "'");
   Definition d;
   d.kind = kind;
   d.numbers = read_shape_dimensions(kind, value.at(kind));
@@ -121,15 +134,16 @@ SectionLaw::Definition SectionLaw::read_shape(const std::string& kind, const Yam
   d.offset = read_offset(value, "the centroid");
   d.has_density = density.has_value();
   d.has_offset = value.has("offset");
-  if (const auto factors = value.find("shear_factors")) d.shear_factors = positive_pair(*factors, "[k_y, k_z]");
+  if (const auto factors = value.find("shear_factors")) d.shear_factors = factors->positive_numbers(2, "[k_y, k_z]");
   if (const auto points = value.find("stress_points")) {
-    const auto shape = make_section_shape(kind, d.numbers);
+    if (points->items().empty()) points->fail("expected at least one point [y, z]; leave the key out for none");
     d.points.resize(static_cast<Eigen::Index>(2 * points->items().size()));
     Eigen::Index k = 0;
     for (const YamlValue& item : points->items()) {
       const Eigen::VectorXd point = item.vector();
       if (point.size() != 2) item.fail("expected a point [y, z] of the section, from its centroid");
-      if (!shape->contains(point)) item.fail("the point lies outside of the section; y and z count from its centroid");
+      if (!shape_contains(kind, d.numbers, point))
+        item.fail("the point lies outside of the section; y and z count from its centroid");
       d.points.segment<2>(k) = point;
       k += 2;
     }
@@ -139,16 +153,7 @@ SectionLaw::Definition SectionLaw::read_shape(const std::string& kind, const Yam
 
 SectionLaw::Definition SectionLaw::read(const YamlValue& value) {
   if (!value.is_map()) value.fail("expected a section: a map, or a pair [start, end] of maps");
-  std::vector<std::string> kinds = section_shape_names(), given;
-  kinds.insert(kinds.end(), {"EA", "stiffness"});
-  std::copy_if(kinds.begin(), kinds.end(), std::back_inserter(given),
-               [&](const std::string& k) { return value.has(k); });
-  if (given.size() != 1)
-    value.fail(
-        "expected exactly one of `rectangle`, `circle`, `tube`, `i`, `t`, `l`, `box`, the constants `EA`, `GAy`, ..., "
-        "or a "
-        "6x6 `stiffness`");
-  const std::string& kind = given.front();
+  const std::string kind = kind_of(value);
   if (kind != "EA" && kind != "stiffness") return read_shape(kind, value);
   Definition d;
   d.kind = kind;
@@ -157,34 +162,6 @@ SectionLaw::Definition SectionLaw::read(const YamlValue& value) {
   d.has_density = value.has("mass_per_length") || value.has("mass");
   d.has_offset = value.has("offset");
   return d;
-}
-
-BeamSection SectionLaw::evaluate(const Definition& d) const {
-  BeamSection section;
-  if (d.kind == "EA") {
-    section.stiffness = d.numbers.head<6>().asDiagonal();
-    section.mass = d.numbers[6];
-    section.inertia = d.numbers.segment<3>(7).asDiagonal();
-    return section.shifted(d.offset);
-  }
-  if (d.kind == "stiffness") {
-    section.stiffness = d.numbers.head<36>().reshaped(6, 6);
-    take_apart(d.numbers.tail<36>().reshaped(6, 6), section);
-    return section.shifted(d.offset);
-  }
-  const auto shape = make_section_shape(d.kind, d.numbers);
-  SectionConstants k = shape->constants();
-  if (d.shear_factors.size() == 2) k.shear_area = k.A * d.shear_factors.asDiagonal().toDenseMatrix();
-  section = BeamSection::homogeneous(k, d.material[0], d.material[1], d.material[2], d.offset);
-  for (Eigen::Index p = 0; p < d.points.size(); p += 2) {
-    const Vector2 point = d.points.segment<2>(p);
-    // The centroid of a tapered t or l does not move linearly.
-    if (!shape->contains(point))
-      value_.fail(
-          fmt::format("stress point {} lies outside of the section somewhere between start and end", p / 2 + 1));
-    section.stress.push_back(shape->stress(point, d.offset));
-  }
-  return section;
 }
 
 void SectionLaw::check_taper(const YamlValue& value, const Definition& start, const Definition& end) {
@@ -197,38 +174,6 @@ void SectionLaw::check_taper(const YamlValue& value, const Definition& start, co
   // What is left out counts as zero: a taper to nothing would be a slip.
   if (start.has_density != end.has_density) value.fail("give the density or mass at both ends, or at none");
   if (start.has_offset != end.has_offset) value.fail("give `offset` at both ends, or at none");
-}
-
-SectionLaw::SectionLaw(const YamlValue& value) : value_(value) {
-  if (!value.is_sequence()) {
-    start_ = end_ = read(value);
-    uniform_ = evaluate(start_);
-    return;
-  }
-  if (value.size() != 2) value.fail("expected a section or a pair [start, end]");
-  start_ = read(value.at(std::size_t{0}));
-  end_ = read(value.at(std::size_t{1}));
-  check_taper(value, start_, end_);
-}
-
-SectionLaw::Definition SectionLaw::between(double s) const {
-  const auto mix = [s](const VectorX& a, const VectorX& b) { return VectorX((1 - s) * a + s * b); };
-  Definition d = start_;
-  d.numbers = mix(start_.numbers, end_.numbers);
-  d.material = mix(start_.material, end_.material);
-  d.offset = mix(start_.offset, end_.offset);
-  d.shear_factors = mix(start_.shear_factors, end_.shear_factors);
-  d.points = mix(start_.points, end_.points);
-  return d;
-}
-
-BeamSection SectionLaw::at(double s) const { return uniform_ ? *uniform_ : evaluate(between(s)); }
-
-ElementSections SectionLaw::over(double s_A, double s_B) const {
-  if (uniform_) return *uniform_;
-  std::array<BeamSection, 3> sections;
-  for (std::size_t g = 0; g < 3; ++g) sections[g] = at(s_A + ElementSections::place[g] * (s_B - s_A));
-  return ElementSections(std::move(sections));
 }
 
 }  // namespace bielle::mechanism

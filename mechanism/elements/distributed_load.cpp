@@ -6,15 +6,13 @@
 
 #include <fmt/format.h>
 
-#include "mechanism/elements/beam_section.hpp"
+#include "mechanism/math/gauss.hpp"
 #include "mechanism/math/so3.hpp"
 
 namespace bielle::mechanism {
 namespace {
 
 constexpr std::size_t along_beam = 0, in_time = 1;  // arguments of the formulas
-constexpr auto gauss_place = ElementSections::place;
-constexpr auto gauss_weight = ElementSections::weight;
 
 Vector3 evaluate(const std::array<Expression, 3>& vector, double s, double t) {
   const std::array<double, 2> values{s, t};
@@ -44,7 +42,7 @@ double integral(const std::vector<double>& ends, int parts, const Value& value) 
     for (int part = 0; part < parts; ++part)
       for (std::size_t g = 0; g < 3; ++g) {
         const double length = (ends[k + 1] - ends[k]) / parts;
-        sum += length * gauss_weight[g] * value(ends[k] + length * (part + gauss_place[g]));
+        sum += length * Gauss3::weight[g] * value(ends[k] + length * (part + Gauss3::place[g]));
       }
   return sum;
 }
@@ -68,9 +66,9 @@ DistributedLoad::DistributedLoad(std::string name, const BeamSpan& span, LineLoa
   const std::vector<double> ends = pieces(load_, span.s_A, span.s_B);
   for (std::size_t k = 0; k + 1 < ends.size(); ++k)
     for (std::size_t g = 0; g < 3; ++g) {
-      const double part = ends[k + 1] - ends[k], z = ends[k] + part * gauss_place[g];
+      const double part = ends[k + 1] - ends[k], z = ends[k] + part * Gauss3::place[g];
       const Vector3 bubble = 0.5 * z * (1 - z) * span.chord;
-      points_.push_back({L * part * gauss_weight[g], z, {1 - z, z}, {span.R_A * bubble, -(span.R_B * bubble)}});
+      points_.push_back({L * part * Gauss3::weight[g], z, {1 - z, z}, {span.R_A * bubble, -(span.R_B * bubble)}});
     }
 }
 

@@ -34,9 +34,14 @@ MassProperties placed(const Frame& H_BA, const MassProperties& body) {
 }
 
 std::string inertia_fault(const Matrix3& inertia) {
+  if (!inertia.allFinite()) return "the inertia tensor about the centre of mass is too large for a number";
   const Vector3 p = Eigen::SelfAdjointEigenSolver<Matrix3>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
   const std::string found = fmt::format("its principal moments are {:.6g}, {:.6g} and {:.6g} kg m^2", p[0], p[1], p[2]);
-  if (!(p[0] > 0)) return "the inertia tensor about the centre of mass must be positive definite; " + found;
+  // Rounding of a tensor in axes turned against its own.
+  if (!(p[0] >= -1e-9 * p[2] && p[2] > 0))
+    return "the inertia tensor about the centre of mass must be positive definite (one principal moment may be zero: a "
+           "line of mass; without any inertia: `point_mass`); " +
+           found;
   if (p[2] > (p[0] + p[1]) * (1 + 1e-3))
     return "no body has this inertia about its centre of mass: the largest principal moment exceeds the sum of the two "
            "others; " +

@@ -2,7 +2,7 @@
 //
 //   Steiner: J_O = J_C - m c~ c~;     sum of bodies: m c = sum m_k c_k,  J_O = sum J_O,k
 //   turned by R: J -> R J R^T
-// A distribution of positive mass has positive principal moments, of which none exceeds the sum of the two others.
+// A distribution of positive mass has no negative principal moments, and none exceeds the sum of the two others.
 #pragma once
 
 #include <string>
@@ -28,6 +28,7 @@ MassProperties placed(const Frame& H_BA, const MassProperties& body);
 
 /// Why no body of positive mass has this inertia about its centre of mass, with its principal moments; empty when one
 /// has. Moments of thin plates and rods lie on the bound and are rounded in input files: 0.1 % beyond it is accepted.
+/// The moment of a line of mass about itself may be zero.
 std::string inertia_fault(const Matrix3& inertia);
 
 // Homogeneous solids of density 1 kg/m^3 about the middle of their axis. Lengths [m], z the axis.

@@ -6,6 +6,7 @@ namespace bielle::mechanism {
 
 RigidBody::RigidBody(std::string type, std::string name, int node, const MassProperties& properties)
     : Component(std::move(type), std::move(name)),
+      properties_(properties),
       node_(node),
       m_(properties.mass),
       c_(properties.centre),
@@ -24,10 +25,11 @@ void RigidBody::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) con
   r.segment<3>(3) += J_ * n.Omegadot + n.Omega.cross(J_ * n.Omega) + m_ * c_.cross(n.R.transpose() * a);
 }
 
+// clang-format off
 // Columns dx | dTheta of node axes:
-//   M = [ m I        -m R c~ ]   C = [ 0  -m R (Omega~ c~ + (Omega~ c)~) ]   K = [ 0  -m R (Omegadot~ c + Omega~ Omega~
-//   c)~ ]
-//       [ m c~ R^T    J      ]       [ 0  Omega~ J - (J Omega)~           ]       [ 0  m c~ (R^T (xddot - g))~ ]
+//   M = [ m I        -m R c~ ]   C = [ 0  -m R (Omega~ c~ + (Omega~ c)~) ]   K = [ 0  -m R (Omegadot~ c + Omega~ Omega~ c)~ ]
+//       [ m c~ R^T    J      ]       [ 0  Omega~ J - (J Omega)~          ]       [ 0  m c~ (R^T (xddot - g))~             ]
+// clang-format on
 void RigidBody::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   const NodeState& n = state.node(0);
   const Matrix3 c = skew(c_);

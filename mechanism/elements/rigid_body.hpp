@@ -31,7 +31,10 @@ class RigidBody : public Component {
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
 
+  const MassProperties& properties() const { return properties_; }  ///< in the node's axes
+
  private:
+  MassProperties properties_;
   int node_;
   double m_;
   Vector3 c_;

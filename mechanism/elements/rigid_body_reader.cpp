@@ -1,5 +1,6 @@
 // Rigid bodies and point masses in the mechanism file.
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -60,6 +61,12 @@ Matrix3 read_inertia(const YamlValue& entry, double mass, const Vector3& centre)
   return J;
 }
 
+/// Sizes that are far off make masses and moments that no number holds.
+void check_representable(const YamlValue& entry, const MassProperties& p) {
+  if (!(p.mass > 0 && std::isfinite(p.mass) && p.inertia_about_origin().allFinite()))
+    entry.fail("the mass or the inertia is too large or too small for a number; lengths are in m, masses in kg");
+}
+
 /// Further nodes that the body carries: they follow its node and must not be held or carried otherwise.
 void carry(const YamlValue& also, int carrier, const std::string& body, Model& model) {
   for (const YamlValue& item : also.items()) {
@@ -102,6 +109,7 @@ void read_rigid_body(const std::string& name, const YamlValue& entry, Model& mod
     if (const auto centre = entry.find("centre")) p.centre = centre->vector3();
     p.inertia = read_inertia(entry, p.mass, p.centre);
   }
+  check_representable(entry, p);
   if (const auto also = entry.find("also")) carry(*also, node, name, model);
   model.add(std::make_unique<RigidBody>("rigid_body", name, node, p), "elements/" + name);
 }
@@ -111,6 +119,7 @@ void read_point_mass(const std::string& name, const YamlValue& entry, Model& mod
   MassProperties p;
   p.mass = entry.at("mass").positive_number();
   if (const auto centre = entry.find("centre")) p.centre = centre->vector3();
+  check_representable(entry, p);
   model.add(std::make_unique<RigidBody>("point_mass", name, model.node_named_by(entry.at("node")), p),
             "elements/" + name);
 }

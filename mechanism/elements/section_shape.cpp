@@ -4,8 +4,7 @@
 #include <numbers>
 
 #include <Eigen/LU>
-
-#include "mechanism/elements/saint_venant.hpp"
+#include <fmt/format.h>
 
 namespace bielle::mechanism {
 
@@ -37,8 +36,8 @@ SectionConstants tube_constants(double outer_radius, double inner_radius) {
 
 // With kappa = I^-1 (M_y, M_z) per E about the centroid:  sigma = N/A + kappa_y z - kappa_z y,
 //   (M_y, M_z) = [I_y -I_yz; -I_yz I_z] kappa,   M_c = M - o x n,   torque about the shear centre (M - (o + s) x n)_x.
-Eigen::Matrix<double, 3, 6> SectionShape::stress(const Vector2& point, const Vector2& o) const {
-  const SectionConstants& k = constants_;
+Eigen::Matrix<double, 3, 6> unit_stress(const SectionConstants& k, const Vector2& point, const Vector2& o,
+                                        const UnitShearStress& shear_stress) {
   Matrix2 I;
   I << k.I_y, -k.I_yz, -k.I_yz, k.I_z;
   Eigen::Matrix<double, 2, 6> bending = Eigen::Matrix<double, 2, 6>::Zero();  // (M_y, M_z) about the centroid
@@ -52,7 +51,7 @@ Eigen::Matrix<double, 3, 6> SectionShape::stress(const Vector2& point, const Vec
   Eigen::Matrix<double, 3, 6> map;
   map.row(0) = Eigen::RowVector2d(point.y(), -point.x()) * I.inverse() * bending;
   map(0, 0) += 1 / k.A;
-  map.bottomRows<2>() = shear_stress(point) * shear;
+  map.bottomRows<2>() = shear_stress * shear;
   return map;
 }
 
@@ -71,7 +70,7 @@ class Rectangle : public SectionShape {
 
   // Torsion by Prandtl's function phi, tau = (phi_z, -phi_y), u along the longer side a and w along the shorter c:
   //   phi = c^2/4 - w^2 - (8 c^2/pi^3) sum_{n odd} (-1)^((n-1)/2)/n^3 cosh(n pi u/c)/cosh(n pi a/(2c)) cos(n pi w/c)
-  Eigen::Matrix<double, 2, 3> shear_stress(const Vector2& p) const override {
+  UnitShearStress shear_stress(const Vector2& p) const override {
     const bool upright = h_ > b_;
     const double a = upright ? h_ : b_, c = upright ? b_ : h_;
     const double u = std::abs(upright ? p.y() : p.x()), w = upright ? p.x() : p.y();
@@ -87,7 +86,7 @@ class Rectangle : public SectionShape {
     }
     if ((upright ? p.y() : p.x()) < 0) phi_u = -phi_u;
     const SectionConstants& k = constants();
-    Eigen::Matrix<double, 2, 3> tau = Eigen::Matrix<double, 2, 3>::Zero();
+    UnitShearStress tau = UnitShearStress::Zero();
     tau(0, 0) = 1.5 / k.A * (1 - 4 * p.x() * p.x() / (b_ * b_));
     tau(1, 1) = 1.5 / k.A * (1 - 4 * p.y() * p.y() / (h_ * h_));
     tau.col(2) = Vector2(upright ? phi_u : phi_w, upright ? -phi_w : -phi_u) / k.J;
@@ -108,11 +107,11 @@ class Tube : public SectionShape {
 
   // Phi = -(1/I) (r^3/8 + A r + B/r) cos phi with Phi_r = 0 at both radii: B = -3/8 ri^2 ro^2, A = -3/8 (ri^2 + ro^2);
   // in y and z, along the force e:  Phi = -(1/I) g(r^2) e.x,  g = r^2/8 + A + B/r^2.
-  Eigen::Matrix<double, 2, 3> shear_stress(const Vector2& p) const override {
+  UnitShearStress shear_stress(const Vector2& p) const override {
     const double r2 = p.squaredNorm(), A = -0.375 * (ri_ * ri_ + ro_ * ro_), B = -0.375 * ri_ * ri_ * ro_ * ro_;
     const double hole = ri_ > 0 ? B / r2 : 0, g = r2 / 8 + A + hole;
     const double slope = 0.125 - (ri_ > 0 ? hole / r2 : 0);  // dg/d(r^2)
-    Eigen::Matrix<double, 2, 3> tau;
+    UnitShearStress tau;
     tau.leftCols<2>() = -(g * Matrix2::Identity() + 2 * slope * p * p.transpose()) / constants().I_y;
     tau.col(2) = Vector2(-p.y(), p.x()) / constants().J;
     return tau;
@@ -124,15 +123,14 @@ class Tube : public SectionShape {
 
 class Walls : public SectionShape {
  public:
-  explicit Walls(std::vector<SectionRectangle> rectangles) : Walls(SaintVenant(std::move(rectangles))) {}
-  bool contains(const Vector2& p) const override { return solution_.contains(p); }
-  Eigen::Matrix<double, 2, 3> shear_stress(const Vector2& p) const override { return solution_.shear_stress(p); }
+  explicit Walls(const RectangleArea& area) : Walls(area, SaintVenant(area)) {}
+  bool contains(const Vector2& p) const override { return area_.contains(p); }
+  UnitShearStress shear_stress(const Vector2& p) const override { return solution_.shear_stress(p); }
 
  private:
-  explicit Walls(SaintVenant solution) : SectionShape(constants_of(solution)), solution_(std::move(solution)) {}
-  static SectionConstants constants_of(const SaintVenant& s) {
-    return {s.area(), s.I_y(), s.I_z(), s.I_yz(), s.J(), s.shear_compliance().inverse(), s.shear_centre()};
-  }
+  Walls(const RectangleArea& area, SaintVenant solution)
+      : SectionShape(wall_constants(area, solution)), area_(area), solution_(std::move(solution)) {}
+  RectangleArea area_;
   SaintVenant solution_;
 };
 
@@ -151,17 +149,10 @@ std::vector<SectionRectangle> walls(const std::string& shape, const VectorX& d) 
           {d[0] - d[2], d[0], d[3], d[1] - d[3]}};
 }
 
-VectorX positive_list(const YamlValue& value, std::size_t count, const std::string& expected) {
-  if (!value.is_sequence() || value.size() != count) value.fail("expected " + expected);
-  VectorX numbers(static_cast<Eigen::Index>(count));
-  for (std::size_t k = 0; k < count; ++k) numbers[static_cast<Eigen::Index>(k)] = value.at(k).positive_number();
-  return numbers;
-}
-
 /// A number for both, or a pair.
 Vector2 one_or_two(const YamlValue& value, const std::string& pair) {
   if (value.is_scalar()) return Vector2::Constant(value.positive_number());
-  return positive_list(value, 2, "a number or a pair " + pair);
+  return value.positive_numbers(2, "a number or a pair " + pair);
 }
 
 VectorX read_walls(const std::string& shape, const YamlValue& value) {
@@ -202,6 +193,17 @@ VectorX read_walls(const std::string& shape, const YamlValue& value) {
   return d.head<4>();
 }
 
+/// Neither a wall nor what stands out beside one may be as thin as the finite elements cannot resolve.
+void check_thin_parts(const YamlValue& value, const RectangleArea& area) {
+  const double part = area.thinnest_part();
+  if (part < SaintVenant::thinnest_part)
+    value.fail(
+        fmt::format("its thinnest part (a wall, or what stands out beside one) is {:.2g} of the section's size, "
+                    "and below {:.0e} its torsion and shear cannot be computed: give the section by its "
+                    "constants `EA`, `GAy`, ...",
+                    part, SaintVenant::thinnest_part));
+}
+
 }  // namespace
 
 const std::vector<std::string>& section_shape_names() {
@@ -210,21 +212,39 @@ const std::vector<std::string>& section_shape_names() {
 }
 
 VectorX read_shape_dimensions(const std::string& shape, const YamlValue& value) {
-  if (shape == "rectangle") return positive_list(value, 2, "[width_y, height_z]");
+  if (shape == "rectangle") return value.positive_numbers(2, "[width_y, height_z]");
   if (shape == "circle") return VectorX::Constant(1, value.positive_number());
   if (shape == "tube") {
-    VectorX radii = positive_list(value, 2, "[outer radius, inner radius]");
+    VectorX radii = value.positive_numbers(2, "[outer radius, inner radius]");
     if (radii[1] >= radii[0]) value.fail("the inner radius must be smaller than the outer one");
     return radii;
   }
-  return read_walls(shape, value);
+  const VectorX dimensions = read_walls(shape, value);
+  check_thin_parts(value, wall_area(shape, dimensions));
+  return dimensions;
+}
+
+bool shape_contains(const std::string& shape, const VectorX& d, const Vector2& point) {
+  return is_made_of_walls(shape) ? wall_area(shape, d).contains(point) : make_section_shape(shape, d)->contains(point);
+}
+
+bool is_made_of_walls(const std::string& shape) {
+  return shape == "i" || shape == "t" || shape == "l" || shape == "box";
+}
+
+RectangleArea wall_area(const std::string& shape, const VectorX& dimensions) {
+  return RectangleArea(walls(shape, dimensions));
+}
+
+SectionConstants wall_constants(const RectangleArea& area, const SaintVenant& s) {
+  return {area.area, area.I(1, 1), area.I(0, 0), area.I(0, 1), s.J(), s.shear_compliance().inverse(), s.shear_centre()};
 }
 
 std::unique_ptr<SectionShape> make_section_shape(const std::string& shape, const VectorX& d) {
   if (shape == "rectangle") return std::make_unique<Rectangle>(d);
   if (shape == "circle") return std::make_unique<Tube>(d[0], 0);
   if (shape == "tube") return std::make_unique<Tube>(d[0], d[1]);
-  return std::make_unique<Walls>(walls(shape, d));
+  return std::make_unique<Walls>(wall_area(shape, d));
 }
 
 }  // namespace bielle::mechanism

@@ -5,21 +5,15 @@
 #include <functional>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "mechanism/system/read_frame.hpp"
 
 namespace bielle::mechanism {
 namespace {
 
-/// `count` lengths, all positive. @param expected  what they are: "[radius, length]"
-VectorX lengths(const YamlValue& value, std::size_t count, const std::string& expected) {
-  if (!value.is_sequence() || value.size() != count) value.fail("expected " + expected);
-  for (const YamlValue& item : value.items()) item.positive_number();
-  return value.vector();
-}
-
 MassProperties read_tube(const YamlValue& value) {
-  const VectorX e = lengths(value, 3, "[outer radius, inner radius, length]");
+  const VectorX e = value.positive_numbers(3, "[outer radius, inner radius, length]");
   if (e[1] >= e[0]) value.fail("the inner radius must be smaller than the outer one");
   return tube(e[0], e[1], e[2]);
 }
@@ -33,7 +27,7 @@ MassProperties read_cone(const YamlValue& value) {
 }
 
 MassProperties read_ring(const YamlValue& value) {
-  const VectorX e = lengths(value, 2, "[radius of the centre line, radius of the section]");
+  const VectorX e = value.positive_numbers(2, "[radius of the centre line, radius of the section]");
   if (e[1] > e[0]) value.fail("the radius of the section must not exceed that of the centre line");
   return ring(e[0], e[1]);
 }
@@ -45,11 +39,11 @@ struct Shape {
 
 const std::vector<Shape>& shapes() {
   static const std::vector<Shape> all = {
-      {"box", [](const YamlValue& v) { return box(lengths(v, 3, "three edges [a, b, c]")); }},
+      {"box", [](const YamlValue& v) { return box(v.positive_numbers(3, "three edges [a, b, c]")); }},
       {"sphere", [](const YamlValue& v) { return sphere(v.positive_number()); }},
       {"cylinder",
        [](const YamlValue& v) {
-         const VectorX e = lengths(v, 2, "[radius, length]");
+         const VectorX e = v.positive_numbers(2, "[radius, length]");
          return cylinder(e[0], e[1]);
        }},
       {"tube", read_tube},
@@ -67,20 +61,26 @@ struct Solid {
 Solid read_solid(const YamlValue& solid) {
   std::vector<std::string> keys = {"density", "mass", "position", "cut"};
   keys.insert(keys.end(), orientation_keys().begin(), orientation_keys().end());
-  std::string names;
+  std::vector<std::string> names;
   const Shape* given = nullptr;
   int count = 0;
   for (const Shape& shape : shapes()) {
-    keys.emplace_back(shape.name);
-    names += fmt::format("{}'{}'", names.empty() ? "" : ", ", shape.name);
+    names.emplace_back(shape.name);
     if (!solid.has(shape.name)) continue;
     given = &shape;
     ++count;
   }
+  if (count == 0)
+    for (const auto& [key, item] : solid.entries())
+      if (std::find(keys.begin(), keys.end(), key) == keys.end())
+        item.fail(fmt::format("'{}' is no solid{}", key, did_you_mean(key, names)));
+  if (count != 1) solid.fail(fmt::format("expected exactly one of '{}'", fmt::join(names, "', '")));
+  keys.insert(keys.end(), names.begin(), names.end());
   solid.check_keys(keys, "a solid");
-  if (count != 1) solid.fail("expected exactly one of " + names);
   const MassProperties unit = given->read(solid.at(given->name));
   if (solid.has("mass") && solid.has("density")) solid.at("mass").fail("give either `density` or `mass` of a solid");
+  if (!(unit.mass > 0 && std::isfinite(unit.mass)))
+    solid.at(given->name).fail("the volume is too large or too small for a number; lengths are in m");
   const double density =
       solid.has("mass") ? solid.at("mass").positive_number() / unit.mass : solid.at("density").positive_number();
   const bool cut = solid.has("cut") && solid.at("cut").boolean();

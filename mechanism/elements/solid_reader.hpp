@@ -7,9 +7,10 @@
 namespace bielle::mechanism {
 
 /// A solid, or a list of solids added up, in the axes of the body's node:
-///   {box: [a, b, c] | sphere: r | cylinder: [r, length] | tube: [outer, inner, length] | cone: [below, above, length]
-///   |
+// clang-format off
+///   {box: [a, b, c] | sphere: r | cylinder: [r, length] | tube: [outer, inner, length] | cone: [below, above, length] |
 ///    ring: [radius, section], density: | mass:, position: [..], orientation key, cut: true}
+// clang-format on
 /// z is the axis of what turns about one; `position` is where the middle of the axis stands. The mass of what is `cut`
 /// is taken away. @throws InputError when nothing is left, or what is left is no body
 MassProperties read_solids(const YamlValue& value);

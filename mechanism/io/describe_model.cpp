@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/elements/beam_element.hpp"
+#include "mechanism/elements/rigid_body.hpp"
 #include "mechanism/joints/joint.hpp"
 #include "mechanism/solvers/redundancy.hpp"
 
@@ -29,6 +31,69 @@ std::string format_start(const StartReport& start) {
   if (start.velocity_change > 1e-9)
     text += fmt::format("  start velocities were changed by up to {:.3g} m/s to satisfy joints and drives\n",
                         start.velocity_change);
+  return text;
+}
+
+/// What the user's numbers made of bodies and beams.
+std::string describe_elements(const Model& model) {
+  std::string text;
+  std::map<std::string, std::vector<const BeamElement*>> beams;
+  for (const Member& member : model.members()) {
+    const Component* component = member.component.get();
+    if (const auto* body = dynamic_cast<const RigidBody*>(component)) {
+      const MassProperties& p = body->properties();
+      const Matrix3& J = p.inertia;
+      text += fmt::format("  element '{}' ({}): mass {:.6g} kg, centre {}", body->name(), body->type(), p.mass,
+                          format_vector(p.centre));
+      if (!J.isZero(0))
+        text +=
+            fmt::format(", inertia about it xx {:.6g}, yy {:.6g}, zz {:.6g}, xy {:.6g}, xz {:.6g}, yz {:.6g} kg m^2",
+                        J(0, 0), J(1, 1), J(2, 2), J(0, 1), J(0, 2), J(1, 2));
+      text += "\n";
+    }
+    if (const auto* beam = dynamic_cast<const BeamElement*>(component)) beams[beam->name()].push_back(beam);
+  }
+  const auto section = [](const char* where, const BeamElement& element) {
+    const auto& C = element.section();
+    return fmt::format(
+        "    section in the middle of {} element: EA {:.6g}, GAy {:.6g}, GAz {:.6g} N, GJ {:.6g}, EIy "
+        "{:.6g}, EIz {:.6g} N m^2{}\n",
+        where, C(0, 0), C(1, 1), C(2, 2), C(3, 3), C(4, 4), C(5, 5),
+        C.isDiagonal(1e-12) ? "" : " about the node line, and coupling terms");
+  };
+  for (const auto& [name, elements] : beams) {
+    double length = 0, mass = 0;
+    for (const BeamElement* element : elements) {
+      length += element->length();
+      mass += element->mass();
+    }
+    text += fmt::format("  element '{}' (beam): length {:.6g} m, mass {:.6g} kg, elements {}\n", name, length, mass,
+                        elements.size());
+    const bool uniform = elements.front()->section() == elements.back()->section();
+    text += section(uniform ? "each" : "the first", *elements.front());
+    if (!uniform) text += section("the last", *elements.back());
+  }
+  return text;
+}
+
+/// Nodes that nothing uses, and directions that no mass resists.
+std::string describe_nodes(const Model& model, const System& system, const State& state) {
+  std::string text;
+  std::set<int> used;
+  for (const Slots& slots : system.slots()) used.insert(slots.nodes.begin(), slots.nodes.end());
+  for (const Node& node : model.nodes())
+    if (node.carrier) used.insert(*node.carrier);
+  for (int k = 0; k < static_cast<int>(model.nodes().size()); ++k)
+    if (used.count(k) == 0 && model.node(k).name != "ground")
+      text +=
+          fmt::format("  unused       node '{}': no element, joint or load is attached to it\n", model.node(k).name);
+  std::vector<double> values;
+  system.tangent(state, model.environment, {0, 0, 1, 0, 0}, nullptr, values);
+  for (int k = 0; k < system.dofs(); ++k) {
+    const int place = system.pattern().find(k, k);
+    if (place < 0 || values[static_cast<std::size_t>(place)] == 0)
+      text += fmt::format("  massless     {}\n", system.unknown_name(k));
+  }
   return text;
 }
 
@@ -73,6 +138,8 @@ std::string describe_model(const MechanismFile& file) {
   text += format_start(report);
   for (const std::string& names : name_constraints(system, redundant))
     text += fmt::format("  redundant    {}: set aside, without reactions\n", names);
+  text += describe_nodes(model, system, state);
+  text += describe_elements(model);
   for (const Member& member : model.members()) {
     const auto* joint = dynamic_cast<const Joint*>(member.component.get());
     if (!joint) continue;

@@ -161,7 +161,9 @@ class Run {
       summary.iterations += iterations;
       progress_.update(factor, fmt::format("load factor {:.4g}", factor));
     };
-    solve_statics(system_, environment_, analysis.steps, NewtonOptions{}, state_, note);
+    Environment statics = environment_;
+    statics.statics = true;
+    solve_statics(system_, statics, analysis.steps, NewtonOptions{}, state_, note);
     summary.energy = books.totals();
     summary.end_time = state_.time;
     return summary;

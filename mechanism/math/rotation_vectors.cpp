@@ -39,10 +39,12 @@ Quaternion quaternion_of_rodrigues(const Vector3& g) {
   return with_parts(1 / scale, g / scale);
 }
 
-/// (4 - c0) times the quaternion: c0 = 2 - |c|^2/8.
+/// A multiple of the quaternion (2 - |c|^2/8, c), made small so that no square overflows.
 Quaternion quaternion_of_conformal(const Vector3& c) {
-  if (!std::isfinite(c.squaredNorm())) throw ComputationError("a conformal rotation vector must be finite");
-  return with_parts(2 - c.squaredNorm() / 8, c);
+  const double scale = std::max(1.0, c.stableNorm());
+  if (!std::isfinite(scale)) throw ComputationError("a conformal rotation vector must be finite");
+  const Vector3 e = c / scale;
+  return with_parts(2 / scale / scale - e.squaredNorm() / 8, e / scale);
 }
 
 Vector3 conformal_of(const Quaternion& principal) { return 4 * principal.tail<3>() / (1 + principal[0]); }
@@ -131,9 +133,9 @@ Matrix3 ConformalVector::rotation(const Vector3& c) { return rotation_of_quatern
 Vector3 ConformalVector::parameters(const Matrix3& R) { return conformal_of(quaternion_of(R)); }
 
 Vector3 ConformalVector::principal(const Vector3& c) {
-  const double square = c.squaredNorm();
-  if (!std::isfinite(square)) throw ComputationError("a conformal rotation vector must be finite");
-  return square <= 16 ? c : Vector3((-16 / square) * c);
+  const double size = c.stableNorm();
+  if (!std::isfinite(size)) throw ComputationError("a conformal rotation vector must be finite");
+  return size <= 4 ? c : Vector3((-16 / size) * (c / size));
 }
 
 Vector3 ConformalVector::compose(const Vector3& c, const Vector3& second) {

@@ -6,6 +6,8 @@
 
 namespace bielle::mechanism {
 
+using Vector2 = Eigen::Vector2d;
+using Matrix2 = Eigen::Matrix2d;
 using Vector3 = Eigen::Vector3d;
 using Matrix3 = Eigen::Matrix3d;
 using Vector6 = Eigen::Matrix<double, 6, 1>;

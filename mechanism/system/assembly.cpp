@@ -5,7 +5,6 @@
 //     dr = (K A + C V + M W_z) G T dp + (C A + M W_v) G dv + M A G da,     rows (A G)^T,
 // plus the turning of the arm at fixed force, c~ (R^T f)~ on the carrier's rotations.
 #include <algorithm>
-#include <array>
 
 #include "mechanism/system/system.hpp"
 
@@ -141,11 +140,14 @@ Energy System::energy(const State& state, const Environment& environment) const 
   return energy;
 }
 
-/// Buffers of one thread: local matrices, their reduced sum; T(Dq) of each node that is free in all directions.
+/// Buffers of one thread, so that no component's turn touches the heap: local matrices, their reduced sum; T(Dq) of
+/// each node that is free in all directions; relations of a component's nodes; a state whose multipliers are tried out.
 struct System::Workspace {
   std::vector<double> K, C, M, columns, sum;
   VectorX r;
   std::vector<Matrix3> step_tangent;
+  std::vector<NodeRelation> relation;
+  State probe;
   explicit Workspace(int n) {
     const auto size = static_cast<std::size_t>(n) * static_cast<std::size_t>(n);
     for (auto* buffer : {&K, &C, &M, &columns, &sum}) buffer->resize(size);
@@ -156,34 +158,39 @@ struct System::Workspace {
 /// K <- d(B v)/dq, C <- B in the rows of holonomic constraints. d(B^T lambda)/dq of one multiplier at a time has the
 /// same derivatives of B in it: with H_k = d(B_k)/dq, it is H_k for lambda = e_k, and d(B_k v)/dq = H_k^T v.
 void System::velocity_rows(const Placement& placement, const LocalState& local, const Component& component,
-                           Eigen::Ref<MatrixX> K, Eigen::Ref<MatrixX> C) const {
+                           Workspace& work) const {
   const Slots& slots = local.slots();
   const int n = slots.size(), dofs = slots.first_order_row(), first = slots.multiplier_row();
-  VectorX v(dofs);
-  for (std::size_t k = 0; k < slots.nodes.size(); ++k)
-    v.segment<6>(6 * static_cast<Eigen::Index>(k)) << local.node(static_cast<int>(k)).v,
-        local.node(static_cast<int>(k)).Omega;
+  using Map = Eigen::Map<MatrixX>;
+  Map K(work.K.data(), n, n), C(work.C.data(), n, n), unused(work.M.data(), n, n), unloaded(work.columns.data(), n, n),
+      loaded(work.sum.data(), n, n);
+  auto v = work.r.head(dofs);
+  for (std::size_t k = 0; k < slots.nodes.size(); ++k) {
+    v.segment<3>(6 * static_cast<Eigen::Index>(k)) = local.node(static_cast<int>(k)).v;
+    v.segment<3>(6 * static_cast<Eigen::Index>(k) + 3) = local.node(static_cast<int>(k)).Omega;
+  }
   v.tail(slots.amplitudes) = local.amplitude_rate();
-  State probe = local.global();
-  auto lambda = probe.multiplier.segment(slots.multiplier_begin, slots.multipliers);
-  const LocalState probed(probe, slots, local.environment());
-  const auto stiffness = [&] {
-    MatrixX sum = MatrixX::Zero(n, n), unused_C = sum, unused_M = sum;
-    LocalTangent tangent{sum, unused_C, unused_M, true, false, false};
+  auto lambda = work.probe.multiplier.segment(slots.multiplier_begin, slots.multipliers);
+  const LocalState probed(work.probe, slots, local.environment());
+  const auto add_stiffness = [&](Map& sum) {
+    sum.setZero();
+    LocalTangent tangent{sum, unused, unused, true, false, false};
     component.add_tangent(probed, tangent);
-    return sum;
   };
   lambda.setZero();
-  const MatrixX unloaded = stiffness();
+  add_stiffness(unloaded);
   for (int row = first; row < n; ++row) {
     if (std::find(placement.nonholonomic.begin(), placement.nonholonomic.end(), row) != placement.nonholonomic.end())
       continue;
     lambda[row - first] = 1;
-    const MatrixX H = (stiffness() - unloaded).topLeftCorner(dofs, dofs);
+    add_stiffness(loaded);
     lambda[row - first] = 0;
-    K.row(row).head(dofs) = v.transpose() * H;
-    C.row(row).head(dofs) = unloaded.row(row).head(dofs);
+    for (int column = 0; column < dofs; ++column) {
+      K(row, column) = v.dot(loaded.col(column).head(dofs) - unloaded.col(column).head(dofs));
+      C(row, column) = unloaded(row, column);
+    }
   }
+  lambda = local.multiplier();
 }
 
 void System::add_reduced(const Placement& placement, const LocalState& local, const TangentWeights& weights,
@@ -206,7 +213,7 @@ void System::add_reduced(const Placement& placement, const LocalState& local, co
   if (wants_C || weights.velocity_level || !placement.plain) C.setZero();
   if (wants_M || !placement.plain) M.setZero();
   if (weights.velocity_level) {
-    velocity_rows(placement, local, component, K, C);
+    velocity_rows(placement, local, component, work);
   } else {
     LocalTangent tangent{K, C, M, wants_K, wants_C, wants_M};
     component.add_tangent(local, tangent);
@@ -247,13 +254,8 @@ void System::add_reduced(const Placement& placement, const LocalState& local, co
   Map sum(work.sum.data(), reduced, reduced);
   const int scalars = n - scalar_row, reduced_scalar_row = reduced - scalars;
   const State& state = local.global();
-  std::array<NodeRelation, 2> pair;
-  std::vector<NodeRelation> many;  // more than two nodes: superelements
-  NodeRelation* relation = pair.data();
-  if (slots.nodes.size() > pair.size()) {
-    many.resize(slots.nodes.size());
-    relation = many.data();
-  }
+  std::vector<NodeRelation>& relation = work.relation;
+  relation.resize(std::max(relation.size(), slots.nodes.size()));
   for (std::size_t k = 0; k < slots.nodes.size(); ++k) relation[k] = relate(kinematics_, slots.nodes[k], state, dq);
   // Columns first, over all local rows; then rows.
   Map columns(work.columns.data(), n, reduced);
@@ -269,16 +271,19 @@ void System::add_reduced(const Placement& placement, const LocalState& local, co
     auto part = columns.middleCols(placement.reduced_begin[k], count);
     const auto Kk = K.middleCols<6>(at), Ck = C.middleCols<6>(at), Mk = M.middleCols<6>(at);
     part.noalias() = Kk * node.displacement_step;
-    part.noalias() += weights.damping * (Ck * node.displacement) + weights.mass * (Mk * node.displacement);
+    part.noalias() += weights.damping * (Ck * node.displacement);
+    part.noalias() += weights.mass * (Mk * node.displacement);
     if (!node.carried) continue;
-    part.noalias() += weights.stiffness * (Ck * node.rate_of_displacement + Mk * node.acceleration_of_displacement);
+    part.noalias() += weights.stiffness * (Ck * node.rate_of_displacement);
+    part.noalias() += weights.stiffness * (Mk * node.acceleration_of_displacement);
     part.noalias() += weights.damping * (Mk * node.acceleration_of_rate);
   }
   sum.bottomRows(scalars) = columns.bottomRows(scalars);
   for (std::size_t k = 0; k < slots.nodes.size(); ++k)
     sum.middleRows(placement.reduced_begin[k], relation[k].displacement.cols()).noalias() =
         relation[k].displacement.transpose() * columns.middleRows<6>(6 * static_cast<Eigen::Index>(k));
-  if (std::any_of(relation, relation + slots.nodes.size(), [](const NodeRelation& node) { return node.carried; })) {
+  if (std::any_of(relation.begin(), relation.begin() + static_cast<std::ptrdiff_t>(slots.nodes.size()),
+                  [](const NodeRelation& node) { return node.carried; })) {
     auto r = work.r.head(n);
     r.setZero();
     component.add_residual(local, r);
@@ -303,6 +308,7 @@ void System::tangent(const State& state, const Environment& environment, const T
   thread_local std::unique_ptr<Workspace> work;
   if (!work || work->r.size() < largest_local_) work = std::make_unique<Workspace>(largest_local_);
   values.assign(static_cast<std::size_t>(pattern_.entry_count()), 0.0);
+  if (weights.velocity_level) work->probe = state;
   if (dq) {
     work->step_tangent.resize(state.nodes.size());
     for (std::size_t i = 0; i < state.nodes.size(); ++i)

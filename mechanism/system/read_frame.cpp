@@ -12,8 +12,9 @@ namespace {
 Matrix3 read_quaternion(const YamlValue& value) {
   const VectorX q = value.vector();
   if (q.size() != 4) value.fail(fmt::format("expected the four numbers w x y z of a quaternion, found {}", q.size()));
-  if (q.norm() == 0) value.fail("a quaternion of length zero is no rotation");
-  return rotation_of_quaternion(q);
+  const double largest = q.cwiseAbs().maxCoeff();
+  if (largest == 0) value.fail("a quaternion of length zero is no rotation");
+  return rotation_of_quaternion(q / largest);
 }
 
 /// Two of the axes: the first as given, the second made orthogonal to it.
@@ -72,6 +73,10 @@ Matrix3 read_orientation(const YamlValue& entry) {
   if (given == "axes") return read_axes(value);
   if (given == "matrix") return read_matrix(value);
   const Vector3 p = value.vector3();
+  const bool angles = given != "rodrigues" && given != "conformal";
+  constexpr double largest = 1e6;  // more turns leave fewer than ten digits of the last one
+  if (angles && p.cwiseAbs().maxCoeff() > largest)
+    value.fail(fmt::format("angles of more than {:.0e} rad do not tell an orientation any more", largest));
   if (given == "rotation_vector") return RotationVector::rotation(p);
   if (given == "bryant") return BryantAngles::rotation(p);
   if (given == "euler") return EulerAngles::rotation(p);

@@ -32,6 +32,7 @@ struct State {
 struct Environment {
   Vector3 gravity = Vector3::Zero();  ///< [m/s^2], inertial, already multiplied by the load factor
   double load_factor = 1;             ///< on loads and drives: 1 but in a static analysis
+  bool statics = false;               ///< the load factor takes the place of time, in messages as well
 };
 
 /// Where a component's unknowns stand in the State. Nodes may repeat; the scalars are contiguous.

@@ -98,7 +98,7 @@ class System {
   };
   struct Workspace;
   void velocity_rows(const Placement& placement, const LocalState& local, const Component& component,
-                     Eigen::Ref<MatrixX> K, Eigen::Ref<MatrixX> C) const;
+                     Workspace& work) const;
   void place(const std::vector<Declaration>& declarations);
   void build_pattern();
   void node_forces(const State& state, const Environment& environment, VectorX& forces, Eigen::Ref<VectorX> r,

@@ -216,8 +216,9 @@ double YamlValue::non_negative_number() const {
 
 int YamlValue::integer() const {
   const double value = number();
-  if (value != std::floor(value) || std::abs(value) > std::numeric_limits<int>::max())
-    fail(fmt::format("expected a whole number, found {}", value));
+  if (value != std::floor(value)) fail(fmt::format("expected a whole number, found {}", value));
+  constexpr int largest = std::numeric_limits<int>::max();
+  if (std::abs(value) > largest) fail(fmt::format("expected a whole number of at most {}, found {}", largest, value));
   return static_cast<int>(value);
 }
 
@@ -249,6 +250,12 @@ Eigen::VectorXd YamlValue::vector() const {
   Eigen::VectorXd result(static_cast<Eigen::Index>(all.size()));
   for (std::size_t i = 0; i < all.size(); ++i) result(static_cast<Eigen::Index>(i)) = all[i].number();
   return result;
+}
+
+Eigen::VectorXd YamlValue::positive_numbers(std::size_t count, const std::string& expected) const {
+  if (!is_sequence() || size() != count) fail("expected " + expected);
+  for (const YamlValue& item : items()) item.positive_number();
+  return vector();
 }
 
 Eigen::Vector3d YamlValue::vector3() const {

@@ -23,8 +23,7 @@ namespace bielle {
 ///
 /// Every reader throws InputError `file:line: path.of.key: what was expected`. A map's unknown keys are refused by
 /// `check_keys`, which each reader of a map calls once: nothing in a file is silently ignored. Duplicate keys, merge
-/// keys
-/// (`<<`) and second documents are refused when the file is loaded.
+/// keys (`<<`) and second documents are refused when the file is loaded.
 class YamlValue {
  public:
   /// Loads a file. @throws InputError when it is missing, unreadable or no valid YAML (with the line).
@@ -66,6 +65,8 @@ class YamlValue {
   /// One of the given words; the message offers the nearest. @param what  in words with its article: "a joint type"
   std::string word(const std::vector<std::string>& allowed, const std::string& what) const;
   Eigen::VectorXd vector() const;
+  /// A list of `count` numbers greater than 0. @param expected  what they are: "[radius, length]"
+  Eigen::VectorXd positive_numbers(std::size_t count, const std::string& expected) const;
   Eigen::Vector3d vector3() const;
   Eigen::Vector3d direction() const;  ///< vector3, normalised. @throws when zero
   Eigen::MatrixXd matrix(Eigen::Index rows, Eigen::Index columns) const;

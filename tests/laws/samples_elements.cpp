@@ -55,7 +55,7 @@ elements:
            {"inertia", "[0.1, 0.1, 0.1]", "positive definite"},
            {"inertia_about", "body", "'node'"},
            {"centre", "[5, 0, 0]", "inertia"},
-           {"inertia_axes", "{bryant: [1, 2]}", ""}}};
+           {"inertia_axes.bryant", "[1, 2]", ""}}};
 }
 
 Sample solid_body() {
@@ -90,7 +90,15 @@ elements:
           {{"node", "c", "no node 'c'"},
            {"solid", "[]", "at least one"},
            {"solid", "[{sphere: 1, density: 1, cut: true}]", "no mass"},
-           {"solid", "[{sphere: 0, density: 1}]", "greater than 0"}}};
+           {"solid", "[{sphere: 0, density: 1}]", "greater than 0"},
+           {"solid.0.box", "[1, 2]", "three edges"},
+           {"solid.0.density", "", ""},
+           {"solid.0.position", "[1, 2]", ""},
+           {"solid.0.bryant", "[1, 2]", ""},
+           {"solid.1.cone", "[0, 0, 1]", "radii"},
+           {"solid.1.mass", "0", "greater than 0"},
+           {"solid.2.cylinder", "[1, 2, 3]", "[radius, length]"},
+           {"solid.2.cut", "maybe", "true or false"}}};
 }
 
 Sample point_mass() {
@@ -180,6 +188,12 @@ elements:
       - {EA: 3, GAy: 1, GAz: 2, GJ: 2, EIy: 1, EIz: 1}
 )yaml",
           {{"nodes", "[a, 3]", "no node '3'"},
+           {"section.0.EA", "0", "greater than 0"},
+           {"section.0.GAy", "", "GAy"},
+           {"section.0.GAz", "-1", "greater than 0"},
+           {"section.1.GJ", "0", "greater than 0"},
+           {"section.1.EIy", "[1]", ""},
+           {"section.1.EIz", "0", "greater than 0"},
            {"elements", "x", ""},
            {"arc_centre", "[0, 0, 0.1]", "not at one distance"},
            {"section", "[{circle: 1, young: 1, shear: 1}]", "pair"}}};
@@ -202,10 +216,52 @@ elements:
 )yaml",
           {{"nodes", "[a, c]", "no node 'c'"},
            {"elements", "0", "at least one"},
+           {"section.0.l", "[1, 2]", "section"},
+           {"section.0.l.width", "0", "greater than 0"},
+           {"section.0.l.height", "", "height"},
+           {"section.1.l.thickness", "2", "thinner"},
+           {"section.0.stress_points", "[]", "at least one point"},
            {"section", "{l: {width: 1, height: 1, thickness: 2}, young: 1, shear: 1}", "thinner"},
            {"section", "{l: {width: 1, height: 1, thicknes: 0.2}, young: 1, shear: 1}", "did you mean 'thickness'"},
            {"section", "{circle: 1, young: 1, shear: 1, stress_points: [[2, 0]]}", "outside of the section"},
            {"section", "{circle: 1, young: 1, shear: 1, stress_points: [[0]]}", "a point [y, z]"}}};
+}
+
+/// Every other kind of section, with all of its keys.
+Sample beam_of(const std::string& variant, const std::string& section, std::vector<BadValue> bad) {
+  bad.insert(bad.end(), {{"nodes", "[a, c]", "no node 'c'"}, {"elements", "0", "at least one"}});
+  return {Section::elements, "beam", variant,
+          two_nodes + "elements:\n  it: {type: beam, nodes: [a, b], elements: 1, section: " + section + "}\n",
+          std::move(bad)};
+}
+
+std::vector<Sample> beams_of_sections() {
+  const std::string steel = ", young: 2, shear: 1, density: 1.5}";
+  return {beam_of("circle", "{circle: 0.4" + steel,
+                  {{"section.circle", "0", "greater than 0"}, {"section.shear", "-1", "greater than 0"}}),
+          beam_of("tube", "{tube: [0.5, 0.3]" + steel, {{"section.tube", "[0.3, 0.5]", "must be smaller"}}),
+          beam_of("i section", "{i: {width: [0.8, 0.6], height: 1, web: 0.1, flange: [0.2, 0.15]}" + steel,
+                  {{"section.i.width", "[1, 2, 3]", "pair [below, above]"},
+                   {"section.i.height", "0.3", "room for a web"},
+                   {"section.i.web", "0.7", "thinner"},
+                   {"section.i.flange", "[0, 1]", "greater than 0"}}),
+          beam_of("t section", "{t: {width: 0.8, height: 1, web: 0.1, flange: 0.2}" + steel,
+                  {{"section.t.width", "", "width"},
+                   {"section.t.height", "0.1", "room for a web"},
+                   {"section.t.web", "1", "thinner"},
+                   {"section.t.flange", "0", "greater than 0"}}),
+          beam_of("box section", "{box: {width: 0.8, height: 1, thickness: [0.1, 0.2]}" + steel,
+                  {{"section.box.width", "0.1", "hollow"},
+                   {"section.box.height", "0", "greater than 0"},
+                   {"section.box.thickness", "[1e-6, 0.1]", "thinnest part"}}),
+          beam_of("constants with mass",
+                  "{EA: 4, GAy: 2, GAz: 3, GJ: 1, EIy: 2, EIz: 1, mass_per_length: 1, Jx: 0.4, Jy: 0.3, Jz: 0.2, "
+                  "offset: [0.1, 0.2]}",
+                  {{"section.mass_per_length", "-1", "at least 0"},
+                   {"section.Jx", "0", "mass moments > 0"},
+                   {"section.Jy", "", "Jy"},
+                   {"section.Jz", "x", "x"},
+                   {"section.offset", "[1]", "[y, z]"}})};
 }
 
 /// Loads per length, dead and follower, beside the centre of a curved and twisted beam.
@@ -315,7 +371,9 @@ elements:
                  {"damping", "{ratio: -1}", "at least 0"},
                  {"damping.rayleigh", "[0.1]", "[alpha, beta]"},
                  {"loads", "{pull: 1}", "no load pattern"},
-                 {"loads.push", "'x*t'", "x"}}};
+                 {"loads.push", "'x*t'", "x"},
+                 {"loads.spread.factor", "'x*t'", "x"},
+                 {"loads.spread.follower", "maybe", "true or false"}}};
   sample.scales.deformation = 0.1;
   sample.scales.amplitude = 0.1;
   sample.files = [](const std::string& folder) {
@@ -351,6 +409,7 @@ elements:
 )yaml",
                 {{"file", "", ""},
                  {"nodes", "{a: root, b: tip}", "leaves some directions of its node free"},
+                 {"nodes.b", "root", "m away"},
                  {"nodes.c", "tip", "m away"}}};
   sample.scales.length = 0.5;  // held this loosely, the body turns about its slender axis when the middle moves by less
   sample.scales.deformation = 0.1;
@@ -398,25 +457,27 @@ loads:
 }  // namespace
 
 std::vector<Sample> element_samples() {
-  return {rigid_body(),
-          turned_body(),
-          solid_body(),
-          drilled_body(),
-          point_mass(),
-          beam(),
-          curved_beam(),
-          tapered_beam(),
-          tapered_shape(),
-          dead_line_load(),
-          follower_line_load(),
-          spring(),
-          spring_by_formula(),
-          timed_spring(),
-          superelement_with_followers(),
-          superelement_with_dead_load(),
-          superelement_with_free_directions(),
-          dead_load(),
-          follower_load()};
+  std::vector<Sample> list = {rigid_body(),
+                              turned_body(),
+                              solid_body(),
+                              drilled_body(),
+                              point_mass(),
+                              beam(),
+                              curved_beam(),
+                              tapered_beam(),
+                              tapered_shape(),
+                              dead_line_load(),
+                              follower_line_load(),
+                              spring(),
+                              spring_by_formula(),
+                              timed_spring(),
+                              superelement_with_followers(),
+                              superelement_with_dead_load(),
+                              superelement_with_free_directions(),
+                              dead_load(),
+                              follower_load()};
+  for (Sample& sample : beams_of_sections()) list.push_back(std::move(sample));
+  return list;
 }
 
 }  // namespace bielle::laws

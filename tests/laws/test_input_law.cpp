@@ -1,5 +1,11 @@
 // Law 5: a value outside its range, of the wrong kind, or missing is refused with file, line and key; so is an unknown
-// key.
+// key, however deep it stands. Every key stands in the manual.
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <set>
+#include <sstream>
+
 #include <catch2/catch.hpp>
 #include <yaml-cpp/yaml.h>
 
@@ -12,13 +18,33 @@ using Catch::Contains;
 
 namespace {
 
+std::vector<std::string> split(const std::string& path) {
+  std::vector<std::string> parts;
+  std::istringstream in(path);
+  for (std::string part; std::getline(in, part, '.');) parts.push_back(part);
+  return parts;
+}
+
+bool is_index(const std::string& part) {
+  return std::all_of(part.begin(), part.end(), [](unsigned char c) { return std::isdigit(c); });
+}
+
+/// "solid.1.cone" -> "solid.cone"
+std::string without_indices(const std::string& path) {
+  std::string key;
+  for (const std::string& part : split(path))
+    if (!is_index(part)) key += (key.empty() ? "" : ".") + part;
+  return key;
+}
+
 /// The sample's model with one value of `it` changed; an empty value leaves the key out.
 std::string changed(const Sample& sample, const std::string& key, const std::string& value) {
   YAML::Node root = YAML::Load(sample.model);
   YAML::Node entry = root[bielle::mechanism::section_name(sample.section)]["it"];
-  std::string last = key;
-  for (std::size_t dot; (dot = last.find('.')) != std::string::npos; last = last.substr(dot + 1))
-    entry.reset(entry[last.substr(0, dot)]);
+  std::vector<std::string> parts = split(key);
+  const std::string last = parts.back();
+  parts.pop_back();
+  for (const std::string& part : parts) entry.reset(entry.IsSequence() ? entry[std::stoul(part)] : entry[part]);
   if (value.empty())
     entry.remove(last);
   else
@@ -32,10 +58,34 @@ std::string message(const Sample& sample, const std::string& text) {
   return bielle::test::message_of<bielle::InputError>([&] { read_sample(sample, text); });
 }
 
-std::vector<std::string> keys_of(const Sample& sample) {
-  std::vector<std::string> keys;
-  for (const auto& item : YAML::Load(sample.model)[bielle::mechanism::section_name(sample.section)]["it"])
-    keys.push_back(item.first.as<std::string>());
+/// Paths of all keys below a node, and of the maps that hold them ("" the component itself).
+void collect(const YAML::Node& node, const std::string& path, std::vector<std::string>& keys,
+             std::vector<std::string>& maps) {
+  const std::string prefix = path.empty() ? "" : path + ".";
+  if (node.IsMap()) {
+    maps.push_back(path);
+    for (const auto& item : node) {
+      keys.push_back(prefix + item.first.as<std::string>());
+      collect(item.second, keys.back(), keys, maps);
+    }
+  } else if (node.IsSequence()) {
+    for (std::size_t k = 0; k < node.size(); ++k) collect(node[k], prefix + std::to_string(k), keys, maps);
+  }
+}
+
+struct Keys {
+  std::vector<std::string> paths, maps;
+  explicit Keys(const Sample& sample) {
+    collect(YAML::Load(sample.model)[bielle::mechanism::section_name(sample.section)]["it"], "", paths, maps);
+  }
+};
+
+/// Keys of a type, without indices, that some sample of the type shows a bad value of.
+std::set<std::string> keys_with_bad_values(const Sample& like) {
+  std::set<std::string> keys;
+  for (const Sample& sample : samples())
+    if (sample.section == like.section && sample.type == like.type)
+      for (const BadValue& bad : sample.bad) keys.insert(without_indices(bad.key));
   return keys;
 }
 
@@ -51,16 +101,50 @@ TEST_CASE("law 5: values out of range are refused with their key") {
       CHECK_THAT(said, Contains(bad.key.substr(bad.key.rfind('.') + 1)));
       CHECK_THAT(said, Contains(bad.says));
     }
-    for (const std::string& key : keys_of(sample)) {
+    const Keys keys(sample);
+    const std::set<std::string> tried = keys_with_bad_values(sample);
+    for (const std::string& key : keys.paths) {
+      if (key == "type") continue;
       CAPTURE(title(sample), key);
+      const bool top = key.find('.') == std::string::npos;
+      // Each key that a sample shows has a bad value: at the top in this sample, below in any of the type.
       const auto concerns = [&](const BadValue& b) { return b.key == key || b.key.rfind(key + ".", 0) == 0; };
-      const bool covered = key == "type" || std::any_of(sample.bad.begin(), sample.bad.end(), concerns);
-      CHECK(covered);  // each key that a sample shows has a bad value
+      const std::string plain = without_indices(key);
+      const bool below = tried.count(plain) > 0 ||
+                         std::any_of(tried.begin(), tried.end(),
+                                     [&](const std::string& other) { return other.rfind(plain + ".", 0) == 0; });
+      CHECK((top ? std::any_of(sample.bad.begin(), sample.bad.end(), concerns) : below));
       // The wrong kind of value altogether.
       CHECK_THAT(message(sample, changed(sample, key, "{nonsense: 1}")),
-                 Contains("model.yaml:") && Contains(place) && Contains(key));
+                 Contains("model.yaml:") && Contains(place) && Contains(split(plain).back()));
     }
-    CAPTURE(title(sample));
-    CHECK_THAT(message(sample, changed(sample, "nonsense", "1")), Contains("model.yaml:") && Contains("nonsense"));
+    for (const std::string& map : keys.maps) {
+      CAPTURE(title(sample), map);
+      CHECK_THAT(message(sample, changed(sample, (map.empty() ? "" : map + ".") + "nonsense", "1")),
+                 Contains("model.yaml:") && Contains(place) && Contains("nonsense"));
+    }
   }
+}
+
+TEST_CASE("law 5: every key that a sample shows stands in the manual") {
+  std::ifstream file(BIELLE_SOURCE_DIR "/mechanism/README.md");
+  REQUIRE(file);
+  std::set<std::string> words;
+  std::string word;
+  for (char c; file.get(c);) {
+    if (std::isalnum(static_cast<unsigned char>(c)) || c == '_') {
+      word += c;
+      continue;
+    }
+    words.insert(word);
+    word.clear();
+  }
+  for (const Sample& sample : samples())
+    for (const std::string& path : Keys(sample).paths) {
+      const std::vector<std::string> parts = split(without_indices(path));
+      // What stands directly below these keys are names of the user's.
+      const bool is_name = parts.size() == 2 && (parts[0] == "nodes" || parts[0] == "loads");
+      CAPTURE(title(sample), path);
+      if (!is_name) CHECK(words.count(parts.back()) == 1);
+    }
 }

@@ -71,6 +71,37 @@ struct StaticModel {
     return 0.5 * (low + high);
   }
 
+  /// Displacement control: moves a node's coordinate (0..2) to a value in equal steps, the load factor adapting itself.
+  /// Goes past limit points of the load. @returns the load factor @throws std::runtime_error without convergence
+  double control(const std::string& name, int coordinate, double value, int steps, double tolerance) {
+    const auto row = std::find(free.begin(), free.end(), unknown(name, coordinate)) - free.begin();
+    const Eigen::Index n = static_cast<Eigen::Index>(free.size());
+    const double from = node(name).x[coordinate];
+    for (int k = 1; k <= steps; ++k) {
+      const double target = from + (value - from) * k / steps;
+      for (int iteration = 0;; ++iteration) {
+        if (iteration == 40) throw std::runtime_error("no equilibrium at a prescribed displacement");
+        const mechanism::VectorX r = dense.residual(state)(free);
+        const double gap = target - node(name).x[coordinate];
+        if (iteration > 0 && r.cwiseAbs().maxCoeff() < tolerance && std::abs(gap) < 1e-12 * (1 + std::abs(target)))
+          break;
+        dense.environment.load_factor += 1;
+        mechanism::MatrixX bordered = mechanism::MatrixX::Zero(n + 1, n + 1);
+        bordered.col(n).head(n) = dense.residual(state)(free) - r;  // loads are linear in their factor
+        dense.environment.load_factor -= 1;
+        bordered.topLeftCorner(n, n) = stiffness();
+        bordered(n, row) = 1;
+        mechanism::VectorX right(n + 1), all = mechanism::VectorX::Zero(dense.size());
+        right << -r, gap;
+        const mechanism::VectorX step = bordered.partialPivLu().solve(right);
+        all(free) = step.head(n);
+        dense.move(state, all);
+        dense.environment.load_factor += step[n];
+      }
+    }
+    return dense.environment.load_factor;
+  }
+
   /// Goes to a load factor in equal steps from where it is; a step that does not converge is halved.
   /// @returns the most iterations of a step; -1: none
   int load(int steps, double tolerance, double factor = 1, double from = 0) {

@@ -1,7 +1,6 @@
-// Lee's frame and a deep arch on their way to the first limit point, and the bifurcation of a shallow arch.
+// Lee's frame and a deep arch up to and past their limit points, and the bifurcation of a shallow arch.
 //
-// Paths by shooting in long double (1e-9), Reissner's rod with linear strains. Static analyses prescribe the load here:
-// they stop short of the limit points (Lee 1.85466, arch 897.28), which need an arc length.
+// Paths and limit points by shooting in long double (1e-9), Reissner's rod with linear strains.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -42,23 +41,56 @@ void check_path(const Model& make, const std::vector<PathPoint>& path, const Vec
   }
 }
 
+/// The extreme load between two displacements of the loaded point, by parabolas through three points ever closer.
+double extreme_load(StaticModel& model, double low, double high, double tolerance) {
+  const auto P = [&](double u) { return model.control("load", 0, u, 2, tolerance); };
+  for (int k = 0; k < 4; ++k) {
+    const double middle = 0.5 * (low + high), half = 0.5 * (high - low);
+    const double a = P(low), b = P(middle), c = P(high);
+    const double off = 0.5 * half * (a - c) / (a - 2 * b + c);
+    low = middle + off - 0.2 * half;
+    high = middle + off + 0.2 * half;
+  }
+  return P(0.5 * (low + high));
+}
+
+void check_order(const std::vector<double>& values, double exact) {
+  std::vector<double> errors;
+  for (const double value : values) errors.push_back(std::abs(value / exact - 1));
+  CAPTURE(exact, errors);
+  for (std::size_t k = 0; k + 1 < errors.size(); ++k) CHECK(std::log2(errors[k] / errors[k + 1]) > 1.9);
+}
+
+StaticModel lees_frame(int elements) {
+  const std::string section =
+      ", orientation: [0, 0, 1], section: {EA: 4320, GAy: 4320/2.6, GAz: 4320/2.6, GJ: 1e3, EIy: 1440, EIz: 1440}}\n";
+  return StaticModel(
+      "nodes:\n  base: {position: [0, 0, 0], fixed: [x, y, z, rx, ry]}\n  corner: {position: [0, 120, 0]}\n"
+      "  load: {position: [24, 120, 0]}\n  end: {position: [120, 120, 0], fixed: [x, y, z, rx, ry]}\nelements:\n" +
+      fmt::format("  column: {{type: beam, nodes: [base, corner], elements: {}{}", elements, section) +
+      fmt::format("  left: {{type: beam, nodes: [corner, load], elements: {}{}", elements / 5, section) +
+      fmt::format("  right: {{type: beam, nodes: [load, end], elements: {}{}", 4 * elements / 5, section) +
+      "loads: {p: {node: load, force: [0, -1, 0]}}\n");
+}
+
+StaticModel deep_arch(int elements) {
+  const std::string section =
+      ", orientation: [0, 0, 1], section: {EA: 1e8, GAy: 5e7, GAz: 5e7, GJ: 1e6, EIy: 1e6, EIz: 1e6}}\n";
+  return StaticModel(
+      "parameters: {half: 215*pi/360}\nnodes:\n  left: {position: [-100*sin(half), 100*cos(half), 0], fixed: true}\n"
+      "  load: {position: [0, 100, 0]}\n"
+      "  right: {position: [100*sin(half), 100*cos(half), 0], fixed: [x, y, z, rx, ry]}\nelements:\n" +
+      fmt::format("  a: {{type: beam, nodes: [left, load], arc_centre: [0, 0, 0], elements: {}{}", elements, section) +
+      fmt::format("  b: {{type: beam, nodes: [load, right], arc_centre: [0, 0, 0], elements: {}{}", elements, section) +
+      "loads: {p: {node: load, force: [0, -1, 0]}}\n");
+}
+
 }  // namespace
 
 TEST_CASE("Lee's frame up to 94 percent of its limit load") {
   // S. Lee, F. Manuel, E. Rossow, J. Eng. Mech. Div. ASCE 94 (1968): column and beam of 120, A = 6, I = 2, E = 720, nu
   // = 0.3 (here GA = G A), both ends pinned, load 24 from the corner.
-  const auto frame = [](int elements) {
-    const std::string section =
-        ", orientation: [0, 0, 1], section: {EA: 4320, GAy: 4320/2.6, GAz: 4320/2.6, GJ: 1e3, EIy: 1440, EIz: 1440}}\n";
-    return StaticModel(
-        "nodes:\n  base: {position: [0, 0, 0], fixed: [x, y, z, rx, ry]}\n  corner: {position: [0, 120, 0]}\n"
-        "  load: {position: [24, 120, 0]}\n  end: {position: [120, 120, 0], fixed: [x, y, z, rx, ry]}\nelements:\n" +
-        fmt::format("  column: {{type: beam, nodes: [base, corner], elements: {}{}", elements, section) +
-        fmt::format("  left: {{type: beam, nodes: [corner, load], elements: {}{}", elements / 5, section) +
-        fmt::format("  right: {{type: beam, nodes: [load, end], elements: {}{}", 4 * elements / 5, section) +
-        "loads: {p: {node: load, force: [0, -1, 0]}}\n");
-  };
-  check_path(frame,
+  check_path(lees_frame,
              {{0.604018511292, 0.487976747033, 4.861943800593},
               {1.410408115941, 6.293514103106, 22.353842423787},
               {1.738618841387, 15.415160093601, 37.419834807730}},
@@ -68,24 +100,44 @@ TEST_CASE("Lee's frame up to 94 percent of its limit load") {
 TEST_CASE("a deep arch of 215 degrees, clamped and hinged, up to 95 percent of its limit load") {
   // D. DaDeppo, R. Schmidt, J. Appl. Mech. 42 (1975) 923 (8.97 EI/R^2 when inextensible): R = 100, EI = 1e6, EA = 1e8,
   // GA = 5e7.
-  const auto arch = [](int elements) {
-    const std::string section =
-        ", orientation: [0, 0, 1], section: {EA: 1e8, GAy: 5e7, GAz: 5e7, GJ: 1e6, EIy: 1e6, EIz: 1e6}}\n";
-    return StaticModel(
-        "parameters: {half: 215*pi/360}\nnodes:\n  left: {position: [-100*sin(half), 100*cos(half), 0], fixed: true}\n"
-        "  load: {position: [0, 100, 0]}\n"
-        "  right: {position: [100*sin(half), 100*cos(half), 0], fixed: [x, y, z, rx, ry]}\nelements:\n" +
-        fmt::format("  a: {{type: beam, nodes: [left, load], arc_centre: [0, 0, 0], elements: {}{}", elements,
-                    section) +
-        fmt::format("  b: {{type: beam, nodes: [load, right], arc_centre: [0, 0, 0], elements: {}{}", elements,
-                    section) +
-        "loads: {p: {node: load, force: [0, -1, 0]}}\n");
-  };
-  check_path(arch,
+  check_path(deep_arch,
              {{129.2616799121, 3.7292321190, 4.9729923407},
               {704.6534988680, 51.5213715637, 78.1250791701},
               {855.9577692765, 58.5490094730, 103.8932073765}},
              {0, 100, 0}, 50, 1e-4, 100);
+}
+
+TEST_CASE("the limit loads of Lee's frame, before and behind its snap") {
+  // The horizontal displacement of the loaded point grows all the way; the vertical one turns back in between.
+  std::vector<double> first, second;
+  for (const int elements : {5, 10, 20}) {
+    StaticModel frame = lees_frame(elements);
+    frame.keep_directions({0, 1, 5});
+    frame.dense.environment.load_factor = 0;
+    frame.control("load", 0, 24.01, 1, 1e-9);
+    frame.control("load", 0, 48, 24, 1e-9);
+    first.push_back(extreme_load(frame, 24 + 24, 24 + 30, 1e-9));
+    frame.control("load", 0, 110, 60, 1e-9);
+    second.push_back(extreme_load(frame, 110, 116, 1e-9));
+  }
+  check_order(first, 1.8546558740);
+  check_order(second, -0.9396142357);
+  CHECK_THAT(first.back(), Catch::WithinRel(1.8546558740, 1e-3));
+  CHECK_THAT(second.back(), Catch::WithinRel(-0.9396142357, 1e-2));
+}
+
+TEST_CASE("the limit load of the deep arch") {
+  std::vector<double> loads;
+  for (const int elements : {10, 20, 40}) {
+    StaticModel arch = deep_arch(elements);
+    arch.keep_directions({0, 1, 5});
+    arch.dense.environment.load_factor = 0;
+    arch.control("load", 0, 0.1, 1, 1e-4);
+    arch.control("load", 0, 60, 60, 1e-4);
+    loads.push_back(extreme_load(arch, 60, 62, 1e-4));
+  }
+  check_order(loads, 897.283320159);
+  CHECK_THAT(loads.back(), Catch::WithinRel(897.283320159, 1e-3));
 }
 
 TEST_CASE("a shallow arch bifurcates to its side before it snaps through") {

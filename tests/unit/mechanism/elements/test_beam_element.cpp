@@ -179,16 +179,20 @@ TEST_CASE("an element whose ends turn too far refuses with the advice to refine"
   element.state.time = 0.25;
   CHECK_NOTHROW(element.force());  // an iteration may come near
   CHECK_NOTHROW(accept(170));
-  CHECK_THROWS_WITH(
-      accept(175),
-      "t = 0.25 s: beam 'shaft', element 2 of 5: its ends are turned by 175 degrees against each other, and "
-      "one element cannot follow 180; give the beam more `elements`");
+  CHECK_THROWS_WITH(accept(175),
+                    "t = 0.25 s: beam 'shaft', element 2 of 5: its ends are turned by 175 degrees against each other, "
+                    "and one element "
+                    "follows up to 171: give the beam more `elements`");
   // From 170 over 180 to 190: the logarithm is -170.
   element.state.memory = memory;
   element.state.nodes[2].R = turned(190);
   CHECK_THROWS_AS(element.force(), bielle::ComputationError);
   CHECK_THROWS_WITH(
       element.stiffness(),
-      "t = 0.25 s: beam 'shaft', element 2 of 5: its ends have turned past 180 degrees against each other, "
-      "which one element cannot follow; give the beam more `elements`, or take smaller steps");
+      "t = 0.25 s: beam 'shaft', element 2 of 5: its ends have turned past 180 degrees against each other, and one "
+      "element follows up to 171: give the beam more `elements`, or take smaller steps");
+  // In statics the load factor is what tells when.
+  element.dense->environment.statics = true;
+  element.dense->environment.load_factor = 0.5;
+  CHECK_THROWS_WITH(element.stiffness(), Catch::StartsWith("load factor 0.5: beam 'shaft', element 2 of 5: "));
 }

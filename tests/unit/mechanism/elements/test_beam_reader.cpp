@@ -114,9 +114,13 @@ TEST_CASE("a beam that cannot be built says why") {
   CHECK_THROWS_WITH(beam(section + ", arc_through: [1, 0, 0]"), Contains("in one line"));
   CHECK_THROWS_WITH(beam(section + ", arc_centre: [1, 1, 0], arc_through: [1, 1, 0]"),
                     Contains("either `arc_centre` or `arc_through`"));
-  CHECK_THROWS_WITH(beam(section, "{position: [2, 0, 0]}"), Contains("same place"));
+  CHECK_THROWS_WITH(beam(section, "{position: [2, 0, 0]}"), Contains("same place") && !Contains("full circle"));
+  CHECK_THROWS_WITH(beam(section + ", arc_centre: [1, 0, 0]", "{position: [2, 0, 0]}"),
+                    Contains("same place") && Contains("make a full circle of two arcs"));
+  CHECK_THROWS_WITH(beam(section + ", elements: 1e12"), Contains("elements.shaft.elements") && Contains("at most"));
+  CHECK_THROWS_WITH(beam(section + ", elements: 1e6"), Contains("at most 100000 elements"));
   CHECK_THROWS_WITH(beam(section + ", elements: 1, arc_through: [1, -1e2, 0]"),
-                    Contains("each of 1 elements would turn by 3"));
+                    Contains("each of 1 elements would turn by 3") && Contains("none follows more than 171"));
   CHECK_THROWS_WITH(beam(section + ", elements: 2, twist: 7"),
                     Contains("each of 2 elements would turn by 201 degrees"));
   CHECK_THROWS_WITH(beam("elements: 2"), Contains("section"));

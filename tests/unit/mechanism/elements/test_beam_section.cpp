@@ -140,7 +140,17 @@ TEST_CASE("what one end of a taper has, the other has to have") {
 }
 
 TEST_CASE("a section that does not exist is refused with its key") {
-  CHECK_THROWS_WITH(section("{rectangle: [0.2, 0.1], circle: 1, young: 1, shear: 1}"), Contains("exactly one of"));
+  CHECK_THROWS_WITH(section("{rectangle: [0.2, 0.1], circle: 1, young: 1, shear: 1}"),
+                    Contains("`rectangle` and `circle`, not by both"));
+  CHECK_THROWS_WITH(
+      section("{rectangel: [0.2, 0.1], young: 1, shear: 1}"),
+      Contains("section.yaml:1: rectangel: 'rectangel' is no kind of section") && Contains("did you mean 'rectangle'"));
+  CHECK_THROWS_WITH(section("{ba: 2, density: 3}"), Contains("'ba' is no kind of section; expected one of"));
+  CHECK_THROWS_WITH(section("{circle: 1, young: 1, shear: 1, stress_points: []}"), Contains("at least one point"));
+  CHECK_THROWS_WITH(section("{rectangle: [1e200, 1e200], young: 1, shear: 1}"), Contains("too large or too small"));
+  CHECK_THROWS_WITH(section("{rectangle: [1e-200, 1e-200], young: 1, shear: 1}"), Contains("too large or too small"));
+  CHECK_THROWS_WITH(section("{circle: 1, young: 1, shear: 1, density: 1, offset: [1e200, 0]}"),
+                    Contains("too large or too small"));
   CHECK_THROWS_WITH(section("{young: 1, shear: 1}"), Contains("exactly one of"));
   CHECK_THROWS_WITH(section("{rectangle: [0.2, -0.1], young: 1, shear: 1}"), Contains("rectangle"));
   CHECK_THROWS_WITH(section("{rectangle: 0.2, young: 1, shear: 1}"), Contains("[width_y, height_z]"));

@@ -221,7 +221,13 @@ TEST_CASE("solids that make no body are refused") {
   CHECK_THROWS_WITH(body("solid: [" + ball + "], centre: [1, 0, 0]"), Contains("positions of their own"));
   CHECK_THROWS_WITH(body("solid: {sphere: 1, density: 1, mass: 2}"), Contains("either `density` or `mass`"));
   CHECK_THROWS_WITH(body("solid: {sphere: 1}"), Contains("density"));
-  CHECK_THROWS_WITH(body("solid: {shpere: 1, density: 1}"), Contains("'sphere'"));
+  CHECK_THROWS_WITH(body("solid: {shpere: 1, density: 1}"),
+                    Contains("'shpere' is no solid") && Contains("did you mean 'sphere'"));
+  CHECK_THROWS_WITH(body("solid: {density: 1}"), Contains("exactly one of 'box', 'sphere'"));
+  CHECK_THROWS_WITH(body("solid: {box: [1e200, 1e200, 1], density: 1}"),
+                    Contains("elements.disk.solid.box") && Contains("too large or too small"));
+  CHECK_THROWS_WITH(body("solid: {box: [1e-200, 1e-200, 1], density: 1}"), Contains("too large or too small"));
+  CHECK_THROWS_WITH(body("solid: {box: [1e100, 1e100, 1], density: 1e200}"), Contains("too large or too small"));
   CHECK_THROWS_WITH(body("solid: {cone: [0, 0, 1], density: 1}"), Contains("radii"));
   CHECK_THROWS_WITH(body("solid: {ring: [1, 2], density: 1}"), Contains("must not exceed"));
   CHECK_THROWS_WITH(body("solid: {cylinder: [1], density: 1}"), Contains("[radius, length]"));
@@ -269,6 +275,13 @@ TEST_CASE("a mass distribution that no body has is refused") {
   CHECK_THROWS_WITH(body("mass: 1, solid: {sphere: 1, density: 1}"), Contains("either `solid` or `mass`"));
   CHECK_THROWS_WITH(body("solid: {sphere: 1, box: [1, 1, 1], density: 1}"), Contains("exactly one of"));
   CHECK_THROWS_WITH(body("solid: {tube: [1, 2, 3], density: 1}"), Contains("inner radius must be smaller"));
+  CHECK_THROWS_WITH(body("mass: 1, inertia: [0, 0, 0]"), Contains("`point_mass`"));
+  CHECK_THROWS_WITH(body("mass: 1, inertia: [0, 0, 1]"), Contains("exceeds the sum"));
+  CHECK_THROWS_WITH(body("mass: 1e200, centre: [1e200, 0, 0], inertia: [1, 1, 1]"), Contains("too large"));
+  // A line of mass has no inertia about itself, whatever axes it is written in.
+  CHECK_NOTHROW(body("mass: 1, inertia: [0, 1, 1]"));
+  CHECK_NOTHROW(body("mass: 1, inertia: [0, 1, 1], inertia_axes: {bryant: [0.3, 0.7, -1.1]}"));
+  CHECK_NOTHROW(body("mass: 1, inertia: [0.5, 0.5, 1, 0.5, 0, 0]"));
   // A thin disk lies on the bound and is rounded by its user.
   CHECK_NOTHROW(body("mass: 1, inertia: [0.333, 0.333, 0.6662]"));
 }

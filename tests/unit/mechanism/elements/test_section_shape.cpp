@@ -4,9 +4,9 @@
 
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
-#include "mechanism/elements/saint_venant.hpp"
-#include "mechanism/elements/section_shape.hpp"
+#include "mechanism/elements/wall_taper.hpp"
 
 using namespace bielle::mechanism;
 using Catch::Matchers::WithinAbs;
@@ -46,10 +46,15 @@ std::function<void(const Sum&)> over_cells(const SectionShape& s, const Vector2&
   };
 }
 
+Eigen::Matrix<double, 3, 6> stress(const SectionShape& s, const Vector2& point, const Vector2& offset = {0, 0}) {
+  return unit_stress(s.constants(), point, offset, s.shear_stress(point));
+}
+
 /// The same rectangles on the program's grid and on one sixteen times as fine at the corners.
 void check_against_finer_grid(const std::vector<SectionRectangle>& rectangles) {
-  const SaintVenant usual(rectangles), fine(rectangles, {1.0 / 512, 1.3});
-  const double size = std::sqrt(usual.area());
+  const RectangleArea area(rectangles);
+  const SaintVenant usual(area), fine(area, {1.0 / 512, 1.3});
+  const double size = std::sqrt(area.area);
   CHECK(usual.J() > fine.J());
   CHECK_THAT(usual.J(), WithinRel(fine.J(), 2e-4));
   CHECK((usual.shear_compliance() - fine.shear_compliance()).cwiseAbs().maxCoeff() <
@@ -61,13 +66,13 @@ void check_against_finer_grid(const std::vector<SectionRectangle>& rectangles) {
 
 TEST_CASE("finite elements on a rectangle give Saint-Venant's torsion constant and shear factors") {
   for (double a : {1.0, 3.0, 10.0}) {
-    const SaintVenant s({{0, a, 0, 1}});
+    const SaintVenant s(RectangleArea({{0, a, 0, 1}}));
     CHECK_THAT(s.J(), WithinRel(rectangle_constants(a, 1).J, 1.5e-4));
     CHECK_THAT(s.shear_compliance()(0, 0), WithinRel(1.2 / a, 2e-4));
     CHECK_THAT(s.shear_compliance()(1, 1), WithinRel(1.2 / a, 2e-4));
     CHECK(s.shear_centre().norm() < 1e-12);
     // Cut into two rectangles it is the same section.
-    CHECK_THAT(SaintVenant({{0, a / 2, 0, 1}, {a / 2, a, 0, 1}}).J(), WithinRel(s.J(), 1e-4));
+    CHECK_THAT(SaintVenant(RectangleArea({{0, a / 2, 0, 1}, {a / 2, a, 0, 1}})).J(), WithinRel(s.J(), 1e-4));
   }
 }
 
@@ -108,6 +113,124 @@ TEST_CASE("thin walls have the constants of the theory of thin walls") {
   const SectionConstants unequal = shape("i", "{width: [60, 40], height: 100, web: 1, flange: 1}")->constants();
   const double centroid = (60 * 0.5 + 98 * 50 + 40 * 99.5) / 198;
   CHECK_THAT(unequal.shear_centre.y(), WithinAbs(0.5 + 99 * 64.0 / (216 + 64) - centroid, 0.5));
+}
+
+TEST_CASE("thin walls go over into the theory of thin walls down to the thinnest that are accepted") {
+  // What that theory neglects is of the order of t/h: the deviation over t/h is the same at every thickness.
+  const double b = 0.6, h = 1;                                       // between the middles of the walls
+  const auto integral = [](const auto& f, double from, double to) {  // of a quartic: Gauss would do, Simpson halved
+    double sum = 0;
+    constexpr int parts = 512;
+    for (int k = 0; k < parts; ++k) {
+      const double a = from + (to - from) * k / parts, c = from + (to - from) * (k + 1) / parts;
+      sum += (c - a) / 6 * (f(a) + 4 * f(0.5 * (a + c)) + f(c));
+    }
+    return sum;
+  };
+  const auto deviations = [&](double t) {
+    const std::string size = fmt::format("width: {:.17g}, height: {:.17g}", b, h + t);
+    const SectionConstants i = shape("i", fmt::format("{{{}, web: {}, flange: {}}}", size, t, t))->constants();
+    const SectionConstants box =
+        shape("box", fmt::format("{{width: {:.17g}, height: {:.17g}, thickness: {}}}", b + t, h + t, t))->constants();
+    const SectionConstants channel =
+        shape("l", fmt::format("{{width: {:.17g}, height: {:.17g}, thickness: {}}}", h, h, t))->constants();
+    // Shear flows of unit V: q = S/I, energy int q^2/t.
+    const double I_i = t * (2 * b * h * h / 4 + h * h * h / 12), I_box = t * (2 * b * h * h / 4 + 2 * h * h * h / 12),
+                 Iz_i = 2 * t * b * b * b / 12;
+    const double flanges_i = 4 * integral([&](double s) { return std::pow(h / 2 * s * t, 2) / t; }, 0, b / 2);
+    const double web_i =
+        integral([&](double z) { return std::pow(b * t * h / 2 + (h * h / 4 - z * z) / 2 * t, 2) / t; }, -h / 2, h / 2);
+    const double web_box = integral(
+        [&](double z) { return 2 * std::pow(b * t * h / 4 + (h * h / 4 - z * z) / 2 * t, 2) / t; }, -h / 2, h / 2);
+    const double across_i =
+        integral([&](double y) { return 2 * std::pow((b * b / 4 - y * y) / 2 * t, 2) / t; }, -b / 2, b / 2);
+    Eigen::VectorXd relative(8);
+    relative << i.J / ((2 * b + h) * t * t * t / 3), box.J / (4 * b * b * h * h / (2 * (b + h) / t)),  // Bredt
+        channel.J / (2 * h * t * t * t / 3), i.shear_area(1, 1) * (flanges_i + web_i) / (I_i * I_i),
+        i.shear_area(0, 0) * across_i / (Iz_i * Iz_i), box.shear_area(1, 1) * (flanges_i + web_box) / (I_box * I_box),
+        i.A / ((2 * b + h) * t), box.A / (2 * (b + h) * t);
+    return Eigen::VectorXd(relative.array() - 1);
+  };
+  const double first = 1e-2;
+  const Eigen::VectorXd slope = deviations(first) / first;
+  CAPTURE(slope.transpose());
+  CHECK(slope.cwiseAbs().maxCoeff() < 1.2);
+  for (const double t : {1e-3, 3e-4, 1e-4, 3e-5, 1.0001 * SaintVenant::thinnest_part}) {
+    const Eigen::VectorXd deviation = deviations(t);
+    CAPTURE(t, deviation.transpose());
+    // The shear areas converge with the grid as well: 2e-5 of the error of the finite elements is left.
+    CHECK((deviation.array().abs() < 1.2 * t + 2e-5).all());
+  }
+}
+
+TEST_CASE("stresses in the thinnest walls are those of the theory of thin walls") {
+  const double t = 2e-5;
+  const auto i = shape("i", fmt::format("{{width: 0.6, height: {:.17g}, web: {}, flange: {}}}", 1 + t, t, t));
+  const SectionConstants& k = i->constants();
+  // Torsion: T t/J on both faces of the web; shear V S/(I t) in its middle.
+  CHECK_THAT(stress(*i, {t / 2, 0.1})(2, 3), WithinRel(t / k.J, 1e-3));
+  CHECK_THAT(stress(*i, {-t / 2, -0.2})(2, 3), WithinRel(-t / k.J, 1e-3));
+  CHECK_THAT(stress(*i, {0, 0})(2, 2), WithinRel((0.6 * t * 0.5 + t * 0.125) / k.I_y / t, 1e-3));
+  const auto box = shape("box", fmt::format("{{width: {:.17g}, height: {:.17g}, thickness: {}}}", 0.6 + t, 1 + t, t));
+  CHECK_THAT(stress(*box, {0.3, 0.1})(2, 3), WithinRel(1 / (2 * 0.6 * t), 1e-3));
+}
+
+TEST_CASE("walls that are too thin for the finite elements are refused with the way out") {
+  for (const auto& [name, dimensions] :
+       {std::pair{"i", "{width: 1, height: 1, web: 9e-6, flange: 0.1}"},
+        {"i", "{width: 0.5, height: 1, web: 0.1, flange: [9e-6, 0.1]}"},
+        {"t", "{width: 1, height: 1, web: 0.999995, flange: 0.1}"},  // what stands out beside the web
+        {"l", "{width: 1, height: 2, thickness: 1e-5}"},
+        {"box", "{width: 1, height: 1, thickness: 1e-6}"},
+        {"box", "{width: 1, height: 1, thickness: 0.499999}"}})  // the hollow
+    CHECK_THROWS_WITH(shape(name, dimensions),
+                      Catch::Contains("shape.yaml:1:") && Catch::Contains("thinnest part") && Catch::Contains("`EA`"));
+  CHECK_NOTHROW(shape("i", "{width: 1, height: 1, web: 1.1e-5, flange: 1.1e-5}"));
+}
+
+TEST_CASE("sections along a taper of walls are those of solutions at the place, from a few solutions") {
+  const auto check = [](const std::string& name, const std::string& from, const std::string& to, int most) {
+    const auto dimensions = [&](const std::string& text) {
+      return read_shape_dimensions(name, bielle::YamlValue::parse(text, "shape.yaml"));
+    };
+    const VectorX start = dimensions(from), end = dimensions(to);
+    // Inside of the walls, away from the corners: of i the web's middle and a flange, of the others likewise.
+    const Vector2 p0 = shape(name, from)->constants().shear_centre, p1 = shape(name, to)->constants().shear_centre;
+    const bool corner = name == "l" || name == "t";  // the shear centre lies in the corner of the walls, inside
+    VectorX points_start = VectorX::Zero(2), points_end = VectorX::Zero(2);
+    if (corner) {
+      points_start << 0.5 * p0.x(), 0.99 * p0.y();
+      points_end << 0.5 * p1.x(), 0.99 * p1.y();
+    }
+    const bool inside = shape_contains(name, start, points_start) && shape_contains(name, end, points_end) &&
+                        shape_contains(name, 0.5 * (start + end), 0.5 * (points_start + points_end));
+    if (!inside) points_start = points_end = VectorX();
+    const WallTaper taper(name, start, end, points_start, points_end);
+    CAPTURE(name, from, to, taper.solutions());
+    CHECK(taper.solutions() <= most);
+    for (const double s : {0.0, 0.07, 0.31, 0.5, 0.68, 0.93, 1.0}) {
+      const auto exact = make_section_shape(name, (1 - s) * start + s * end);
+      const SectionConstants k = taper.at(s).constants, e = exact->constants();
+      CAPTURE(s);
+      CHECK_THAT(k.A, WithinRel(e.A, 1e-14));
+      CHECK_THAT(k.I_y, WithinRel(e.I_y, 1e-13));
+      CHECK_THAT(k.I_yz, WithinAbs(e.I_yz, 1e-13 * e.I_y));
+      CHECK_THAT(k.J, WithinRel(e.J, 2e-4));  // the error of the finite elements, whose grid changes along the taper
+      CHECK((k.shear_area - e.shear_area).norm() < 2e-4 * e.shear_area.norm());
+      CHECK((k.shear_centre - e.shear_centre).norm() < 2e-4 * std::sqrt((e.I_y + e.I_z) / e.A));
+      if (!inside) continue;
+      const UnitShearStress tau = exact->shear_stress((1 - s) * points_start + s * points_end);
+      CHECK((taper.at(s).shear_stress.front() - tau).norm() < 2e-3 * tau.norm());
+    }
+  };
+  check("i", "{width: 60, height: 100, web: 0.8, flange: 1}", "{width: 40, height: 50, web: 0.8, flange: 1}", 9);
+  check("i", "{width: [60, 40], height: 100, web: 8, flange: 10}", "{width: [20, 30], height: 40, web: 4, flange: 3}",
+        17);
+  check("t", "{width: 60, height: 100, web: 5, flange: 5}", "{width: 40, height: 40, web: 8, flange: 3}", 17);
+  check("l", "{width: 60, height: 100, thickness: [5, 8]}", "{width: 40, height: 40, thickness: 5}", 17);
+  check("box", "{width: 60, height: 100, thickness: 0.5}", "{width: 20, height: 30, thickness: 0.25}", 17);
+  // A box that all but fills: more solutions, or one for each section.
+  check("box", "{width: 60, height: 100, thickness: 0.01}", "{width: 20, height: 30, thickness: 9.99}", 33);
 }
 
 TEST_CASE("an l has its principal axes where its product of inertia puts them") {
@@ -153,7 +276,7 @@ TEST_CASE("shear stresses add up to the shear forces and the torque that make th
 }
 
 TEST_CASE("stresses of shapes have their known largest values") {
-  const auto at = [](const SectionShape& s, double y, double z) { return s.stress({y, z}, {0, 0}); };
+  const auto at = [](const SectionShape& s, double y, double z) { return stress(s, {y, z}); };
   // Rectangle: bending M z/I, shear 3/2 V/A in the middle, torsion in the middle of the longer sides: T/(k a c^2),
   // k = 0.2082 for a square and 0.2459 for 2:1 (Timoshenko and Goodier, art. 109).
   const auto square = shape("rectangle", "[1, 1]");
@@ -186,11 +309,11 @@ TEST_CASE("the bending stress of an l follows its principal axes, and offsets mo
   const auto l = shape("l", "{width: 10, height: 10, thickness: 2}");
   const SectionConstants& k = l->constants();
   // Unsymmetric bending by M_y: sigma = M_y (I_z z - I_yz y)/(I_y I_z - I_yz^2).
-  CHECK_THAT(l->stress({-2.5, 3}, {0, 0})(0, 4),
+  CHECK_THAT(stress(*l, {-2.5, 3})(0, 4),
              WithinRel((k.I_z * 3 - k.I_yz * -2.5) / (k.I_y * k.I_z - k.I_yz * k.I_yz), 1e-13));
   const auto square = shape("rectangle", "[1, 2]");
-  const Eigen::Matrix<double, 3, 6> beside = square->stress({0.5, 1}, {0.3, -0.2}),
-                                    centred = square->stress({0.5, 1}, {0, 0});
+  const Eigen::Matrix<double, 3, 6> beside = stress(*square, {0.5, 1}, {0.3, -0.2}),
+                                    centred = stress(*square, {0.5, 1});
   // Forces at the node line have the moment -o x n about the centroid o = (0, 0.3, -0.2).
   CHECK_THAT(beside(0, 0), WithinRel(centred(0, 0) + 0.2 * centred(0, 4) + 0.3 * centred(0, 5), 1e-13));
   CHECK((beside.col(1) - (centred.col(1) - 0.2 * centred.col(3))).norm() < 1e-13);

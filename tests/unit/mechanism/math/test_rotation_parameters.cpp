@@ -189,21 +189,36 @@ TEMPLATE_TEST_CASE("accelerations of the parameters give the angular acceleratio
                    ALL_PARAMETRISATIONS) {
   using P = TestType;
   Random random(16);
-  for (int k = 0; k < 50; ++k) {
-    const auto p = regular<P>(random);
+  const auto check = [&](const typename P::Parameters& p) {
     CAPTURE(p);
-    const typename P::Parameters rate = random.vector(p.size()), acceleration = random.vector(p.size());
+    const typename P::Parameters rate = random.vector(p.size(), scale<P>(p)),
+                                 acceleration = random.vector(p.size(), scale<P>(p));
     const Vector3 Omegadot = derivative([&](double t) -> Vector3 {
       return angular_velocity<P>(p + t * rate + 0.5 * t * t * acceleration, rate + t * acceleration);
     });
     CHECK(error(angular_acceleration<P>(p, rate, acceleration), Omegadot) < difference);
-
-    const Vector3 Omega = random.vector3(), alpha = random.vector3();
-    const auto pdot = parameter_rate<P>(p, Omega);
-    const auto pddot = parameter_acceleration<P>(p, Omega, alpha);
-    const double size = (1 + pdot.norm()) * (1 + pdot.norm()) * condition<P>(p);
-    CHECK(error(angular_acceleration<P>(p, pdot, pddot), alpha) < rounding * size);
-  }
+    // The rotation itself, twice differentiated: R^T Rddot = Omegadot~ + Omega~ Omega~.
+    const Vector3 Omega = angular_velocity<P>(p, rate);
+    const Matrix3 Rddot = derivative([&](double t) -> Matrix3 {
+      const typename P::Parameters q = p + t * rate + 0.5 * t * t * acceleration;
+      return P::rotation(q) * skew(angular_velocity<P>(q, rate + t * acceleration));
+    });
+    const Matrix3 expected = skew(angular_acceleration<P>(p, rate, acceleration)) + skew(Omega) * skew(Omega);
+    CHECK(error(P::rotation(p).transpose() * Rddot, expected) < difference);
+    if (!has_inverse<P>(p)) {
+      CHECK_THROWS_AS(parameter_acceleration<P>(p, Omega, Omegadot), ComputationError);
+      return;
+    }
+    const Vector3 Omega_given = random.vector3(), alpha = random.vector3();
+    const auto pdot = parameter_rate<P>(p, Omega_given);
+    const auto pddot = parameter_acceleration<P>(p, Omega_given, alpha);
+    // Digits lost: products of T with pddot and of its derivative with pdot twice.
+    const double size = P::tangent(p).norm() * pddot.norm() + P::tangent_derivative(p, pdot).norm() * pdot.norm();
+    CHECK(error(angular_acceleration<P>(p, pdot, pddot), alpha) < rounding * (condition<P>(p) + size));
+  };
+  for (const Matrix3& R : rotations())
+    for (const auto& p : parameters_of<P>(R)) check(p);
+  for (int k = 0; k < 50; ++k) check(regular<P>(random));
 }
 
 TEST_CASE("all parametrisations describe one motion") {

@@ -143,6 +143,12 @@ TEST_CASE("with its shadow the conformal rotation vector turns for ever") {
   }
   CHECK(jumps >= 10);
   CHECK_THROWS_AS(ConformalVector::principal(Vector3::Constant(INFINITY)), ComputationError);
+  // However long, it stands for a rotation: all but a full turn.
+  for (const double size : {1e8, 1e160, 1e300}) {
+    CHECK(error(ConformalVector::rotation(size * e), Matrix3::Identity()) < 1e-6);
+    CHECK(ConformalVector::rotation(size * e).allFinite());
+    CHECK(error(ConformalVector::principal(size * e), -16 / size * e) < 1e-15 * 16 / size + 1e-300);
+  }
 }
 
 TEST_CASE("locked angles: the rotation comes back with the last angle zero, and rates are refused") {

@@ -1,6 +1,7 @@
 // One battery of identities for rigid motions; derivatives against finite differences; check numbers computed with
 // independent programs.
 #include <cmath>
+#include <vector>
 
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
@@ -16,7 +17,9 @@ using bielle::test::Random;
 
 namespace {
 
-const double angles[] = {0, 1e-8, 1e-3, 0.3, 1, series_angle - 1e-9, series_angle, 2.5, M_PI - 1e-3};
+const double angles[] = {
+    0,   1e-16,       1e-12,       1e-8,        1e-5,        1e-3, 0.3, 1, 2.5, series_angle - 1e-9, series_angle,
+    3.1, M_PI - 1e-3, M_PI - 1e-6, M_PI - 1e-9, M_PI - 1e-13};
 
 constexpr double rounding = 1e-14;    // products of 6x6 matrices with entries up to ~3
 constexpr double difference = 2e-11;  // see finite_difference.hpp
@@ -57,6 +60,45 @@ TEST_CASE("the exponential of a rigid motion is undone by the logarithm") {
   d << 1.1, 0.1, -0.05, 0.2, -0.3, 0.4;
   // From an independent program (10 digits).
   CHECK(error(exp_se3(d).x, Vector3(1.0409831917, 0.3064734616, 0.1343635004)) < 1e-10);
+}
+
+TEST_CASE("the logarithm of half turns gives them back, up to the sign of the axis") {
+  Random random(8);
+  std::vector<Vector3> axes{Vector3::UnitX(), -Vector3::UnitY(), Vector3::UnitZ(), Vector3(1, 1, 0).normalized(),
+                            Vector3(1, -1, 1).normalized()};
+  for (int k = 0; k < 10; ++k) axes.push_back(random.vector_of_length(1));
+  for (const Vector3& axis : axes)
+    for (const double off : {0.0, 1e-15, -1e-15, 1e-9, 1e-3}) {
+      CAPTURE(axis.transpose(), off);
+      Vector6 d;
+      d << random.vector3(2), (M_PI + off) * axis;
+      const Frame H = exp_se3(d);
+      const Vector6 log = log_se3(H);
+      CHECK(log.tail<3>().norm() <= M_PI * (1 + 1e-15));
+      CHECK(error(exp_se3(log), H) < rounding);
+      // Beyond pi it is the shorter way round.
+      CHECK_THAT(log.tail<3>().norm(), Catch::WithinAbs(M_PI - std::abs(off), 1e-14));
+    }
+}
+
+TEST_CASE("tangents of rigid motions are regular at half turns and beyond, up to full turns") {
+  Random random(9);
+  for (const double angle : {M_PI, M_PI + 1e-9, M_PI + 1e-3, 4.0, 5.5, 6.2}) {
+    CAPTURE(angle);
+    const Vector6 d = motion(random, angle), e = random.vector(6), f = random.vector(6);
+    const Matrix6 T = tangent_se3(d), Tinv = tangent_se3_inverse(d);
+    const double size = 1 + T.norm() * Tinv.norm();
+    CHECK(error(T * Tinv, Matrix6::Identity()) < rounding * size);
+    CHECK(error(T, adjoint(exp_se3(-d)) * tangent_se3(-d)) < rounding);
+    CHECK(error(tangent_se3_derivative(d, e), derivative([&](double s) { return tangent_se3(d + s * e); })) <
+          difference);
+    // The inverse has its pole at full turns: steps shorten on the way there.
+    const double h = bielle::test::difference_step * std::min(1.0, 2 * M_PI - angle);
+    const MatrixX G = bielle::test::jacobian(
+        [&](const VectorX& s) -> VectorX { return tangent_se3_inverse(d + s).transpose() * f; }, 6, h);
+    const Matrix6 exact = inverse_transpose_gradient_se3(d, f);
+    CHECK(error(exact, G) < difference * (1 + exact.norm() / (2 * M_PI - angle)));
+  }
 }
 
 TEST_CASE("Ad of the exponential is the matrix exponential of ad, and T6 its series") {

@@ -1,0 +1,117 @@
+// Large deformation through the program's own input and static solver: roll-up, load cycles, objectivity.
+#include <cmath>
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include "mechanism/math/so3.hpp"
+#include "mechanism/solvers/statics.hpp"
+#include "tests/support/run_model.hpp"
+
+using namespace bielle::mechanism;
+using bielle::test::ReadyModel;
+
+namespace {
+
+const double pi = 3.141592653589793;
+
+/// Brings a state into equilibrium with what the model prescribes, in `steps` increments of the load factor.
+void settle(const ReadyModel& model, State& state, int steps) {
+  Environment environment = model.environment();
+  environment.statics = true;
+  solve_statics(model.system, environment, steps, NewtonOptions{}, state);
+}
+
+std::string list(const Vector3& v) { return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", v.x(), v.y(), v.z()); }
+
+}  // namespace
+
+TEST_CASE("a static analysis rolls a beam up exactly: once with three elements, to two turns with five") {
+  // EIz = 2, L = 3, M = 2 pi turns EI/L about the section's z, in a general direction of space.
+  const Matrix3 R = exp_so3(Vector3(0.4, -0.7, 1.1));
+  for (const auto& [elements, turns] : {std::pair{3, 1}, {5, 2}})
+    for (const char* bending : {"residual", "constant"}) {
+      CAPTURE(elements, turns, bending);
+      const ReadyModel model(
+          fmt::format("nodes:\n  root: {{fixed: true}}\n  tip: {{position: {}}}\n"
+                      "elements:\n  b:\n    type: beam\n    nodes: [root, tip]\n    elements: {}\n    bending: {}\n"
+                      "    orientation: {}\n    section: {{EA: 1e4, GAy: 3e3, GAz: 3e3, GJ: 20, EIy: 20, EIz: 2}}\n"
+                      "loads:\n  m: {{node: tip, moment: {}}}\n",
+                      list(3 * R.col(0)), elements, bending, list(R.col(1)), list(R.col(2) * 2 * pi * turns * 2 / 3)));
+      State state = model.system.start(0);
+      settle(model, state, 24 * turns);
+      CHECK(model.node(state, "tip").x.norm() < 1e-11);
+      CHECK((model.node(state, "tip").R - Matrix3::Identity()).norm() < 1e-11);
+      // The first inner node, on the circle of radius L/(2 pi turns).
+      const double radius = 3 / (2 * pi * turns), angle = 2 * pi * turns / elements;
+      const Vector3 expected = radius * (std::sin(angle) * R.col(0) + (1 - std::cos(angle)) * R.col(1));
+      CHECK((model.node(state, "b.1").x - expected).norm() < 1e-11);
+    }
+}
+
+namespace {
+
+/// A curved cantilever whose loads and whose clamp's place are parameters.
+ReadyModel loaded_arc(double force, double moment, bool follower, const Vector3& turn = Vector3::Zero(),
+                      const Vector3& shift = Vector3::Zero()) {
+  const auto motion = [&](const char* key, double value) { return fmt::format("{}: {:.17g}", key, value); };
+  return ReadyModel(fmt::format(
+      "nodes:\n  root: {{motion: {{{}, {}, {}, {}, {}, {}}}}}\n  tip: {{position: [2, 1, 0]}}\n"
+      "elements:\n  b: {{type: beam, nodes: [root, tip], elements: 6, arc_through: [1, 0.9, 0.1],\n"
+      "      section: {{EA: 100, GAy: 50, GAz: 40, GJ: 1, EIy: 2, EIz: 1}}}}\n"
+      "loads:\n  p: {{node: tip, force: [{:.17g}, 0, {:.17g}], moment: [{:.17g}, {:.17g}, 0], follower: {}}}\n",
+      motion("x", shift.x()), motion("y", shift.y()), motion("z", shift.z()), motion("rx", turn.x()),
+      motion("ry", turn.y()), motion("rz", turn.z()), force, force, 1.5 * moment, moment, follower ? "true" : "false"));
+}
+
+}  // namespace
+
+TEST_CASE("static analyses of a load cycle end where they began, whatever the path (path independence)") {
+  const auto follow = [](State& state, double f0, double m0, double f1, double m1) {
+    constexpr int steps = 20;
+    for (int k = 1; k <= steps; ++k) {
+      const double s = static_cast<double>(k) / steps;
+      settle(loaded_arc(f0 + s * (f1 - f0), m0 + s * (m1 - m0), false), state, 1);
+    }
+  };
+  const ReadyModel unloaded = loaded_arc(0, 0, false);
+  const State start = unloaded.system.start(0);
+  // The force first and then the moment; the moment first; both at once by the load factor.
+  State first = start, second = start, at_once = start;
+  follow(first, 0, 0, 1, 0);
+  follow(first, 1, 0, 1, 1);
+  follow(second, 0, 0, 0, 1);
+  follow(second, 0, 1, 1, 1);
+  settle(loaded_arc(1, 1, false), at_once, 40);
+  CHECK((unloaded.node(first, "tip").x - Vector3(2, 1, 0)).norm() > 0.5);
+  for (const State* other : {&second, &at_once})
+    for (std::size_t k = 0; k < first.nodes.size(); ++k) {
+      CHECK((other->nodes[k].x - first.nodes[k].x).norm() < 1e-11);
+      CHECK((other->nodes[k].R - first.nodes[k].R).norm() < 1e-11);
+    }
+  follow(first, 1, 1, 0, 0);
+  for (std::size_t k = 0; k < start.nodes.size(); ++k) {
+    CHECK((first.nodes[k].x - start.nodes[k].x).norm() < 1e-12);
+    CHECK((first.nodes[k].R - start.nodes[k].R).norm() < 1e-12);
+  }
+}
+
+TEST_CASE("static analyses that carry a bent beam around by its clamp keep its energy and shape (objectivity)") {
+  const Vector3 axis = Vector3(1, -2, 0.5).normalized(), shift(0.5, 1, 1.5);
+  const ReadyModel loaded = loaded_arc(1, 1, true);
+  State state = loaded.system.start(0);
+  settle(loaded, state, 40);
+  const double energy = loaded.system.energy(state, loaded.environment()).elastic;
+  const NodeState tip = loaded.node(state, "tip");
+  // One and a half turns.
+  constexpr int steps = 120;
+  for (int k = 1; k <= steps; ++k) {
+    const double s = static_cast<double>(k) / steps;
+    settle(loaded_arc(1, 1, true, 3 * pi * s * axis, s * shift), state, 1);
+  }
+  const Matrix3 Q = exp_so3(3 * pi * axis);
+  CHECK((loaded.node(state, "root").x - shift).norm() < 1e-14);
+  CHECK(std::abs(loaded.system.energy(state, loaded.environment()).elastic - energy) < 1e-12 * energy);
+  CHECK((loaded.node(state, "tip").x - (shift + Q * tip.x)).norm() < 1e-11);
+  CHECK((loaded.node(state, "tip").R - Q * tip.R).norm() < 1e-11);
+}
