@@ -59,11 +59,12 @@ const std::vector<GaussPoint>& gauss_points() {
 
 /// Grid lines from a to b, fine at both ends. @param first  size of the cells there
 void add_lines(double a, double b, double first, double growth, std::vector<double>& lines) {
+  const double largest = 0.08 * (b - a);  // so that the parabola of a web's shear stress is right to 1e-3
   std::vector<double> from_end{0};
   double size = first;
   while (from_end.back() + size < 0.5 * (b - a)) {
     from_end.push_back(from_end.back() + size);
-    size *= growth;
+    size = std::min(size * growth, largest);
   }
   // The middle takes what is left; two cells there where it is long.
   const double rest = (b - a) - 2 * from_end.back();
@@ -246,7 +247,9 @@ void SaintVenant::solve(const RectangleArea& area) {
     const Fields correction = factors.solve(r);
     const Vector3 energy(F_(0, 0), F_(1, 1), J_), change = (r.cwiseProduct(correction)).colwise().sum();
     field_ += correction.cast<long double>();
-    if ((change.array().abs() <= enough * enough * energy.array()).all()) return;
+    if ((change.array().abs() > enough * enough * energy.array()).any()) continue;
+    evaluate(c);
+    return;
   }
   throw ComputationError("rounding spoils the shear stresses of a section: its walls are too thin");
 }

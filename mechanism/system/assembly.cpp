@@ -271,12 +271,12 @@ void System::add_reduced(const Placement& placement, const LocalState& local, co
     auto part = columns.middleCols(placement.reduced_begin[k], count);
     const auto Kk = K.middleCols<6>(at), Ck = C.middleCols<6>(at), Mk = M.middleCols<6>(at);
     part.noalias() = Kk * node.displacement_step;
-    part.noalias() += weights.damping * (Ck * node.displacement);
-    part.noalias() += weights.mass * (Mk * node.displacement);
+    part.noalias() += Ck * (weights.damping * node.displacement);
+    part.noalias() += Mk * (weights.mass * node.displacement);
     if (!node.carried) continue;
-    part.noalias() += weights.stiffness * (Ck * node.rate_of_displacement);
-    part.noalias() += weights.stiffness * (Mk * node.acceleration_of_displacement);
-    part.noalias() += weights.damping * (Mk * node.acceleration_of_rate);
+    part.noalias() += Ck * (weights.stiffness * node.rate_of_displacement);
+    part.noalias() += Mk * (weights.stiffness * node.acceleration_of_displacement);
+    part.noalias() += Mk * (weights.damping * node.acceleration_of_rate);
   }
   sum.bottomRows(scalars) = columns.bottomRows(scalars);
   for (std::size_t k = 0; k < slots.nodes.size(); ++k)

@@ -251,9 +251,9 @@ std::vector<Sample> beams_of_sections() {
                    {"section.t.web", "1", "thinner"},
                    {"section.t.flange", "0", "greater than 0"}}),
           beam_of("box section", "{box: {width: 0.8, height: 1, thickness: [0.1, 0.2]}" + steel,
-                  {{"section.box.width", "0.1", "hollow"},
+                  {{"section.box.width", "0", "greater than 0"},
                    {"section.box.height", "0", "greater than 0"},
-                   {"section.box.thickness", "[1e-6, 0.1]", "thinnest part"}}),
+                   {"section.box.thickness", "[0.5, 0.1]", "hollow"}}),
           beam_of("constants with mass",
                   "{EA: 4, GAy: 2, GAz: 3, GJ: 1, EIy: 2, EIz: 1, mass_per_length: 1, Jx: 0.4, Jy: 0.3, Jz: 0.2, "
                   "offset: [0.1, 0.2]}",

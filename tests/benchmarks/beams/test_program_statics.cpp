@@ -15,11 +15,14 @@ namespace {
 
 const double pi = 3.141592653589793;
 
-/// Brings a state into equilibrium with what the model prescribes, in `steps` increments of the load factor.
+/// Brings a state into equilibrium with what the model prescribes, in `steps` increments of the load factor, each down
+/// to the rounding of the residual.
 void settle(const ReadyModel& model, State& state, int steps) {
   Environment environment = model.environment();
   environment.statics = true;
-  solve_statics(model.system, environment, steps, NewtonOptions{}, state);
+  NewtonOptions to_rounding;
+  to_rounding.tolerance = 1e-16;
+  solve_statics(model.system, environment, steps, to_rounding, state);
 }
 
 std::string list(const Vector3& v) { return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", v.x(), v.y(), v.z()); }

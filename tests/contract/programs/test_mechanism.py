@@ -115,6 +115,40 @@ class Mechanism(CommandTest):
         self.assertIn("joint 'pivot' (hinge)", done.stdout)
         self.assertFalse(os.path.exists(os.path.join(self.folder, "model.h5")))
 
+    def test_check_tells_what_bodies_beams_and_nodes_are(self):
+        self.write("model.yaml", PENDULUM.replace("nodes:\n", "nodes:\n  lonely: {position: [1, 1, 1]}\n"
+                                                  "  far: {position: [2, 0, 0]}\n")
+                   .replace("elements:\n", "elements:\n  arm: {type: beam, nodes: [bob, far], elements: 3, section: "
+                            "{EA: 7, GAy: 6, GAz: 5, GJ: 4, EIy: 3, EIz: 2, mass_per_length: 2, Jx: 1, Jy: 1, Jz: 1}}\n"))
+        done = self.run_program("model.yaml", "--check")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("element 'bob' (rigid_body): mass 1 kg", done.stdout)
+        self.assertIn("inertia about it xx 0.001", done.stdout)
+        self.assertRegex(done.stdout, r"element 'arm' \(beam\): length [\d.]+ m, mass [\d.]+ kg, elements 3")
+        self.assertIn("EA 7, GAy 6, GAz 5 N, GJ 4, EIy 3, EIz 2 N m^2", done.stdout)
+        self.assertIn("unused       node 'lonely'", done.stdout)
+        self.assertIn("massless     rotation y of node 'lonely'", done.stdout)
+        self.assertNotIn("massless     rotation y of node 'bob'", done.stdout)
+
+    def test_orientations_however_large(self):
+        node = "nodes:\n  turned: {position: [1, 1, 1], %s, fixed: true}\n"
+        self.write("model.yaml", PENDULUM.replace("nodes:\n", node % "conformal: [1e200, 0, 0]"))
+        self.assertEqual(self.run_program("model.yaml", "--quiet").returncode, 0)
+        self.refuse("nodes:\n", node % "rotation_vector: [1e200, 0, 0]", "model.yaml:5", "rotation_vector", "rad")
+
+    def test_a_beam_that_turns_too_far_names_its_element_and_the_load_factor(self):
+        self.write("roll.yaml", """nodes:
+  root: {fixed: true}
+  tip: {position: [1, 0, 0]}
+elements:
+  strip: {type: beam, nodes: [root, tip], elements: 2, section: {EA: 1e3, GAy: 1e3, GAz: 1e3, GJ: 1, EIy: 1, EIz: 1}}
+loads:
+  roll: {node: tip, moment: [0, 0, "2*pi"]}
+analysis:
+  - {type: static, steps: 20}
+""")
+        self.expect_refusal(2, "roll.yaml", says=["load factor 0.9", "beam 'strip', element 1 of 2", "171", "`elements`"])
+
     def test_a_node_without_mass_is_a_failed_computation(self):
         self.refuse("nodes:\n", "nodes:\n  lonely: {position: [1, 1, 1]}\n", "lonely", "no mass", status=2)
 

@@ -30,7 +30,7 @@ const char* const model_text = R"yaml(
 gravity: [0, 0, -9.81]
 nodes:
   base:    {fixed: true}
-  moved:   {position: [0, 0, 1], motion: {x: "0.1*sin(t)", rz: "t^2"}}
+  moved:   {position: [0, 0, 1], motion: {x: "0.1*sin(t)", rx: 0, ry: 0, rz: "t^2"}}
   guided:  {position: [1, 0, 0], fixed: [y, rx, ry]}
   a:       {position: [1, 1, 0], velocity: [0.1, 0.2, 0.3], angular_velocity: [1, 2, 3]}
   b:       {position: [2, 1, 0]}
