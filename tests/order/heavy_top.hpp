@@ -40,6 +40,8 @@ class EulerPoinsot {
     }
   }
   Vector3 centre() const { return R_ * Vector3(0, 1, 0); }
+  const Vector3& Omega() const { return Omega_; }
+  Vector3 velocity() const { return R_ * Omega_.cross(Vector3(0, 1, 0)); }
   /// Force of the pivot on the body.
   Vector3 force() const {
     const Vector3 arm(0, 1, 0);
