@@ -28,6 +28,8 @@ std::string format_start(const StartReport& start) {
   if (start.largest_displacement > 1e-9 || start.largest_rotation > 1e-9)
     text += fmt::format("  assembly moved node '{}' by {:.3g} m; largest rotation {:.3g} rad\n", start.displaced_node,
                         start.largest_displacement, start.largest_rotation);
+  if (start.settled > 0)
+    text += fmt::format("  static equilibrium moved node '{}' by {:.3g} m\n", start.settled_node, start.settled);
   if (start.velocity_change > 1e-9)
     text += fmt::format("  start velocities were changed by up to {:.3g} m/s to satisfy joints and drives\n",
                         start.velocity_change);
@@ -152,9 +154,14 @@ std::string describe_model(const MechanismFile& file) {
   return text;
 }
 
-/// What steps were refused or cut short; nothing about a motion that went without.
-std::string format_march(const MarchLog& log) {
+/// How hard the steps were, and what was refused or cut short.
+std::string format_march(const MarchLog& log, const std::string& slowest_equation) {
   std::string text;
+  if (log.most_iterations > 0)
+    text += fmt::format("  {} factorisations; at most {} iterations, at t = {:.6g} s{}\n", log.factorisations,
+                        log.most_iterations, log.most_iterations_at,
+                        slowest_equation.empty() ? "" : " (worst residual: " + slowest_equation + ")");
+  if (log.shortened > 0) text += fmt::format("  {} iterations were shortened by the line search\n", log.shortened);
   if (log.steps > 0 && log.largest > log.smallest * (1 + 1e-6))
     text += fmt::format("  steps from {:.3g} to {:.3g} s\n", log.smallest, log.largest);
   if (log.refused_by_error > 0) text += fmt::format("  {} steps refused for their local error\n", log.refused_by_error);
@@ -176,7 +183,7 @@ std::string format_summary(const MechanismFile& file, const std::vector<Analysis
     text +=
         fmt::format("  {} steps, {:.2f} Newton iterations per step, {} rows recorded, until t = {:.6g} s\n", s.steps,
                     static_cast<double>(s.iterations) / static_cast<double>(s.steps), s.records, s.end_time);
-    text += format_march(s.march);
+    text += format_march(s.march, s.slowest_equation);
     if (s.largest_energy > 0)
       text += fmt::format(
           "  energy at the end [J]: kinetic {:.6g}, elastic {:.6g}, gravity {:.6g}; input {:.6g}, dissipated {:.6g}\n"

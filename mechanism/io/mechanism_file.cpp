@@ -158,6 +158,25 @@ StepOptions read_stepping(const YamlValue& entry, double duration) {
   return options;
 }
 
+/// `newton: {tolerance, iterations, line_search, tangent}`.
+NewtonOptions read_newton(const YamlValue& analysis, bool dynamic) {
+  NewtonOptions options;
+  const auto entry = analysis.find("newton");
+  if (!entry) return options;
+  std::vector<std::string> keys = {"tolerance", "iterations", "line_search"};
+  if (dynamic) keys.emplace_back("tangent");
+  entry->check_keys(keys, "`newton`");
+  if (entry->has("tolerance")) options.tolerance = entry->at("tolerance").positive_number();
+  if (options.tolerance > 1e-3)
+    entry->at("tolerance").fail("expected at most 1e-3: it is relative to the largest forces");
+  if (entry->has("iterations")) options.iterations = entry->at("iterations").integer();
+  if (options.iterations < 2) entry->at("iterations").fail("expected at least 2");
+  if (entry->has("line_search")) options.line_search = entry->at("line_search").boolean();
+  if (entry->has("tangent"))
+    options.reuse_tangent = entry->at("tangent").word({"reused", "renewed"}, "way with the tangent") == "reused";
+  return options;
+}
+
 Analysis read_analysis(const YamlValue& entry) {
   const std::vector<std::string> planned = {"kinematic", "eigen", "inverse_dynamics", "frequency_response",
                                             "state_space"};
@@ -171,17 +190,22 @@ Analysis read_analysis(const YamlValue& entry) {
     entry.check_keys({"type"}, "the analysis 'assembly'");
     analysis.type = Analysis::Type::assembly;
   } else if (analysis.name == "static") {
-    entry.check_keys({"type", "steps"}, "the analysis 'static'");
+    entry.check_keys({"type", "steps", "newton"}, "the analysis 'static'");
     analysis.type = Analysis::Type::statics;
     if (entry.has("steps")) analysis.steps = entry.at("steps").integer();
     if (analysis.steps < 1) entry.at("steps").fail("expected at least one load step");
+    analysis.newton = read_newton(entry, false);
   } else {
-    entry.check_keys({"type", "duration", "step", "tolerance", "largest_step", "scheme", "rho", "alpha", "constraints"},
+    entry.check_keys({"type", "duration", "step", "tolerance", "largest_step", "scheme", "rho", "alpha", "constraints",
+                      "start", "newton"},
                      "the analysis 'dynamic'");
     analysis.type = Analysis::Type::dynamics;
     analysis.duration = entry.at("duration").positive_number();
     analysis.stepping = read_stepping(entry, analysis.duration);
     analysis.scheme = read_scheme(entry, analysis.scheme_name);
+    analysis.newton = read_newton(entry, true);
+    analysis.equilibrium =
+        entry.has("start") && entry.at("start").word({"as_given", "equilibrium"}, "start") == "equilibrium";
     if (entry.has("constraints") &&
         entry.at("constraints").word({"position", "stabilized"}, "a form of constraints") == "stabilized") {
       analysis.form = ConstraintForm::stabilised;
@@ -227,7 +251,7 @@ std::vector<double> read_times(const YamlValue& entry, double end) {
 }
 
 OutputOptions read_output(const YamlValue& entry, double end, Model& model) {
-  entry.check_keys({"every", "times", "fields", "checkpoint"}, "`output`");
+  entry.check_keys({"every", "times", "fields", "checkpoint", "log"}, "`output`");
   OutputOptions output;
   if (entry.has("times")) {
     if (entry.has("every")) entry.at("every").fail("either `every` or `times`, not both");
@@ -239,6 +263,7 @@ OutputOptions read_output(const YamlValue& entry, double end, Model& model) {
     output.checkpoint = entry.at("checkpoint").integer();
     if (output.checkpoint < 1) entry.at("checkpoint").fail("expected at least 1 step");
   }
+  if (entry.has("log")) output.log = entry.at("log").boolean();
   if (const auto fields = entry.find("fields")) read_fields(*fields, model);
   return output;
 }
@@ -274,7 +299,9 @@ MechanismFile read_mechanism(YamlValue root, const std::map<std::string, std::st
 }  // namespace
 
 MechanismFile read_mechanism_file(const std::string& path, const std::map<std::string, std::string>& overrides) {
-  return read_mechanism(YamlValue::load(path), overrides);
+  MechanismFile file = read_mechanism(YamlValue::load(path), overrides);
+  file.path = path;
+  return file;
 }
 
 MechanismFile read_mechanism_text(const std::string& text, const std::string& name,

@@ -13,19 +13,22 @@ namespace bielle::mechanism {
 /// One entry of `analysis`.
 struct Analysis {
   enum class Type { assembly, statics, dynamics } type;
-  std::string name;         ///< as in the file: "dynamic"
-  int steps = 1;            ///< statics
-  double duration = 0;      ///< [s] dynamics
-  StepOptions stepping;     ///< without break points
-  Scheme scheme{};          ///< dynamics
+  std::string name;      ///< as in the file: "dynamic"
+  int steps = 1;         ///< statics
+  double duration = 0;   ///< [s] dynamics
+  StepOptions stepping;  ///< without break points
+  Scheme scheme{};       ///< dynamics
   ConstraintForm form = ConstraintForm::position;
-  std::string scheme_name;  ///< for the summary
+  NewtonOptions newton;      ///< statics and dynamics
+  bool equilibrium = false;  ///< dynamics: positions of static equilibrium first
+  std::string scheme_name;   ///< for the summary
 };
 
 struct OutputOptions {
   int every = 1;  ///< steps between records; the first and the last are always recorded
   /// [s], ascending: if any, dynamic analyses record their start and these times in place of steps.
   std::vector<double> times;
+  bool log = false;    ///< a table of all attempted steps beside the results
   int checkpoint = 0;  ///< steps between points that a run can go on from; 0: at the end of dynamic analyses only
 };
 
@@ -34,6 +37,7 @@ struct MechanismFile {
   std::vector<Analysis> analyses;
   OutputOptions output;
   std::string text;  ///< of the file
+  std::string path;  ///< of the file; empty when read from a text
 };
 
 /// Reads a mechanism file.

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/io/results_rows.hpp"
+#include "mechanism/system/system.hpp"
 #include "reduce/common/hdf5_file.hpp"
 
 namespace bielle::mechanism {
@@ -227,6 +228,15 @@ ResultsFile::~ResultsFile() {
   }
   stream_->changed.notify_all();
   stream_->writer.join();  // which writes what waits
+}
+
+void ResultsFile::name_equations(const System& system) {
+  std::string names;
+  for (int i = 0; i < system.size(); ++i)
+    names += fmt::format("{} [{}]\n", system.equation_name(i), system.equation_units(i));
+  stream_->wait_until_all_is_written();
+  if (!stream_->file.has("/equations")) stream_->file.write_text("/equations", names);
+  stream_->file.flush();
 }
 
 void ResultsFile::begin_analysis(const std::string& type, std::size_t expected_rows) {

@@ -23,6 +23,7 @@ class Hdf5File;
 namespace bielle::mechanism {
 
 class Model;
+class System;
 
 /// What a step has to report beside the state.
 struct StepRecord {
@@ -31,6 +32,8 @@ struct StepRecord {
   double step = 0;             ///< size of the step [s]
   int newton_iterations = 0;   ///< of the step
   double error_estimate = 0;   ///< of the step, relative to the tolerance; 0 when the step is fixed
+  double worst_residual = 0;   ///< of the step, relative to its tolerance
+  int worst_equation = -1;     ///< whose residual that is; -1: there is none
   std::optional<double> time;  ///< reported in place of the state's: the load factor of a static analysis
 };
 
@@ -46,6 +49,9 @@ class ResultsFile {
   ~ResultsFile();  ///< writes the rows that wait; the file stays `complete = false` unless complete() was called
   ResultsFile(const ResultsFile&) = delete;
   ResultsFile& operator=(const ResultsFile&) = delete;
+
+  /// Writes /equations: the name of each equation with its units, one per line, for those that rows name by number.
+  void name_equations(const System& system);
 
   /// Opens the group /analysis_1, /analysis_2, ...
   /// @param type  as in the input file: "dynamic"

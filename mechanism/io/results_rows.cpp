@@ -39,6 +39,8 @@ ResultsRows::ResultsRows(const Model& model) : model_(model) {
   add_column("solver/step", {}, "s", "");
   add_column("solver/newton_iterations", {}, "-", "");
   add_column("solver/error_estimate", {}, "-", "relative to the tolerance; 0 when the step is fixed");
+  add_column("solver/worst_residual", {}, "-", "of all equations at the end of the step, relative to its tolerance");
+  add_column("solver/worst_equation", {}, "-", "its line in /equations, from 0; -1: there was none");
   quaternions_.resize(nodes_.size());
 }
 
@@ -164,8 +166,9 @@ void ResultsRows::fill(const State& state, const std::vector<Slots>& slots, cons
   const double energies[] = {energy.kinetic,     energy.elastic, energy.gravity,
                              energy.dissipation, energy.input,   step.balance};
   copy(energies, 6, values + energy_);
-  const double solver[] = {step.step, static_cast<double>(step.newton_iterations), step.error_estimate};
-  copy(solver, 3, values + solver_);
+  const double solver[] = {step.step, static_cast<double>(step.newton_iterations), step.error_estimate,
+                           step.worst_residual, static_cast<double>(step.worst_equation)};
+  copy(solver, std::size(solver), values + solver_);
 }
 
 void ResultsRows::fill_node(const NodePlace& place, const NodeState& node, double* values) {

@@ -10,6 +10,7 @@
 
 #include "mechanism/io/energy_balance.hpp"
 #include "mechanism/io/results_file.hpp"
+#include "mechanism/io/step_log.hpp"
 #include "mechanism/solvers/model_length.hpp"
 #include "mechanism/solvers/redundancy.hpp"
 #include "mechanism/solvers/statics.hpp"
@@ -30,10 +31,10 @@ class InterruptGuard {
     std::signal(SIGINT, previous_int_);
     std::signal(SIGTERM, previous_term_);
   }
-  void check(double time) const {
+  void check(double time, const std::string& advice = "") const {
     if (interrupted)
       throw ComputationError(
-          fmt::format("interrupted at t = {:.6g} s; the results file holds all steps up to there", time));
+          fmt::format("interrupted at t = {:.6g} s; the results file holds all steps up to there{}", time, advice));
   }
 
  private:
@@ -54,6 +55,10 @@ class Run {
         results_(checkpoint ? ResultsFile(results_path, file.model, file.text, *checkpoint)
                             : ResultsFile(results_path, file.model, file.text)),
         progress_(progress) {
+    if (file.output.log) log_.emplace(results_path, system_, checkpoint.has_value());
+    advice_ = fmt::format("; `bielle-mechanism {} --restart {}` goes on from there",
+                          file.path.empty() ? "MODEL.yaml" : file.path, results_path);
+    results_.name_equations(system_);
     const std::vector<int> redundant = find_redundant(system_, environment_, state_);
     system_.set_aside(redundant);
     redundant_ = name_constraints(system_, redundant);
@@ -112,6 +117,8 @@ class Run {
     row.step = step.report.size;
     row.newton_iterations = step.report.iterations;
     row.error_estimate = step.error;
+    row.worst_residual = step.report.worst_ratio;
+    row.worst_equation = step.report.worst_equation;
     results_.record(state_, system_.slots(), environment_, row);
   }
 
@@ -161,9 +168,16 @@ class Run {
       summary.iterations += iterations;
       progress_.update(factor, fmt::format("load factor {:.4g}", factor));
     };
+    VectorX v(system_.dofs()), unused(system_.dofs());
+    system_.get_rates(state_, v, unused);
+    if (!v.isZero(0))
+      progress_.note(
+          "a static analysis is at rest, and so is what comes behind it: the velocities are dropped (a dynamic "
+          "analysis "
+          "with `start: equilibrium` keeps them)");
     Environment statics = environment_;
     statics.statics = true;
-    solve_statics(system_, statics, analysis.steps, NewtonOptions{}, state_, note);
+    solve_statics(system_, statics, analysis.steps, analysis.newton, state_, note);
     summary.energy = books.totals();
     summary.end_time = state_.time;
     return summary;
@@ -208,14 +222,13 @@ class Run {
       go_on(analysis, *checkpoint, motion);
       summary.name += fmt::format(", continued from t = {:.6g} s", motion.integration->state().time);
     } else {
-      set_off(analysis, motion);
-      summary.start = motion.integration->start_report();
+      set_off(analysis, motion, summary.start);
       summary.records = 1;
     }
     try {
       while (!motion.march->done()) {
         step(motion, summary);
-        guard_.check(motion.integration->state().time);
+        guard_.check(motion.integration->state().time, advice_);
       }
     } catch (const ComputationError&) {
       save(motion);
@@ -226,6 +239,8 @@ class Run {
     summary.march = motion.march->log();
     summary.steps = summary.march.steps;
     summary.iterations = summary.march.iterations;
+    if (summary.march.slowest_equation >= 0)
+      summary.slowest_equation = system_.equation_name(summary.march.slowest_equation);
     summary.end_time = state_.time;
     summary.energy = motion.books.totals();
     summary.energy_start = motion.books.energy_at_start();
@@ -245,15 +260,23 @@ class Run {
     return positions * (scale[Kind::translation] * model_length(state_) + scale[Kind::rotation]);
   }
 
-  void set_off(const Analysis& analysis, Motion& motion) {
+  void set_off(const Analysis& analysis, Motion& motion, StartReport& start) {
+    if (analysis.equilibrium) settle(system_, environment_, analysis.newton, state_, start);
     motion.begin = state_.time;
     motion.end = motion.begin + analysis.duration;
     motion.stepping = stepping_of(analysis, motion.begin);
-    motion.integration.emplace(system_, environment_, analysis.scheme, std::move(state_), analysis.form);
+    motion.integration.emplace(system_, environment_, analysis.scheme, std::move(state_), analysis.form,
+                               analysis.newton);
+    start.add(motion.integration->start_report());
     state_ = motion.integration->state();
     motion.books.start(motion.begin, system_.energy(state_, environment_));
     record(environment_, motion.books, motion.stepping.size, 0);
+    make_march(motion);
+  }
+
+  void make_march(Motion& motion) {
     motion.march.emplace(*motion.integration, motion.begin, motion.end, motion.stepping);
+    if (log_) motion.march->observe([this](const Attempt& attempt) { log_->write(attempt); });
   }
 
   void go_on(const Analysis& analysis, const Checkpoint& checkpoint, Motion& motion) {
@@ -261,8 +284,8 @@ class Run {
     exchange_books(archive, motion);
     motion.end = motion.begin + analysis.duration;
     motion.stepping = stepping_of(analysis, motion.begin);
-    motion.integration.emplace(system_, environment_, analysis.scheme, archive, analysis.form);
-    motion.march.emplace(*motion.integration, motion.begin, motion.end, motion.stepping);
+    motion.integration.emplace(system_, environment_, analysis.scheme, archive, analysis.form, analysis.newton);
+    make_march(motion);
     motion.march->exchange(archive);
     motion.saved = true;
   }
@@ -320,7 +343,9 @@ class Run {
   std::optional<Checkpoint> checkpoint_;
   ResultsFile results_;
   Progress& progress_;
+  std::optional<StepLog> log_;
   InterruptGuard guard_;
+  std::string advice_;  ///< how to go on after an interruption
   std::vector<std::string> redundant_;
 };
 

@@ -16,6 +16,7 @@ struct AnalysisSummary {
   long steps = 0;
   long iterations = 0;                 ///< linear solves
   MarchLog march;                      ///< dynamics
+  std::string slowest_equation;        ///< dynamics: the worst in the step with the most iterations
   long records = 0;                    ///< rows written
   std::vector<std::string> redundant;  ///< constraints set aside
   StartReport start;                   ///< dynamics: what the consistent start had to change

@@ -36,6 +36,19 @@ VectorX small_diagonal(const System& system, const LinearStep& linear, const Sta
 
 }  // namespace
 
+void StartReport::add(const StartReport& later) {
+  if (later.largest_displacement > largest_displacement) {
+    largest_displacement = later.largest_displacement;
+    displaced_node = later.displaced_node;
+  }
+  largest_rotation = std::max(largest_rotation, later.largest_rotation);
+  velocity_change = std::max(velocity_change, later.velocity_change);
+  if (later.settled > settled) {
+    settled = later.settled;
+    settled_node = later.settled_node;
+  }
+}
+
 VectorX factor_mass_saddle(const System& system, const Environment& environment, const State& state,
                            LinearStep& linear) {
   const TangentWeights weights{0, 0, 1, 1, 1, true};

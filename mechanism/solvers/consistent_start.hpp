@@ -28,6 +28,9 @@ struct StartReport {
   std::string displaced_node;       ///< that node's name
   double largest_rotation = 0;      ///< [rad]
   double velocity_change = 0;       ///< largest change of a nodal velocity [m/s]
+  double settled = 0;               ///< largest displacement of a node by static equilibrium, if asked for [m]
+  std::string settled_node;         ///< that node's name
+  void add(const StartReport& later);
 };
 
 /// Moves the state's positions until all holonomic constraints hold.

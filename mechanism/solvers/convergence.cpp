@@ -40,24 +40,44 @@ void Convergence::measure_rounding(const LinearStep& linear, const State& state)
   scale_ = linear.scale();
 }
 
+double Convergence::reference(Kind kind, const ResidualScale& scale) const {
+  return kind == Kind::multiplier ? std::max(scale[Kind::translation], scale[Kind::rotation]) / scale_ : scale[kind];
+}
+
 bool Convergence::reached(const Eigen::Ref<const VectorX>& r, const ResidualScale& scale) {
   worst_ = -1;
-  worst_ratio_ = 0;
-  const double force = std::max(scale[Kind::translation], scale[Kind::rotation]);
+  worst_ratio_ = worst_residual_ = 0;
+  std::array<double, kind_count> allowed{};
+  for (std::size_t kind = 0; kind < kind_count; ++kind)
+    allowed[kind] = options_.tolerance * reference(static_cast<Kind>(kind), scale);
   for (int i = 0; i < system_.size(); ++i) {
-    const Kind kind = system_.kind(i);
-    const double reference = kind == Kind::multiplier ? force / scale_ : scale[kind];
-    const double allowed = options_.tolerance * reference + floor_[i];
     const double residual = std::abs(r[i]);
-    const double ratio = residual == 0 ? 0 : residual / allowed;
-    if (ratio > worst_ratio_ || !std::isfinite(residual)) {
-      worst_ratio_ = ratio;
-      worst_ = i;
-      worst_residual_ = r[i];
-      if (!std::isfinite(residual)) return false;
-    }
+    // Only what may be worse than the worst so far is divided.
+    const double most = allowed[static_cast<std::size_t>(system_.kind(i))] + floor_[i];
+    if (residual == 0 || residual <= worst_ratio_ * most) continue;
+    worst_ratio_ = residual / most;
+    worst_ = i;
+    worst_residual_ = r[i];
+    if (!std::isfinite(residual)) return false;
   }
   return worst_ratio_ <= 1;
+}
+
+void Convergence::measure_by(const ResidualScale& scale) {
+  std::array<double, kind_count> allowed{};
+  for (std::size_t kind = 0; kind < kind_count; ++kind)
+    allowed[kind] = options_.tolerance * reference(static_cast<Kind>(kind), scale);
+  measure_.resize(system_.size());
+  for (int i = 0; i < system_.size(); ++i) {
+    const double most = allowed[static_cast<std::size_t>(system_.kind(i))] + floor_[i];
+    measure_[i] = most > 0 ? 1 / most : 0;
+  }
+}
+
+double Convergence::size_of(const Eigen::Ref<const VectorX>& r) const {
+  if (r.size() == 0) return 0;
+  const double size = measure_.cwiseProduct(r.cwiseAbs()).maxCoeff<Eigen::PropagateNaN>();
+  return std::isfinite(size) ? size : std::numeric_limits<double>::infinity();
 }
 
 std::string Convergence::worst() const {

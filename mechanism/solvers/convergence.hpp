@@ -3,7 +3,8 @@
 // An equation of forces is satisfied when its residual is small beside the largest contribution of any component to the
 // equations of its kind, or has reached what rounding of the unknowns makes of it (sum_j |J_ij| s_j eps). A constraint
 // is satisfied when it would change the forces by no more than that: |Phi| k <= tolerance * forces, k the tangent's
-// size.
+// size. Where all that acts comes from one component (a body in free flight, whose inertia and weight are one
+// contribution), nothing is left to be small beside in the end: there it is rounding that decides.
 #pragma once
 
 #include "mechanism/solvers/linear_step.hpp"
@@ -13,6 +14,12 @@ namespace bielle::mechanism {
 struct NewtonOptions {
   double tolerance = 1e-9;  ///< relative, see the head of this file
   int iterations = 20;      ///< at most
+  /// Where a full step makes the residual larger, half of it, a quarter or an eighth is tried.
+  bool line_search = true;
+  /// Factors of the tangent serve as long as each iteration with them divides the residual by `1/contraction`;
+  /// otherwise they are renewed at each iteration. Time integration only.
+  bool reuse_tangent = true;
+  double contraction = 0.1;
 };
 
 class Convergence {
@@ -20,19 +27,28 @@ class Convergence {
   Convergence(const System& system, const NewtonOptions& options)
       : system_(system), options_(options), floor_(VectorX::Zero(system.size())) {}
 
-  /// Renews the rounding floor from the last tangent. Once per step is enough.
+  /// Renews the rounding floor from the last tangent.
   void measure_rounding(const LinearStep& linear, const State& state);
   /// @param r  residual (size) with its scale
   bool reached(const Eigen::Ref<const VectorX>& r, const ResidualScale& scale);
+  /// Fixes what `size_of` measures by: the tolerances at this residual's scale.
+  void measure_by(const ResidualScale& scale);
+  /// Largest residual over the tolerances that `measure_by` fixed: comparable from iterate to iterate, whatever forces
+  /// a wild one has. Infinite for what is no number.
+  double size_of(const Eigen::Ref<const VectorX>& r) const;
   /// The equation that was farthest from its tolerance in the last call of `reached`: "moment z at node 'pin' (3.2e+04
   /// N m)".
   std::string worst() const;
+  int worst_equation() const { return worst_; }  ///< -1: all residuals vanish
+  double worst_residual() const { return worst_residual_; }
   double worst_ratio() const { return worst_ratio_; }  ///< residual over tolerance
 
  private:
+  double reference(Kind kind, const ResidualScale& scale) const;
+
   const System& system_;
   NewtonOptions options_;
-  VectorX floor_, unknown_scale_;
+  VectorX floor_, unknown_scale_, measure_;
   double scale_ = 1;
   int worst_ = -1;
   double worst_residual_ = 0, worst_ratio_ = 0;

@@ -30,6 +30,8 @@ class LinearStep {
 
   /// Whether the last factors hold a pivot that is made of rounding errors. They must exist.
   bool nearly_singular() const;
+  /// Where the last factorisation found no pivot, or -1.
+  int singular_unknown() const { return factors_.singular_column(); }
   double scale() const { return scale_; }  ///< k
   /// Sum over columns |J_ij| s_j of the last (unscaled) tangent: what rounding of the unknowns does to equation i.
   void row_sums(const Eigen::Ref<const VectorX>& unknown_scale, Eigen::Ref<VectorX> sums) const;

@@ -20,6 +20,28 @@ double proposed_size(double h, double error, double largest) {
 
 }  // namespace
 
+void MarchLog::exchange(Archive& archive) {
+  for (long* count : {&steps, &iterations, &factorisations, &shortened, &refused_by_error, &refused_by_newton})
+    archive(*count);
+  for (double* value : {&smallest, &largest, &most_iterations_at}) archive(*value);
+  archive(most_iterations);
+  archive(slowest_equation);
+}
+
+MarchLog MarchLog::followed_by(const MarchLog& next) const {
+  MarchLog both = next.most_iterations > most_iterations ? next : *this;  // the hardest step of the two
+  both.steps = steps + next.steps;
+  both.iterations = iterations + next.iterations;
+  both.factorisations = factorisations + next.factorisations;
+  both.shortened = shortened + next.shortened;
+  both.refused_by_error = refused_by_error + next.refused_by_error;
+  both.refused_by_newton = refused_by_newton + next.refused_by_newton;
+  both.smallest = smallest > 0 && next.smallest > 0 ? std::min(smallest, next.smallest) : smallest + next.smallest;
+  both.largest = std::max(largest, next.largest);
+  both.hardest = next.hardest.empty() ? hardest : next.hardest;
+  return both;
+}
+
 /// Where steps have to end: the grid of fixed steps, kinks, and the end.
 class March::Stops {
  public:
@@ -79,9 +101,12 @@ void March::exchange(Archive& archive) {
   archive(pending);
   pending_ = static_cast<Pending>(pending);
   archive(size_);
-  for (long* count : {&log_.steps, &log_.iterations, &log_.refused_by_error, &log_.refused_by_newton}) archive(*count);
-  for (double* value : {&log_.smallest, &log_.largest, &log_.most_iterations_at}) archive(*value);
-  archive(log_.most_iterations);
+  MarchLog whole = before_.followed_by(log_);
+  whole.exchange(archive);
+  if (archive.restoring()) {
+    before_ = whole;
+    log_ = {};
+  }
   if (norm_) norm_->exchange(archive);
   stops_->advance(integration_.state().time);
 }
@@ -111,30 +136,47 @@ void March::refuse_by_error(double h, double error) {
 }
 
 MarchStep March::advance() {
+  constexpr int most = 2;
   begin_step();
+  int too_large = 0;  // errors, one after the other
   while (true) {
     const double time = integration_.state().time, left = stops_->time() - time;
     // The last two steps before a stop are of one size: no sliver remains.
     const bool last = left <= size_ * (1 + 1e-9);
     const double h = last ? left : left < 2 * size_ ? left / 2 : size_;
     const bool kink = last && stops_->at_kink();
-    integration_.change_step(h);
+    // The local error falls with the third power of the step. Where it does not do so at once, it is made of what
+    // changes of the step left in the algorithmic accelerations: these are taken anew from equilibrium.
+    if (too_large >= most)
+      integration_.restart(h);
+    else
+      integration_.change_step(h);
     const StepReport report = integration_.attempt(h, last ? stops_->time() : time + h, kink);
     log_.iterations += report.iterations;
+    log_.factorisations += report.factorisations;
+    log_.shortened += report.shortened;
+    const auto tell = [&](Attempt::Outcome outcome, double error) {
+      if (observer_) observer_({outcome, time + h, report, error});
+    };
     if (!report.converged()) {
+      tell(Attempt::Outcome::refused_by_newton, 0);
       refuse_by_newton(h, report);
       continue;
     }
     const double error = norm_ ? (*norm_)(integration_) / options_.tolerance : 0;
     if (error > 1) {
+      tell(Attempt::Outcome::refused_by_error, error);
+      ++too_large;
       refuse_by_error(h, error);
       continue;
     }
     integration_.accept();
+    tell(Attempt::Outcome::accepted, error);
     ++log_.steps;
     if (report.iterations > log_.most_iterations) {
       log_.most_iterations = report.iterations;
       log_.most_iterations_at = integration_.state().time;
+      log_.slowest_equation = report.worst_equation;
     }
     if (!kink) {
       log_.smallest = log_.smallest > 0 ? std::min(log_.smallest, h) : h;

@@ -6,6 +6,7 @@
 // a change costs a factorisation.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -31,15 +32,29 @@ struct MarchStep {
   bool on_grid = true;  ///< ends on a time of the fixed grid; always true with adaptive steps
 };
 
+/// A step that was tried, as told to those who keep a log.
+struct Attempt {
+  enum class Outcome { accepted, refused_by_error, refused_by_newton } outcome;
+  double time;  ///< at its end [s]
+  const StepReport& report;
+  double error;  ///< as in MarchStep
+};
+
 /// What a march did.
 struct MarchLog {
   long steps = 0, iterations = 0;    ///< accepted steps; linear solves, those of refused steps included
+  long factorisations = 0;           ///< of the tangent
+  long shortened = 0;                ///< iterations whose full step was too long
   long refused_by_error = 0;         ///< steps whose local error was too large
   long refused_by_newton = 0;        ///< steps in which Newton's method failed
   double smallest = 0, largest = 0;  ///< accepted steps [s], those cut short by kinks left out
   int most_iterations = 0;           ///< of an accepted step
   double most_iterations_at = 0;     ///< [s]
+  int slowest_equation = -1;         ///< that was the worst at the end of that step; -1: none
   std::string hardest;               ///< why a step was last refused; empty when none was
+
+  void exchange(Archive& archive);                   ///< all but the text
+  MarchLog followed_by(const MarchLog& next) const;  ///< the log of both together
 };
 
 class March {
@@ -56,7 +71,9 @@ class March {
   /// 1e-10
   ///         of the span
   MarchStep advance();
+  /// Of this program's run: what came before a restart is not in it.
   const MarchLog& log() const { return log_; }
+  void observe(std::function<void(const Attempt&)> observer) { observer_ = std::move(observer); }
   void exchange(Archive& archive);  ///< of a march with the same options; the integration has its own
 
  private:
@@ -73,7 +90,8 @@ class March {
   std::optional<ErrorNorm> norm_;  ///< adaptive steps only
   Pending pending_ = Pending::start;
   double size_ = 0, smallest_ = 0;
-  MarchLog log_;
+  MarchLog log_, before_;  ///< before_: of the runs that this one goes on from
+  std::function<void(const Attempt&)> observer_;
 };
 
 }  // namespace bielle::mechanism

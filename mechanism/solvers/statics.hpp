@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "mechanism/solvers/convergence.hpp"
+#include "mechanism/solvers/consistent_start.hpp"
 
 namespace bielle::mechanism {
 
@@ -15,5 +15,11 @@ namespace bielle::mechanism {
 /// @throws ComputationError naming the load factor and the equation where Newton stalled
 void solve_statics(const System& system, const Environment& environment, int steps, const NewtonOptions& options,
                    State& state, const std::function<void(const State&, double, int)>& record = {});
+
+/// Brings the state into equilibrium under the loads at its time, as the start of a motion: velocities stay as they
+/// are. Adds to the report what had to move, by assembly and by equilibrium.
+/// @throws ComputationError when there is no equilibrium near, or when the mechanism can move without resistance in it
+void settle(const System& system, const Environment& environment, const NewtonOptions& options, State& state,
+            StartReport& report);
 
 }  // namespace bielle::mechanism

@@ -10,6 +10,11 @@
 namespace bielle::mechanism {
 namespace {
 
+constexpr int floor_lasts = 16;  // steps
+
+/// Turn of a node in one step beyond which T(Dq) is not to be trusted: it is singular at a full turn [rad].
+constexpr double most_turn = 0.9 * 2 * 3.14159265358979324;
+
 /// Distance from a kink at which its two sides are told apart in spite of rounding [s].
 double beside(double time, double h) { return 1e-12 * h + 8 * std::numeric_limits<double>::epsilon() * std::abs(time); }
 
@@ -53,6 +58,8 @@ void TimeIntegration::allocate(ConstraintForm form) {
     stabilised_ = std::make_unique<StabilisedStep>(system_);
   eta_.setZero(system_.dofs());
   mu_.setZero(system_.multipliers());
+  u_.setZero(system_.dofs());
+  u_y_.setZero(system_.first_orders());
   const int size = stabilised_ ? stabilised_->size() : system_.size();
   r_.setZero(size);
   delta_.setZero(size);
@@ -65,6 +72,8 @@ void TimeIntegration::exchange(Archive& archive) {
   archive(h_);
   linear_.choose_pivots_anew();
   if (stabilised_) stabilised_->choose_pivots_anew();
+  factored_for_ = 0;
+  floor_age_ = floor_lasts;
 }
 
 void TimeIntegration::take_rates() {
@@ -127,6 +136,7 @@ void TimeIntegration::perturb_velocity(const VectorX& j, double factor) {
   r_.setZero();
   r_.tail(system_.multipliers()) = without - with;
   for (const int multiplier : system_.set_aside()) r_[system_.size() - system_.multipliers() + multiplier] = 0;
+  factored_for_ = 0;
   factor_mass_saddle(system_, environment_, state_, linear_);
   linear_.solve(r_, delta_);
   v_ += factor * delta_.head(system_.dofs());
@@ -176,91 +186,185 @@ VectorX TimeIntegration::algorithmic_rate() const {
 }
 
 void TimeIntegration::predict(double h, double end) {
-  const double gamma = scheme_.gamma, beta = scheme_.beta;
+  const auto [alpha_m, alpha_f, gamma, beta] = scheme_;
+  rate_factor_ = gamma / (beta * h);
+  acceleration_factor_ = (1 - alpha_m) / ((1 - alpha_f) * beta * h * h);
+  first_order_factor_ = (1 - alpha_m) / ((1 - alpha_f) * gamma * h);
   // The accelerations stay.
   if (stabilised_) stabilised_->begin(state_, environment_);
-  eta_.setZero();
-  mu_.setZero();
   a_new_ = a_;
   const VectorX A = algorithmic_acceleration();
-  dq_ = h * v_ + h * h * ((0.5 - beta) * A_ + beta * A);
-  v_new_ = v_ + h * ((1 - gamma) * A_ + gamma * A);
+  predicted_dq_ = h * v_ + h * h * ((0.5 - beta) * A_ + beta * A);
+  predicted_v_ = v_ + h * ((1 - gamma) * A_ + gamma * A);
   next_.time = end;
   next_.multiplier = state_.multiplier;
   next_.memory = state_.memory;
-  next_.first_order_rate = state_.first_order_rate;
-  next_.first_order = state_.first_order + h * ((1 - gamma) * Y_ + gamma * algorithmic_rate());
+  predicted_y_rate_ = next_.first_order_rate = state_.first_order_rate;
+  predicted_y_ = state_.first_order + h * ((1 - gamma) * Y_ + gamma * algorithmic_rate());
+  for (VectorX* vector : {&u_, &u_y_, &eta_, &mu_, &delta_}) vector->setZero();
+  move(0);
 }
 
-void TimeIntegration::solve_linear(const TangentWeights& weights, bool first) {
+void TimeIntegration::move(double part) {
+  const int n = system_.dofs(), y = system_.first_orders(), m = system_.multipliers();
+  u_ += part * delta_.head(n);
+  u_y_ += part * delta_.segment(n, y);
+  next_.multiplier += part * delta_.segment(n + y, m);
+  dq_ = predicted_dq_ + u_;
+  if (stabilised_) {
+    eta_ += part * delta_.segment(system_.size(), n);
+    mu_ += part * delta_.tail(m);
+    dq_ += eta_;
+  }
+  v_new_ = predicted_v_ + rate_factor_ * u_;
+  a_new_ = a_ + acceleration_factor_ * u_;
+  next_.first_order = predicted_y_ + u_y_;
+  next_.first_order_rate = predicted_y_rate_ + first_order_factor_ * u_y_;
+}
+
+void TimeIntegration::evaluate() {
+  system_.displace(next_, state_, dq_);
+  system_.set_rates(next_, v_new_, a_new_);
+  system_.residual(next_, environment_, r_.head(system_.size()), &scale_);
+  if (stabilised_) stabilised_->add_residual(next_, environment_, eta_, mu_, r_);
+}
+
+double TimeIntegration::size_of_residual() const { return convergence_.size_of(r_.head(system_.size())); }
+
+void TimeIntegration::factor(StepReport& report) {
+  const TangentWeights weights{1, rate_factor_, acceleration_factor_, first_order_factor_, 1};
+  factored_for_ = 0;
   if (stabilised_) {
     linear_.assemble(next_, environment_, weights, &dq_);
     if (!stabilised_->factor(linear_, next_, environment_, weights, dq_)) linear_.throw_singular(next_.time);
   } else {
     linear_.factor(next_, environment_, weights, &dq_);
   }
-  if (first) convergence_.measure_rounding(linear_, next_);
+  factored_for_ = attempted_;
+  ++report.factorisations;
+  if (floor_age_ < floor_lasts && h_ == attempted_) return;
+  convergence_.measure_rounding(linear_, next_);
+  floor_age_ = 0;
+}
+
+/// Where a full step made the residual larger than it was `before`: shorter ones, if they make it smaller.
+void TimeIntegration::shorten(double before, StepReport& report) {
+  const double full = size_;
+  double part = 1;
+  for (const double shorter : {0.5, 0.25, 0.125}) {
+    move(shorter - part);
+    part = shorter;
+    try {
+      evaluate();
+      size_ = size_of_residual();
+    } catch (const ComputationError&) {
+      continue;
+    }
+    if (size_ < before) {
+      ++report.shortened;
+      return;
+    }
+  }
+  // Newton's method may have to pass over a hill.
+  move(1 - part);
+  evaluate();
+  size_ = full;
+}
+
+/// An iteration of Newton's method.
+void TimeIntegration::improve(StepReport& report) {
+  const bool renew = !options_.reuse_tangent || factored_for_ != attempted_;
+  if (renew) factor(report);
+  if (report.iterations == 0) {
+    convergence_.measure_by(scale_);
+    size_ = size_of_residual();
+  }
   if (stabilised_)
     stabilised_->solve(r_, delta_);
   else
     linear_.solve(r_, delta_);
+  ++report.iterations;
+  const double before = size_;
+  move(1);
+  try {
+    evaluate();
+    size_ = size_of_residual();
+  } catch (const ComputationError&) {
+    // A component refuses what it is asked for (a beam whose ends turn too far).
+    if (renew && !options_.line_search) throw;
+    size_ = std::numeric_limits<double>::infinity();
+  }
+  if (!renew && !(size_ < options_.contraction * before)) {
+    factored_for_ = 0;
+    if (size_ < before) return;
+    // The old tangent led astray.
+    move(-1);
+    evaluate();
+    size_ = before;
+    return;
+  }
+  if (options_.line_search && !(size_ <= before)) shorten(before, report);
 }
 
-bool TimeIntegration::reached(const ResidualScale& scale) {
-  if (!convergence_.reached(r_.head(system_.size()), scale)) return false;
+bool TimeIntegration::reached(const StepReport& report) {
+  if (report.iterations == 0) return false;
+  if (within_tolerance()) return true;
+  // The forces may have grown since their rounding was measured.
+  constexpr int late = 3;
+  if (report.iterations < late || floor_age_ == 0) return false;
+  convergence_.measure_rounding(linear_, next_);
+  floor_age_ = 0;
+  return within_tolerance();
+}
+
+bool TimeIntegration::within_tolerance() {
+  if (!convergence_.reached(r_.head(system_.size()), scale_)) return false;
   if (!stabilised_) return true;
   // What the rates of constraints make of them within a step is judged like the constraints themselves.
   VectorX rates = VectorX::Zero(system_.size());
   rates.tail(system_.multipliers()) = attempted_ * r_.tail(system_.multipliers());
-  return convergence_.reached(rates, scale);
+  return convergence_.reached(rates, scale_);
+}
+
+/// T(Dq) is singular where a node makes a full turn in one step, and the rotation is that of none.
+void TimeIntegration::check_turns() const {
+  for (std::size_t i = 0; i < next_.nodes.size(); ++i) {
+    const NodeFreedom& f = system_.kinematics().freedom(static_cast<int>(i));
+    if (f.rotations != 3) continue;
+    if (const double turn = dq_.segment<3>(f.begin + f.count - 3).norm(); turn > most_turn)
+      throw ComputationError(fmt::format(
+          "t = {:.6g} s: node '{}' turns by {:.3g} rad in one step of {:.3g} s; the scheme needs less than {:.3g} rad",
+          next_.time, system_.model().node(static_cast<int>(i)).name, turn, attempted_, most_turn));
+  }
 }
 
 StepReport TimeIntegration::attempt(double h, double end, bool kink) {
-  const auto [alpha_m, alpha_f, gamma, beta] = scheme_;
-  const double rate_factor = gamma / (beta * h);                                      // gamma'
-  const double acceleration_factor = (1 - alpha_m) / ((1 - alpha_f) * beta * h * h);  // beta'
-  const double first_order_factor = (1 - alpha_m) / ((1 - alpha_f) * gamma * h);
-  const TangentWeights weights{1, rate_factor, acceleration_factor, first_order_factor, 1};
-  const int n = system_.dofs(), y = system_.first_orders(), m = system_.multipliers();
-
   attempted_ = h;
   end_ = end;
+  ++floor_age_;
   StepReport report;
   report.size = h;
-  ResidualScale scale;
   try {
     predict(h, kink ? end - beside(end, h) : end);
-    for (;; ++report.iterations) {
-      system_.displace(next_, state_, dq_);
-      system_.set_rates(next_, v_new_, a_new_);
-      system_.residual(next_, environment_, r_.head(system_.size()), &scale);
-      if (stabilised_) stabilised_->add_residual(next_, environment_, eta_, mu_, r_);
-      if (report.iterations > 0 && reached(scale)) break;
+    for (evaluate();; improve(report)) {
+      if (reached(report)) break;
       if (report.iterations == options_.iterations || !r_.allFinite()) {
-        reached(scale);
+        within_tolerance();
         report.refusal = fmt::format("t = {:.6g} s: Newton did not converge in {} iterations; largest residual: {}",
                                      next_.time, report.iterations, convergence_.worst());
+        factored_for_ = 0;
         break;
       }
-      solve_linear(weights, report.iterations == 0);
-      const auto u = delta_.head(n);
-      dq_ += u;
-      if (stabilised_) {
-        dq_ += delta_.segment(system_.size(), n);
-        eta_ += delta_.segment(system_.size(), n);
-        mu_ += delta_.tail(m);
-      }
-      v_new_ += rate_factor * u;
-      a_new_ += acceleration_factor * u;
-      next_.first_order += delta_.segment(n, y);
-      next_.first_order_rate += first_order_factor * delta_.segment(n, y);
-      next_.multiplier += delta_.segment(n + y, m);
     }
+    if (report.converged()) check_turns();
+    report.worst_equation = convergence_.worst_equation();
+    report.worst_residual = convergence_.worst_residual();
     report.worst_ratio = convergence_.worst_ratio();
   } catch (const ComputationError& error) {
-    // A component refuses what it was asked for (a beam whose ends turn too far), or the equations are singular. Nearer
-    // to the last state that may not be so.
+    // A component refuses what it was asked for, or the equations are singular. Nearer to the last state that may not
+    // be so.
     report.refusal = error.what();
+    factored_for_ = 0;
   }
   return report;
 }

@@ -36,10 +36,14 @@ enum class ConstraintForm { position, stabilised };
 
 /// What a step did.
 struct StepReport {
-  double size = 0;         ///< h [s]
-  int iterations = 0;      ///< linear solves of Newton's method
-  double worst_ratio = 0;  ///< residual over tolerance at the end
-  std::string refusal;     ///< why the step failed; empty when it did not
+  double size = 0;            ///< h [s]
+  int iterations = 0;         ///< linear solves of Newton's method
+  int factorisations = 0;     ///< of the tangent
+  int shortened = 0;          ///< iterations whose full step was too long
+  int worst_equation = -1;    ///< farthest from its tolerance at the end; -1: none is off at all
+  double worst_residual = 0;  ///< of that equation, in its units
+  double worst_ratio = 0;     ///< over its tolerance
+  std::string refusal;        ///< why the step failed; empty when it did not
   bool converged() const { return refusal.empty(); }
 };
 
@@ -94,8 +98,15 @@ class TimeIntegration {
   bool resolved(const VectorX& j, double h) const;  ///< accelerations change little within a step
   void perturb_velocity(const VectorX& j, double factor);
   void predict(double h, double end);
-  void solve_linear(const TangentWeights& weights, bool first);
-  bool reached(const ResidualScale& scale);
+  void move(double part);  ///< the attempt, by a part of the last solution
+  void evaluate();         ///< residual and its scale at the attempt
+  double size_of_residual() const;
+  void improve(StepReport& report);
+  void factor(StepReport& report);
+  void shorten(double before, StepReport& report);
+  bool reached(const StepReport& report);
+  bool within_tolerance();
+  void check_turns() const;
   VectorX algorithmic_acceleration() const;  ///< A_{n+1} of the attempt
   VectorX algorithmic_rate() const;          ///< Y_{n+1}
 
@@ -115,7 +126,14 @@ class TimeIntegration {
   VectorX Y_;             ///< algorithmic rates of the first-order unknowns
   VectorX Y_rate_;        ///< and their rate over the last accepted step
   bool Y_rate_known_ = false;
-  VectorX dq_, v_new_, a_new_, r_, delta_;
+  // The attempt: what was predicted, what Newton's method added, and both together.
+  VectorX predicted_dq_, predicted_v_, predicted_y_, predicted_y_rate_, u_, u_y_, dq_, v_new_, a_new_;
+  VectorX r_, delta_;
+  ResidualScale scale_;
+  double rate_factor_ = 0, acceleration_factor_ = 0, first_order_factor_ = 0;  ///< gamma', beta', and of y
+  double size_ = 0;                             ///< of the residual, see Convergence::size_of
+  double factored_for_ = 0;                     ///< the step size that the factors belong to; 0: none that serve
+  int floor_age_ = 1 << 20;                     ///< steps since the rounding floor was measured
   std::unique_ptr<StabilisedStep> stabilised_;  ///< of that form only
   VectorX eta_, mu_;                            ///< of the attempt: see there
   VectorX last_dq_;                             ///< of the last accepted step

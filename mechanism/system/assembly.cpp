@@ -61,21 +61,13 @@ NodeRelation relate(const NodeKinematics& kinematics, int node, const State& sta
 
 /// Three columns of A from `first` on, times T.
 void multiply_columns(Eigen::Map<MatrixX>& A, Eigen::Index first, const Matrix3& T) {
-  double *x = A.col(first).data(), *y = A.col(first + 1).data(), *z = A.col(first + 2).data();
+  double *__restrict x = A.col(first).data(), *__restrict y = A.col(first + 1).data(),
+         *__restrict z = A.col(first + 2).data();
   for (Eigen::Index row = 0; row < A.rows(); ++row) {
     const double a = x[row], b = y[row], c = z[row];
     x[row] = a * T(0, 0) + b * T(1, 0) + c * T(2, 0);
     y[row] = a * T(0, 1) + b * T(1, 1) + c * T(2, 1);
     z[row] = a * T(0, 2) + b * T(1, 2) + c * T(2, 2);
-  }
-}
-
-/// Adds local entries to the global values at their places; -1 is none.
-void scatter(const std::vector<int>& places, const double* entry, std::vector<double>& values) {
-  double* value = values.data();
-  for (const int place : places) {
-    if (place >= 0) value[place] += *entry;
-    ++entry;
   }
 }
 
@@ -155,6 +147,22 @@ struct System::Workspace {
   }
 };
 
+/// Adds local entries to the global values.
+void System::scatter(const std::vector<Stretch>& stretches, const double* entries, std::vector<double>& values) {
+  for (const Stretch& stretch : stretches) {
+    const double* entry = entries + stretch.entry;
+    double* value = values.data() + stretch.place;
+    int k = 0;
+    // Of a node with itself or another: three and three.
+    for (; k + 3 <= stretch.count; k += 3) {
+      value[k] += entry[k];
+      value[k + 1] += entry[k + 1];
+      value[k + 2] += entry[k + 2];
+    }
+    for (; k < stretch.count; ++k) value[k] += entry[k];
+  }
+}
+
 /// K <- d(B v)/dq, C <- B in the rows of holonomic constraints. d(B^T lambda)/dq of one multiplier at a time has the
 /// same derivatives of B in it: with H_k = d(B_k)/dq, it is H_k for lambda = e_k, and d(B_k v)/dq = H_k^T v.
 void System::velocity_rows(const Placement& placement, const LocalState& local, const Component& component,
@@ -209,9 +217,10 @@ void System::add_reduced(const Placement& placement, const LocalState& local, co
       placement.damping && (rates_in_K || weights.damping != 0 || weights.first_order != 0 || rate_rows);
   const bool wants_M = placement.mass && (rates_in_K || weights.mass != 0 || weights.damping != 0);
   if (weights.velocity_level ? slots.multipliers == 0 : !wants_K && !wants_C && !wants_M && placement.plain) return;
-  K.setZero();
-  if (wants_C || weights.velocity_level || !placement.plain) C.setZero();
-  if (wants_M || !placement.plain) M.setZero();
+  const auto clear = [&](std::vector<double>& matrix) { std::fill_n(matrix.begin(), n * n, 0.0); };
+  clear(work.K);
+  if (wants_C || weights.velocity_level || !placement.plain) clear(work.C);
+  if (wants_M || !placement.plain) clear(work.M);
   if (weights.velocity_level) {
     velocity_rows(placement, local, component, work);
   } else {
@@ -248,7 +257,7 @@ void System::add_reduced(const Placement& placement, const LocalState& local, co
           weights.first_order * C.middleCols(first_order, slots.first_orders);
     }
     if (wants_M && !weights.velocity_level) K += weights.mass * M;
-    scatter(placement.position, K.data(), values);
+    scatter(placement.stretches, K.data(), values);
     return;
   }
   Map sum(work.sum.data(), reduced, reduced);
@@ -300,7 +309,7 @@ void System::add_reduced(const Placement& placement, const LocalState& local, co
           weights.stiffness * (G.bottomRows<3>().transpose() * turn * GT.bottomRows<3>());
     }
   }
-  scatter(placement.position, sum.data(), values);
+  scatter(placement.stretches, sum.data(), values);
 }
 
 void System::tangent(const State& state, const Environment& environment, const TangentWeights& weights,
@@ -317,7 +326,7 @@ void System::tangent(const State& state, const Environment& environment, const T
   }
   for (std::size_t m = 0; m < slots_.size(); ++m) {
     const Placement& placement = placements_[m];
-    if (placement.position.empty()) continue;
+    if (placement.stretches.empty()) continue;
     add_reduced(placement, LocalState(state, slots_[m], environment), weights, *model_.members()[m].component, dq,
                 *work, values);
   }

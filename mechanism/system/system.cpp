@@ -137,11 +137,21 @@ void System::build_pattern() {
   pattern_ = SparsePattern(size(), std::move(entries));
   for (Placement& placement : placements_) {
     if (!contributes(placement)) continue;
-    placement.position.clear();
-    placement.position.reserve(placement.unknown.size() * placement.unknown.size());
+    placement.stretches.clear();
+    int entry = -1;
     for (const int column : placement.unknown)
-      for (const int row : placement.unknown)
-        placement.position.push_back(kept(row, column) ? pattern_.find(row, column) : -1);
+      for (const int row : placement.unknown) {
+        ++entry;
+        if (!kept(row, column)) continue;
+        const int place = pattern_.find(row, column);
+        if (!placement.stretches.empty())
+          if (Stretch& last = placement.stretches.back();
+              last.entry + last.count == entry && last.place + last.count == place) {
+            ++last.count;
+            continue;
+          }
+        placement.stretches.push_back({entry, place, 1});
+      }
   }
 }
 

@@ -87,16 +87,21 @@ class System {
   void accept(State& state, const Environment& environment) const;
 
  private:
+  /// Local entries that are neighbours among the global values, too.
+  struct Stretch {
+    int entry, place, count;  ///< first local entry, first place among the values
+  };
   /// How one component's local rows and columns reach the global ones.
   struct Placement {
     bool plain = true;               ///< every node is free in all six directions, or held in all
     std::vector<int> unknown;        ///< global unknown of each reduced local row, -1 where held
-    std::vector<int> position;       ///< in the values, of each reduced entry (column-major), -1 where dropped
+    std::vector<Stretch> stretches;  ///< of the reduced entries (column-major), without those that are dropped
     std::vector<int> reduced_begin;  ///< first reduced row of each node
     bool stiffness = false, damping = false, mass = false;
     std::vector<int> nonholonomic;  ///< local rows
   };
   struct Workspace;
+  static void scatter(const std::vector<Stretch>& stretches, const double* entries, std::vector<double>& values);
   void velocity_rows(const Placement& placement, const LocalState& local, const Component& component,
                      Workspace& work) const;
   void place(const std::vector<Declaration>& declarations);
