@@ -271,6 +271,22 @@ void TimeIntegration::shorten(double before, StepReport& report) {
   size_ = full;
 }
 
+void TimeIntegration::solve() {
+  if (stabilised_)
+    stabilised_->solve(r_, delta_);
+  else
+    linear_.solve(r_, delta_);
+}
+
+/// What is left within the tolerance is taken out once more: a tangent that is not of this iterate leaves a residual of
+/// the tolerance's size, of the same sign step after step.
+void TimeIntegration::polish() {
+  solve();
+  move(1);
+  system_.displace(next_, state_, dq_);
+  system_.set_rates(next_, v_new_, a_new_);
+}
+
 /// An iteration of Newton's method.
 void TimeIntegration::improve(StepReport& report) {
   const bool renew = !options_.reuse_tangent || factored_for_ != attempted_;
@@ -279,10 +295,7 @@ void TimeIntegration::improve(StepReport& report) {
     convergence_.measure_by(scale_);
     size_ = size_of_residual();
   }
-  if (stabilised_)
-    stabilised_->solve(r_, delta_);
-  else
-    linear_.solve(r_, delta_);
+  solve();
   ++report.iterations;
   const double before = size_;
   move(1);
@@ -318,12 +331,16 @@ bool TimeIntegration::reached(const StepReport& report) {
 }
 
 bool TimeIntegration::within_tolerance() {
-  if (!convergence_.reached(r_.head(system_.size()), scale_)) return false;
-  if (!stabilised_) return true;
+  if (!stabilised_) return convergence_.reached(r_, scale_);
   // What the rates of constraints make of them within a step is judged like the constraints themselves.
-  VectorX rates = VectorX::Zero(system_.size());
-  rates.tail(system_.multipliers()) = attempted_ * r_.tail(system_.multipliers());
-  return convergence_.reached(rates, scale_);
+  VectorX r = r_.head(system_.size());
+  const int m = system_.multipliers();
+  for (int i = 0; i < m; ++i) {
+    double& constraint = r[system_.size() - m + i];
+    const double rate = attempted_ * r_[r_.size() - m + i];
+    if (!(std::abs(rate) <= std::abs(constraint))) constraint = rate;
+  }
+  return convergence_.reached(r, scale_);
 }
 
 /// T(Dq) is singular where a node makes a full turn in one step, and the rotation is that of none.
@@ -356,7 +373,10 @@ StepReport TimeIntegration::attempt(double h, double end, bool kink) {
         break;
       }
     }
-    if (report.converged()) check_turns();
+    if (report.converged()) {
+      if (options_.reuse_tangent) polish();
+      check_turns();
+    }
     report.worst_equation = convergence_.worst_equation();
     report.worst_residual = convergence_.worst_residual();
     report.worst_ratio = convergence_.worst_ratio();

@@ -103,6 +103,8 @@ class TimeIntegration {
   double size_of_residual() const;
   void improve(StepReport& report);
   void factor(StepReport& report);
+  void solve();
+  void polish();
   void shorten(double before, StepReport& report);
   bool reached(const StepReport& report);
   bool within_tolerance();

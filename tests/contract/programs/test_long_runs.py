@@ -106,7 +106,6 @@ class LongRuns(CommandTest):
         self.assertEqual(int(counts[2]), 30000 - done)
 
     def test_a_log_of_all_steps_on_request(self):
-        # A force that comes at once makes adaptive steps too long before it; one that has no end cannot be solved.
         self.write("model.yaml", MODEL.replace("DURATION, step: 1e-3", "1, step: 0.02, tolerance: 1e-6")
                    .replace("checkpoint: 500", "log: true"))
         done = self.run_program("model.yaml")
@@ -116,7 +115,7 @@ class LongRuns(CommandTest):
         accepted = [row for row in rows if row["outcome"] == "accepted"]
         refused = [row for row in rows if row["outcome"] == "local error too large"]
         self.assertTrue(refused)
-        self.assertTrue(all(float(row["error over tolerance"]) > 1 for row in refused))
+        self.assertTrue(all(float(row["error over tolerance"]) >= 1 for row in refused))
         self.assertTrue(all(float(row["residual over tolerance"]) <= 1 for row in accepted))
         self.assertTrue(any(re.search(r"of joint|at node", row["equation"]) for row in accepted))
         with h5py.File(os.path.join(self.folder, "model.h5")) as results:
