@@ -7,8 +7,8 @@
 
 namespace bielle::mechanism {
 
-/// `{type: beam, nodes: [a, b], section, elements, orientation, twist, damping, bending, arc_centre | arc_through,
-/// distributed}`
+/// `{type: beam, nodes: [a, b], section, elements, orientation, twist, damping, bending,
+///   arc_centre | arc_through, distributed}`
 ///
 /// Makes elements - 1 internal nodes `<name>.1`, `<name>.2`, ..., whose axes are the section's, and one BeamElement
 /// each between them, recorded together under elements/<name>, and a DistributedLoad for each load per length. The end

@@ -12,8 +12,8 @@
 //
 // Node motions in body axes ("triads", same layout as q): dz^ = [R_0^T dx_i; R_0^T R_i dTheta_i; deta]. With
 // U_c: rows [I, -y_i~], [0, I], 0;  D = diag(I, D_i, I);  V = D U_c;  Sigma = (A^T V)^-1 A^T:
-//     dnu_0 = [R_0^T dx_0; dphi_0] = Sigma D dz^   (dR_0 = R_0 dphi_0~),     dq = D (dz^ - U_c dnu_0) = (I - V Sigma) D
-//     dz^.
+//     dnu_0 = [R_0^T dx_0; dphi_0] = Sigma D dz^   (dR_0 = R_0 dphi_0~),
+//     dq = D (dz^ - U_c dnu_0) = (I - V Sigma) D dz^.
 // The same relations hold for velocities. Newton at fixed nodes: dnu_0 = (A^T V)^-1 A^T q, exact.
 //
 // Reference: the "mean axis" conditions of floating frames, e.g. M. Geradin, A. Cardona, Flexible Multibody Dynamics

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t along_beam = 0, in_time = 1;  // arguments of the formulas
 
-Vector3 evaluate(const std::array<Expression, 3>& vector, double s, double t) {
+Vector3 evaluate(const FormulaVector& vector, double s, double t) {
   const std::array<double, 2> values{s, t};
   return {vector[0](values), vector[1](values), vector[2](values)};
 }
@@ -22,12 +22,12 @@ Vector3 evaluate(const std::array<Expression, 3>& vector, double s, double t) {
 /// Places inside an element, 0 < z < 1, where a formula of s jumps or has a kink; 0 and 1 beside them.
 std::vector<double> pieces(const LineLoad& load, double s_A, double s_B) {
   std::vector<double> ends{0, 1};
-  for (const auto* vector : {&load.force, &load.moment})
-    for (const Expression& component : *vector)
-      for (double s : component.break_points(along_beam)) {
-        const double z = (s - s_A) / (s_B - s_A);
-        if (z > 1e-9 && z < 1 - 1e-9) ends.push_back(z);
-      }
+  std::vector<double> places;
+  for (const FormulaVector* vector : {&load.force, &load.moment}) add_break_points(*vector, along_beam, places);
+  for (const double s : places) {
+    const double z = (s - s_A) / (s_B - s_A);
+    if (z > 1e-9 && z < 1 - 1e-9) ends.push_back(z);
+  }
   std::sort(ends.begin(), ends.end());
   ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
   return ends;
@@ -166,21 +166,15 @@ void DistributedLoad::add_energy(const LocalState& state, Energy& energy) const 
 }
 
 void DistributedLoad::add_break_points(std::vector<double>& times) const {
-  for (const auto* vector : {&load_.force, &load_.moment})
-    for (const Expression& component : *vector) {
-      const std::vector<double> own = component.break_points(in_time);
-      times.insert(times.end(), own.begin(), own.end());
-    }
+  for (const FormulaVector* vector : {&load_.force, &load_.moment})
+    mechanism::add_break_points(*vector, in_time, times);
 }
 
 namespace {
 
-std::array<Expression, 3> vector_along(const YamlValue& value) {
-  if (!value.is_sequence() || value.size() != 3)
-    value.fail("expected three components per length, numbers or expressions of s (0 to 1 along the beam) and t");
-  std::array<Expression, 3> vector;
-  for (std::size_t k = 0; k < 3; ++k) vector[k] = value.at(k).expression({"s", "t"});
-  return vector;
+FormulaVector vector_along(const YamlValue& value) {
+  return read_formula_vector(value, {"s", "t"},
+                             "three components per length, numbers or expressions of s (0 to 1 along the beam) and t");
 }
 
 LineLoad read_line_load(const YamlValue& value) {

@@ -20,17 +20,17 @@
 #include <string>
 #include <vector>
 
+#include "mechanism/elements/formula_vector.hpp"
 #include "mechanism/math/se3.hpp"
 #include "mechanism/system/component.hpp"
-#include "reduce/common/expression.hpp"
 #include "reduce/common/yaml_file.hpp"
 
 namespace bielle::mechanism {
 
 /// A load per length as functions of s (0 at the start of the beam, 1 at its end) and t [s].
 struct LineLoad {
-  std::array<Expression, 3> force, moment;  ///< [N/m], [N m/m]; inertial, or along the section's axes if follower
-  Vector3 at = Vector3::Zero();             ///< (0, y, z): where the force acts in the section [m], from the node line
+  FormulaVector force, moment;   ///< [N/m], [N m/m]; inertial, or along the section's axes if follower
+  Vector3 at = Vector3::Zero();  ///< (0, y, z): where the force acts in the section [m], from the node line
   bool follower = false;
 };
 

@@ -1,11 +1,12 @@
 #include "mechanism/elements/load.hpp"
 
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace bielle::mechanism {
 
-Load::Load(std::string name, int node, TimeVector force, TimeVector moment, const Vector3& at, bool follower)
+Load::Load(std::string name, int node, FormulaVector force, FormulaVector moment, const Vector3& at, bool follower)
     : Component("load", std::move(name)),
       node_(node),
       force_(std::move(force)),
@@ -59,23 +60,8 @@ void Load::add_energy(const LocalState& state, Energy& energy) const {
 }
 
 void Load::add_break_points(std::vector<double>& times) const {
-  for (const TimeVector* vector : {&force_, &moment_})
-    for (const Expression& component : *vector) {
-      const std::vector<double> own = component.break_points();
-      times.insert(times.end(), own.begin(), own.end());
-    }
+  for (const FormulaVector* vector : {&force_, &moment_}) mechanism::add_break_points(*vector, 0, times);
 }
-
-namespace {
-
-TimeVector time_vector(const YamlValue& value) {
-  if (!value.is_sequence() || value.size() != 3) value.fail("expected three components, numbers or expressions of t");
-  TimeVector vector;
-  for (std::size_t k = 0; k < 3; ++k) vector[k] = value.at(k).expression({"t"});
-  return vector;
-}
-
-}  // namespace
 
 void read_load(const std::string& name, const YamlValue& entry, Model& model) {
   entry.check_keys({"type", "node", "force", "moment", "at", "follower"}, "a load");
@@ -84,8 +70,11 @@ void read_load(const std::string& name, const YamlValue& entry, Model& model) {
              follower = entry.find("follower");
   if (!force && !moment) entry.fail("a load needs `force` or `moment`");
   if (at && !force) at->fail("`at` is the point where a `force` acts, and there is none");
-  model.add(std::make_unique<Load>(name, node, force ? time_vector(*force) : TimeVector{},
-                                   moment ? time_vector(*moment) : TimeVector{}, at ? at->vector3() : Vector3::Zero(),
+  const auto formulas = [](const std::optional<YamlValue>& value) {
+    return value ? read_formula_vector(*value, {"t"}, "three components, numbers or expressions of t")
+                 : FormulaVector{};
+  };
+  model.add(std::make_unique<Load>(name, node, formulas(force), formulas(moment), at ? at->vector3() : Vector3::Zero(),
                                    follower && follower->boolean()),
             "");
 }

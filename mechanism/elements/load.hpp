@@ -6,17 +6,13 @@
 // tangent is unsymmetric. Loads are multiplied by the environment's load factor.
 #pragma once
 
-#include <array>
 #include <string>
 
+#include "mechanism/elements/formula_vector.hpp"
 #include "mechanism/system/component.hpp"
 #include "mechanism/system/model.hpp"
-#include "reduce/common/expression.hpp"
 
 namespace bielle::mechanism {
-
-/// Three components as functions of time.
-using TimeVector = std::array<Expression, 3>;
 
 /// A force [N] and a moment [N m] as functions of time at a point of a node, fixed in space or turning with the node.
 /// Its power is counted as input.
@@ -24,7 +20,7 @@ class Load : public Component {
  public:
   /// @param force,moment  components along the inertial axes, or along the node's axes if `follower`
   /// @param at            point of application [m], node axes
-  Load(std::string name, int node, TimeVector force, TimeVector moment, const Vector3& at, bool follower);
+  Load(std::string name, int node, FormulaVector force, FormulaVector moment, const Vector3& at, bool follower);
 
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
@@ -37,7 +33,7 @@ class Load : public Component {
   void evaluate(const LocalState& state, Vector3& F, Vector3& m) const;
 
   int node_;
-  TimeVector force_, moment_;
+  FormulaVector force_, moment_;
   Vector3 c_;
   bool follower_;
 };

@@ -2,8 +2,7 @@
 //
 //   displacement  u = T q of every mesh node, body axes [m]
 //   stress        sigma = S q at the stress nodes: xx yy zz yz xz xy, body axes [Pa]
-//   von_mises     sqrt(((sxx-syy)^2 + (syy-szz)^2 + (szz-sxx)^2)/2 + 3 (syz^2 + sxz^2 + sxy^2)) at the stress nodes
-//   [Pa]
+//   von_mises     sqrt(((sxx-syy)^2 + (syy-szz)^2 + (szz-sxx)^2)/2 + 3 (syz^2 + sxz^2 + sxy^2)), likewise [Pa]
 #pragma once
 
 #include <string>

@@ -1,8 +1,8 @@
 // A reduced elastic body in a mechanism: interface nodes and modal amplitudes, small local displacements in a corotated
 // frame, large motions.
 //
-//   T = s^T M~ s / 2 + s^T G(Om_0) q + q^T H(Om_0) q / 2      V = q^T (K~ + F_j K_load,j) q / 2      dissipation qdot^T
-//   C~ qdot
+//   T = s^T M~ s / 2 + s^T G(Om_0) q + q^T H(Om_0) q / 2
+//   V = q^T (K~ + F_j K_load,j) q / 2,      dissipation qdot^T C~ qdot
 //
 // The kinetic energy is exact for the displacement field of the reduction; equations are Lagrange's, so that energy and
 // momenta are conserved and every observer sees the same forces. Residual and all three tangents K, C, M are exact.

@@ -11,8 +11,10 @@
 //   d(nu_0, qdot)   = L (A_v dz^ + B_v dnu)                                     | L D dw^
 //   d(nu_0', qddot) = L (A_a dz^ + B_a dnu + H_0 Sigma (A_v dz^ + B_v dnu))     | L (H_w + H_0 Sigma D) dw^.
 // Hence
-//   K = Q^T [K^ + D^T (KQ (I - V Sigma) D + CQ (A_v + B_v Sigma D) + MQ (A_a + B_a Sigma D + H_0 Sigma (A_v + B_v Sigma
-//   D)))] Q, C = Q^T  D^T [CQ D + MQ (H_w + H_0 Sigma D)]  Q, M = Q^T  D^T MQ D  Q.
+//   K = Q^T [K^ + D^T (KQ (I - V Sigma) D + CQ (A_v + B_v Sigma D)
+//                      + MQ (A_a + B_a Sigma D + H_0 Sigma (A_v + B_v Sigma D)))] Q,
+//   C = Q^T  D^T [CQ D + MQ (H_w + H_0 Sigma D)]  Q,
+//   M = Q^T  D^T MQ D  Q.
 // Every dense product has six columns or a block-diagonal factor: O(n^2) operations.
 #pragma once
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "mechanism/elements/beam_element.hpp"
@@ -91,10 +92,26 @@ std::string describe_nodes(const Model& model, const System& system, const State
           fmt::format("  unused       node '{}': no element, joint or load is attached to it\n", model.node(k).name);
   std::vector<double> values;
   system.tangent(state, model.environment, {0, 0, 1, 0, 0}, nullptr, values);
-  for (int k = 0; k < system.dofs(); ++k) {
-    const int place = system.pattern().find(k, k);
-    if (place < 0 || values[static_cast<std::size_t>(place)] == 0)
-      text += fmt::format("  massless     {}\n", system.unknown_name(k));
+  const auto mass = [&](int row, int column) {
+    const int place = system.pattern().find(row, column);
+    return place < 0 ? 0.0 : values[static_cast<std::size_t>(place)];
+  };
+  for (int k = 0; k < system.dofs(); ++k)
+    if (mass(k, k) == 0) text += fmt::format("  massless     {}\n", system.unknown_name(k));
+  for (int k = 0; k < static_cast<int>(model.nodes().size()); ++k) {
+    const NodeFreedom& freedom = system.kinematics().freedom(k);
+    if (!freedom.all_free) continue;
+    Matrix6 M;
+    for (int row = 0; row < 6; ++row)
+      for (int column = 0; column < 6; ++column) M(row, column) = mass(freedom.begin + row, freedom.begin + column);
+    if (M.diagonal().minCoeff() <= 0) continue;  // named above
+    // A mass on a line turns about it without inertia, in whatever axes that is written.
+    const Vector6 scale = M.diagonal().cwiseSqrt().cwiseInverse();
+    const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(scale.asDiagonal() * M * scale.asDiagonal());
+    if (eigen.eigenvalues()[0] > 1e-12) continue;
+    const Vector3 axis = (scale.asDiagonal() * eigen.eigenvectors().col(0)).tail<3>().normalized();
+    text += fmt::format("  massless     rotation of node '{}' about {} in its axes\n", model.node(k).name,
+                        format_vector(axis));
   }
   return text;
 }

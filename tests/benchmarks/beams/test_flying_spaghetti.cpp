@@ -1,75 +1,11 @@
-// The flying spaghetti: J. Simo, L. Vu-Quoc, J. Appl. Mech. 53 (1986) 855 (plane) and Comput. Methods Appl. Mech. Eng.
-// 66 (1988) 125 (space); the loads as stated here.
-//
-// A free beam of length 10, EA = GA = 1e4, mass 1 and mass moments 10 per length, at rest from A = (6, 0, 0) to B = (0,
-// 8, 0). A dead force along x and a dead moment act at A: T rises linearly to its peak at 2.5 s and is zero after 5 s.
-//   plane: force T/10, moment -T about z, peak 80
-//   space: force T/10, moment (0, -T/2, -T), peak 200, EI = GJ = 500
-// References: spectral elements in space, Runge-Kutta in time, agreeing on three meshes to 1e-6.
-#include <functional>
-#include <string>
-
-#include <catch2/catch.hpp>
-#include <fmt/format.h>
-
+// The flying spaghetti up to moderate times; later ones are in test_flying_spaghetti_late.cpp.
+#include "tests/benchmarks/beams/flying_spaghetti.hpp"
 #include "tests/support/dense_model.hpp"
-#include "tests/support/run_model.hpp"
 
 using namespace bielle::mechanism;
+using namespace bielle::test::spaghetti;
 using bielle::test::DenseModel;
-using bielle::test::integrate;
 using bielle::test::ReadyModel;
-
-namespace {
-
-std::string spaghetti(int elements, double EI, bool plane) {
-  const std::string T =
-      plane ? "if(t < 2.5, 32*t, if(t < 5, 32*(5 - t), 0))" : "if(t < 2.5, 80*t, if(t < 5, 80*(5 - t), 0))";
-  return fmt::format(
-      "nodes: {{a: {{position: [6, 0, 0]}}, b: {{position: [0, 8, 0]}}}}\n"
-      "elements: {{s: {{type: beam, nodes: [a, b], elements: {}, section: {{EA: 1e4, GAy: 1e4, GAz: 1e4, GJ: {}, EIy: "
-      "{}, EIz: {}, "
-      "mass_per_length: 1, Jx: 10, Jy: 10, Jz: 10}}}}}}\n"
-      "loads: {{l: {{node: a, force: ['({})/10', 0, 0], moment: [0, '{}*({})', '-({})']}}}}\n",
-      elements, EI, EI, EI, T, plane ? "0" : "-0.5", T, T);
-}
-
-/// Integrates, with calls at t = `times`.
-void fly(int elements, double EI, bool plane, double h, const std::vector<double>& times,
-         const std::function<void(const ReadyModel&, const State&, std::size_t)>& at) {
-  const ReadyModel model(spaghetti(elements, EI, plane));
-  integrate(model, Scheme::generalized_alpha(0.9), h, times.back(), [&](const State& state) {
-    for (std::size_t k = 0; k < times.size(); ++k)
-      if (std::abs(state.time - times[k]) < 0.01 * h) at(model, state, k);
-  });
-}
-
-struct Reference {
-  double time;
-  Vector3 a, b;
-};
-
-/// Three levels, each with half the element length and step: second order, and Richardson's value at the reference.
-void check(double EI, bool plane, double step, const std::vector<Reference>& references, double tolerance) {
-  std::vector<double> times;
-  for (const Reference& r : references) times.push_back(r.time);
-  std::vector<std::vector<Vector6>> errors(3);
-  for (int level = 0; level < 3; ++level)
-    fly(16 << level, EI, plane, step / (1 << level), times,
-        [&](const ReadyModel& model, const State& state, std::size_t k) {
-          Vector6 e;
-          e << model.node(state, "a").x - references[k].a, model.node(state, "b").x - references[k].b;
-          errors[static_cast<std::size_t>(level)].push_back(e);
-        });
-  for (std::size_t k = 0; k < times.size(); ++k) {
-    const Vector6 &coarse = errors[1][k], &fine = errors[2][k];
-    CAPTURE(EI, plane, times[k], errors[0][k].transpose(), coarse.transpose(), fine.transpose());
-    CHECK_THAT(std::log2(coarse.norm() / fine.norm()), Catch::WithinAbs(2, 0.2));
-    CHECK(((4 * fine - coarse) / 3).norm() < tolerance);
-  }
-}
-
-}  // namespace
 
 TEST_CASE("flying spaghetti in the plane, EI = 100, converges to the reference") {
   check(100, true, 0.02,

@@ -140,6 +140,22 @@ TEST_CASE("the limit load of the deep arch") {
   CHECK_THAT(loads.back(), Catch::WithinRel(897.283320159, 1e-3));
 }
 
+TEST_CASE("von Mises' truss of two springs snaps through as its closed form") {
+  // Span 2 b, rise h, EA = 7: P(w) = 2 EA (h - w)/L0 (L0/L - 1), L^2 = b^2 + (h - w)^2, engineering strain.
+  const double b = 3, h = 1, EA = 7, L0 = std::hypot(b, h);
+  StaticModel truss(fmt::format(
+      "nodes: {{left: {{position: [-3, 0, 0], fixed: true}}, load: {{position: [0, 1, 0]}}, right: {{position: [3, 0, "
+      "0], fixed: true}}}}\nelements:\n  l: {{type: spring_damper, nodes: [left, load], stiffness: {0}}}\n  r: {{type: "
+      "spring_damper, nodes: [right, load], stiffness: {0}}}\nloads: {{p: {{node: load, force: [0, -1, 0]}}}}\n",
+      EA / L0));
+  truss.keep_directions({1});
+  for (const double w : {0.1, 0.4, 0.9, 1.0, 1.1, 1.7, 2.0, 2.5}) {
+    const double L = std::hypot(b, h - w);
+    CHECK_THAT(truss.control("load", 1, h - w, 2, 1e-13),
+               Catch::WithinAbs(2 * EA * (h - w) / L0 * (L0 / L - 1), 1e-12));
+  }
+}
+
 TEST_CASE("a shallow arch bifurcates to its side before it snaps through") {
   // Span 100, rise 5, E = 1e6, A = 1, I = 1/12, hinged, without shear: 75.00 (to 0.02) at a deflection of 1.264 of the
   // crown; the symmetric limit would be 85.507.

@@ -129,6 +129,12 @@ class Mechanism(CommandTest):
         self.assertIn("unused       node 'lonely'", done.stdout)
         self.assertIn("massless     rotation y of node 'lonely'", done.stdout)
         self.assertNotIn("massless     rotation y of node 'bob'", done.stdout)
+        self.write("rod.yaml", "nodes: {a: {position: [0, 0, 0]}}\nelements: {rod: {type: rigid_body, node: a, mass: 1, "
+                   "inertia: [0, 1, 1], inertia_axes: {rotation_vector: [0, 0, pi/2]}, centre: [0.5, 0, 0]}}\n"
+                   "analysis: [{type: dynamic, duration: 1, step: 0.1}]\n")
+        done = self.run_program("rod.yaml", "--check")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("massless     rotation of node 'a' about", done.stdout)
 
     def test_orientations_however_large(self):
         node = "nodes:\n  turned: {position: [1, 1, 1], %s, fixed: true}\n"
