@@ -6,7 +6,11 @@ coordinates as they are, named sets as physical groups (node sets: the boundary 
 bielle-reduce calls it by itself for such files; call it to see what becomes of a file.
 """
 
-from bielle_tools import foreign_mesh, messages, msh_file, solid_mesh
+from bielle_tools import messages
+
+messages.require("numpy", "meshio")
+
+from bielle_tools import foreign_mesh, msh_file, solid_mesh  # noqa: E402
 
 
 def main(arguments):

@@ -1,7 +1,10 @@
 #include "mechanism/elements/corotated_frame.hpp"
 
+#include <algorithm>
+
 #include <Eigen/LU>
 #include <Eigen/SVD>
+#include <fmt/format.h>
 
 #include "reduce/common/error.hpp"
 
@@ -82,6 +85,20 @@ void CorotatedFrame::update(const LocalState& state, CorotatedGeometry& geometry
   }
 }
 
+std::string CorotatedFrame::misfit(const LocalState& state, CorotatedGeometry& geometry) const {
+  geometry.frame = closest_placement(state);
+  update(state, geometry);
+  double distance = 0, angle = 0;
+  for (const BodyPoint& point : points_) {
+    distance = std::max(distance, geometry.q.segment<3>(point.u).norm());
+    if (point.theta >= 0) angle = std::max(angle, geometry.q.segment<3>(point.theta).norm());
+  }
+  return fmt::format(
+      "no small deformation takes the body, {:.3g} m in size, to where its interfaces are: {:.3g} m and "
+      "{:.3g} rad off the nearest rigid placement",
+      size_, distance, angle);
+}
+
 void CorotatedFrame::solve(const LocalState& state, CorotatedGeometry& geometry) const {
   const auto count = points_.size();
   geometry.q.resize(A_.rows());
@@ -114,8 +131,7 @@ void CorotatedFrame::solve(const LocalState& state, CorotatedGeometry& geometry)
     // The error behind a step is about its square.
     last = angle < 1e-8 && step.head<3>().norm() < 1e-8 * size_;
   }
-  throw ComputationError(
-      "there is no frame without mean motion: the interfaces are far from any rigid placement of the body");
+  throw ComputationError(misfit(state, geometry));
 }
 
 }  // namespace bielle::mechanism

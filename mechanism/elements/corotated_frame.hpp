@@ -20,6 +20,7 @@
 // (Wiley, 2001), ch. 10; here with rotations of interfaces as coordinates and solved exactly for finite q.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "mechanism/elements/interface_rotation.hpp"
@@ -68,6 +69,8 @@ class CorotatedFrame {
 
   /// The rigid placement closest to the nodes in the least-squares sense: where the iteration starts.
   Frame closest_placement(const LocalState& state) const;
+  /// Why there is no frame: how far the interfaces are off that placement.
+  std::string misfit(const LocalState& state, CorotatedGeometry& geometry) const;
 
  private:
   void update(const LocalState& state, CorotatedGeometry& geometry) const;

@@ -2,15 +2,25 @@
 
 #include <utility>
 
+#include <fmt/format.h>
+
 namespace bielle::mechanism {
 
-RigidBody::RigidBody(std::string type, std::string name, int node, const MassProperties& properties)
+RigidBody::RigidBody(std::string type, std::string name, int node, const MassProperties& properties,
+                     const std::string& node_name)
     : Component(std::move(type), std::move(name)),
       properties_(properties),
       node_(node),
       m_(properties.mass),
       c_(properties.centre),
-      J_(properties.inertia_about_origin()) {}
+      J_(properties.inertia_about_origin()) {
+  const Vector3& c = properties.centre;
+  const Matrix3& J = properties.inertia;
+  attributes_ = {{"node", node_name},
+                 {"mass", fmt::format("{}", m_)},
+                 {"centre", fmt::format("{} {} {}", c.x(), c.y(), c.z())},
+                 {"inertia", fmt::format("{} {} {} {} {} {}", J(0, 0), J(1, 1), J(2, 2), J(0, 1), J(0, 2), J(1, 2))}};
+}
 
 void RigidBody::declare(Declaration& declaration) const {
   declaration.nodes = {node_};

@@ -9,6 +9,8 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "mechanism/elements/mass_properties.hpp"
 #include "mechanism/system/component.hpp"
@@ -20,7 +22,9 @@ namespace bielle::mechanism {
 class RigidBody : public Component {
  public:
   /// @param type  as in the input file: "rigid_body" or "point_mass"
-  RigidBody(std::string type, std::string name, int node, const MassProperties& properties);
+  /// @param node_name  for those who read the results
+  RigidBody(std::string type, std::string name, int node, const MassProperties& properties,
+            const std::string& node_name = "");
 
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
@@ -30,6 +34,9 @@ class RigidBody : public Component {
   /// inertial.
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
+  /// `node`; `mass` [kg], `centre` x y z [m], `inertia` about the centre xx yy zz xy xz yz [kg m^2], in the node's
+  /// axes.
+  std::vector<std::pair<std::string, std::string>> attributes() const override { return attributes_; }
 
   const MassProperties& properties() const { return properties_; }  ///< in the node's axes
 
@@ -39,6 +46,7 @@ class RigidBody : public Component {
   double m_;
   Vector3 c_;
   Matrix3 J_;  ///< about the node's origin
+  std::vector<std::pair<std::string, std::string>> attributes_;
 };
 
 /// `{type: rigid_body, node, mass, centre, inertia, inertia_about, inertia_axes, also}`, or with `solid` in place of

@@ -111,7 +111,7 @@ void read_rigid_body(const std::string& name, const YamlValue& entry, Model& mod
   }
   check_representable(entry, p);
   if (const auto also = entry.find("also")) carry(*also, node, name, model);
-  model.add(std::make_unique<RigidBody>("rigid_body", name, node, p), "elements/" + name);
+  model.add(std::make_unique<RigidBody>("rigid_body", name, node, p, model.node(node).name), "elements/" + name);
 }
 
 void read_point_mass(const std::string& name, const YamlValue& entry, Model& model) {
@@ -120,8 +120,8 @@ void read_point_mass(const std::string& name, const YamlValue& entry, Model& mod
   p.mass = entry.at("mass").positive_number();
   if (const auto centre = entry.find("centre")) p.centre = centre->vector3();
   check_representable(entry, p);
-  model.add(std::make_unique<RigidBody>("point_mass", name, model.node_named_by(entry.at("node")), p),
-            "elements/" + name);
+  const int node = model.node_named_by(entry.at("node"));
+  model.add(std::make_unique<RigidBody>("point_mass", name, node, p, model.node(node).name), "elements/" + name);
 }
 
 }  // namespace bielle::mechanism

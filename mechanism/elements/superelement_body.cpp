@@ -85,7 +85,10 @@ SuperelementBody::Loan SuperelementBody::evaluate(const LocalState& state) const
   try {
     motion.set_motion(frame_, state);
   } catch (const ComputationError& error) {
-    throw ComputationError(fmt::format("superelement '{}': {}", name(), error.what()));
+    throw ComputationError(fmt::format(
+        "t = {:.6g} s: superelement '{}': {}. What drives them there is the cause: a step too long, nodes that "
+        "no joint holds, or a body far too soft for its loads (young in Pa?)",
+        state.time(), name(), error.what()));
   }
   motion.loads.clear();
   for (const Load& load : loads_)

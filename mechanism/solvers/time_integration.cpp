@@ -384,6 +384,8 @@ StepReport TimeIntegration::attempt(double h, double end, bool kink) {
     // A component refuses what it was asked for, or the equations are singular. Nearer to the last state that may not
     // be so.
     report.refusal = error.what();
+    if (report.iterations > 1)
+      report.refusal += "; before the iteration went there the largest residual was: " + convergence_.worst();
     factored_for_ = 0;
   }
   return report;

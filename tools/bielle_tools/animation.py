@@ -22,7 +22,7 @@ def sheet(results, path, view=None, scale=1.0, span=(None, None), superelements=
         panel.set_axis_off()
     for panel, row in zip(axes.flat, rows):
         coloured = scene.draw(panel, row) or coloured
-        panel.set_title(f"t = {results.time[row]:.4f} s")
+        panel.set_title(results.moment(row))
     _colour_bar(fig, coloured, axes)
     fig.suptitle(_title(results, scale), x=0.01, ha="left", fontsize=12, fontweight="bold")
     fig.savefig(path)
@@ -42,7 +42,7 @@ def movie(results, path, view=None, scale=1.0, span=(None, None), superelements=
     def paint(row):
         panel.clear()
         scene.draw(panel, row)
-        panel.set_title(f"t = {results.time[row]:.4f} s", fontsize=10)
+        panel.set_title(results.moment(row), fontsize=10)
 
     FuncAnimation(fig, paint, frames=rows).save(path, writer=PillowWriter(fps=max(1, round(len(rows) / seconds))))
     plt.close(fig)

@@ -2,13 +2,23 @@
 
 import argparse
 
-from .messages import InputError
+from .messages import InputError, check_names, did_you_mean
 
 
 class Parser(argparse.ArgumentParser):
     """Wrong options are one sentence and status 1, as everywhere in Bielle."""
 
     raw = argparse.RawDescriptionHelpFormatter
+
+    def parse_args(self, args=None, namespace=None):
+        options, unknown = self.parse_known_args(args, namespace)
+        for word in unknown:
+            name = word.partition("=")[0]
+            if name.startswith("-"):
+                known = sorted(option for option in self._option_string_actions if option.startswith("--"))
+                raise InputError(f"'{name}' is not an option{did_you_mean(name, known)}")
+            raise InputError(f"'{word}' is one argument too many (--help shows what is expected)")
+        return options
 
     def error(self, message):
         raise InputError(f"{message} (--help shows the options)")
@@ -30,17 +40,24 @@ def add_motion_options(parser):
     parser.add_argument("--to", type=float, dest="end", metavar="T", help="last time to show [s]")
 
 
-def superelement_paths(options):
-    """{element: path} of the option --superelement. @raises InputError"""
+def superelement_paths(options, results):
+    """{element: path} of the option --superelement. @raises InputError for elements that the results have not"""
     pairs = {}
     for text in options.superelement:
         element, separator, path = text.partition("=")
         if not separator or not element or not path:
             raise InputError(f"--superelement '{text}': ELEMENT=FILE.h5 is expected")
         pairs[element] = path
+    check_names("superelement", pairs, results.elements_with("frame"))
     return pairs
 
 
-def names(text):
-    """`a,b` -> [a, b]; None stays None."""
-    return None if text is None else [name.strip() for name in text.split(",") if name.strip()]
+def names(text, what, known):
+    """`a,b` -> [a, b]; None stays None. @raises InputError for names that are not `known`, and for none at all"""
+    if text is None:
+        return None
+    wanted = [name.strip() for name in text.split(",") if name.strip()]
+    if not wanted:
+        raise InputError(f"expected the name of a {what}, found none (there are: {', '.join(known) or 'none'})")
+    check_names(what, wanted, known)
+    return wanted

@@ -1,9 +1,10 @@
 """Writes results as a time series for ParaView: one .pvd to open, and per time one .vtu for each kind of thing.
 
     <element>   a superelement: its surface (or whole mesh), with elastic displacement and von Mises stress
-    beams       lines through the beams' nodes, with section axes and resultants
+    rigid       rigid bodies as ellipsoids of their mass and inertia
+    beams       lines through the beams' nodes, with section axes, resultants and stress
     nodes       points with axes and velocity, to be drawn as glyphs
-    joints      points with the reaction on the second node, to be drawn as arrows
+    joints      points with the reaction on the second node, to be drawn as arrows, and the forces of drives
 """
 
 import contextlib
@@ -16,6 +17,7 @@ import numpy as np
 
 from .messages import InputError
 from .results_file import rotation_matrices
+from .rigid_bodies import rigid_bodies
 from .superelement_body import SuperelementBody, find_superelement
 
 RESULTANTS = ["axial_force", "shear_force_y", "shear_force_z", "torque", "bending_moment_y", "bending_moment_z"]
@@ -33,7 +35,7 @@ def export(results, folder, name, *, every=None, count=100, span=(None, None), s
     rows = results.frames(every, count, span)
     parts = [_superelement(results, element, superelements or {}, scale, volume)
              for element in results.elements_with("frame")]
-    parts += [part for part in (_beams(results), _nodes(results), _joints(results)) if part]
+    parts += [part for part in (_rigid(results), _beams(results), _nodes(results), _joints(results)) if part]
     if not parts:
         raise InputError(f"'{results.path}' records no nodes, beams or superelements")
 
@@ -75,6 +77,21 @@ def _superelement(results, element, given, scale, volume):
     return element, mesh_at
 
 
+def _rigid(results):
+    bodies = [body for body in rigid_bodies(results) if body.extended]
+    if not bodies:
+        return None
+    first = np.cumsum([0] + [len(body.points) for body in bodies])
+    triangles = np.concatenate([body.triangles + start for body, start in zip(bodies, first)])
+    number = [np.repeat(np.arange(len(bodies)), [len(body.triangles) for body in bodies])]
+
+    def mesh_at(row):
+        points = np.concatenate([body.place(results, row)[0] for body in bodies])
+        return points, [("triangle", triangles)], {}, {"rigid_body": number}
+
+    return "rigid", mesh_at
+
+
 def _beams(results):
     names = results.elements_with("position", "rotation")
     if not names:
@@ -91,9 +108,17 @@ def _beams(results):
         if all(results.has(f"elements/{name}/resultants") for name in names):
             table = np.concatenate([results.rows(f"elements/{name}/resultants", row) for name in names])
             cell_data.update({title: [table[:, k]] for k, title in enumerate(RESULTANTS)})
+        if any(results.has(f"elements/{name}/von_mises") for name in names):
+            cell_data["von_mises"] = [np.concatenate([_beam_stress(results, name, n - 1, row) for name, n in zip(names, counts)])]
         return points, [("line", lines)], data, cell_data
 
     return "beams", mesh_at
+
+
+def _beam_stress(results, name, elements, row):
+    """(elements) highest von Mises stress at the section's stress points [Pa]; not a number where there are none."""
+    place = f"elements/{name}/von_mises"
+    return results.rows(place, row).max(axis=1) if results.has(place) else np.full(elements, np.nan)
 
 
 def _nodes(results):
@@ -124,11 +149,20 @@ def _joints(results):
     if not places:
         return None
     vertices = np.arange(len(places))[:, None]
+    driven = [joint for joint in places if results.has(f"joints/{joint}/drive_force")]
+    width = max((results.group(f"joints/{joint}/drive_force").shape[1] for joint in driven), default=0)
 
     def mesh_at(row):
         points = np.array([results.rows(f"nodes/{node}/position", row) for node in places.values()])
         reaction = np.array([results.rows(f"joints/{joint}/reaction_inertial", row) for joint in places])
         data = {"reaction_force": reaction[:, :3], "reaction_moment": reaction[:, 3:], "joint": np.arange(len(places))}
+        if driven:
+            force = np.zeros((len(places), width))  # along the joints' coordinates, in their order
+            for index, joint in enumerate(places):
+                if joint in driven:
+                    values = results.rows(f"joints/{joint}/drive_force", row)
+                    force[index, :len(values)] = values
+            data["drive_force"] = force
         return points, [("vertex", vertices)], data, {}
 
     return "joints", mesh_at
@@ -147,7 +181,9 @@ def _file_name(part):
 
 
 def legend(results):
-    """Lines that say which number in the files is which node or beam."""
-    numbered = (("node", results.names("nodes")), ("beam", results.elements_with("position", "rotation")))
-    return [f"array '{title}': " + ", ".join(f"{k} {name}" for k, name in enumerate(names))
-            for title, names in numbered if names]
+    """Lines that say which number in the files is which node, beam or rigid body, and what the time is in statics."""
+    numbered = (("node", results.names("nodes")), ("beam", results.elements_with("position", "rotation")),
+                ("rigid_body", [body.name for body in rigid_bodies(results) if body.extended]))
+    lines = [f"array '{title}': " + ", ".join(f"{k} {name}" for k, name in enumerate(names))
+             for title, names in numbered if names]
+    return lines + (["time in ParaView is the load factor of a static analysis"] if results.static else [])

@@ -25,6 +25,11 @@ def figure(rows, title, width=9.0, height=2.6, columns=1, **options):
     return fig, axes
 
 
+def curves_of(points):
+    """A context in which curves of few points show them."""
+    return plt.rc_context({"lines.marker": "o", "lines.markersize": 4} if points <= 25 else {})
+
+
 def label(quantity, units):
     """`angle [rad]`; without brackets when there is no unit."""
     return f"{quantity} [{units}]" if units and units not in ("1", "-") else quantity

@@ -24,14 +24,16 @@ def draw_all(results, folder, extension="png", nodes=None, joints=None, superele
 
     written = []
     if len(results.time) > 1:
-        written += energy(results, at)
-        written += joint_motion(results, at, joints)
-        written += joint_reactions(results, at, joints)
-        written += node_paths(results, at, nodes)
-        written += bodies(results, at, superelements or {})
-        written += beams(results, at)
-        written += signals(results, at)
-        written += solver(results, at)
+        with style.curves_of(len(results.time)):
+            written += energy(results, at)
+            written += joint_motion(results, at, joints)
+            written += joint_reactions(results, at, joints)
+            written += drives(results, at, joints)
+            written += node_paths(results, at, nodes)
+            written += bodies(results, at, superelements or {})
+            written += beams(results, at)
+            written += signals(results, at)
+            written += solver(results, at)
     written += eigenvalues(results, at)
     written += frequency_response(results, at)
     return written
@@ -48,7 +50,7 @@ def energy(results: Results, at):
     small = [name for name in values if reach[name] < 0.03 * max(reach.values())]
     shown = [("energy [J]", [name for name in values if name not in small]), ("small ones [J]", small)]
     shown = [(text, names) for text, names in shown if names]
-    balance = results.has("energy/balance")
+    balance = results.has("energy/balance") and not (results.static and not np.any(results.rows("energy/balance")))
     fig, axes = style.figure(len(shown) + balance, f"{results.title}: energy")
     for panel, (text, names) in zip(axes[:, 0], shown):
         for name in names:
@@ -60,15 +62,16 @@ def energy(results: Results, at):
         panel = axes[-1, 0]
         panel.plot(results.time, results.rows("energy/balance"), color="black")
         panel.set_ylabel("missing [J]")
-        panel.set_title("balance: stored - stored at the start - input + dissipated (negative: taken by the time integration)")
-    axes[-1, 0].set_xlabel("time [s]")
+        panel.set_title("balance: stored - stored at the start - input + dissipated"
+                        + ("" if results.static else " (negative: taken by the time integration)"))
+    axes[-1, 0].set_xlabel(results.axis)
     return [style.save(fig, at("energy"))]
 
 
 def joint_motion(results, at, joints=None):
     """A line of panels per joint and kind of coordinate: those of one unit share a panel.
 
-    Unless joints are named, kinds that move less than a millionth of others of that unit are left out.
+    Unless joints are named, kinds that move less than a millionth of others of that unit, or than rounding, are left out.
     """
     panels, reach = [], {}  # (joint, units, columns); units -> largest range
     for joint in joints or results.names("joints"):
@@ -80,7 +83,7 @@ def joint_motion(results, at, joints=None):
             moved = max(np.ptp(values[k]) for k in columns)
             reach[units] = max(reach.get(units, 0), moved)
             panels.append((joint, units, columns, moved))
-    panels = [(joint, units, columns) for joint, units, columns, moved in panels if joints or moved > 1e-6 * reach[units]]
+    panels = [(joint, units, columns) for joint, units, columns, moved in panels if joints or moved > max(1e-6 * reach[units], 1e-12)]
     if not panels:
         return []
     fig, axes = style.figure(len(panels), f"{results.title}: joint coordinates and rates", columns=2, width=12)
@@ -94,7 +97,7 @@ def joint_motion(results, at, joints=None):
             panel.set_title(joint)
         style.legend(line[1])
     for panel in axes[-1]:
-        panel.set_xlabel("time [s]")
+        panel.set_xlabel(results.axis)
     return [style.save(fig, at("joints"))]
 
 
@@ -109,9 +112,30 @@ def joint_reactions(results, at, joints=None):
         axes[1, 0].plot(results.time, np.linalg.norm(reaction[:, 3:], axis=1), label=name)
     axes[0, 0].set_ylabel("|force| [N]")
     axes[1, 0].set_ylabel("|moment| [N m]")
-    axes[1, 0].set_xlabel("time [s]")
+    axes[1, 0].set_xlabel(results.axis)
     style.legend(axes[0, 0])
     return [style.save(fig, at("reactions"))]
+
+
+def drives(results, at, joints=None):
+    """What drives exert along the coordinates of their joints: a panel for forces, one for torques."""
+    panels = {}
+    for joint in joints or results.names("joints"):
+        place = f"joints/{joint}/drive_force"
+        names = column_names(results, f"joints/{joint}/coordinate")
+        for k, (units, values) in enumerate(zip(column_units(results, place), _columns(results, place))):
+            if np.any(values != 0):
+                panels.setdefault(units, []).append((f"{joint} {names[k]}" if len(names) > 1 else joint, values))
+    if not panels:
+        return []
+    fig, axes = style.figure(len(panels), f"{results.title}: drives")
+    for panel, (units, curves) in zip(axes[:, 0], panels.items()):
+        for name, values in curves[:MOST_CURVES]:
+            panel.plot(results.time, values, label=name)
+        panel.set_ylabel(style.label("torque" if "m" in units else "force", units))
+        style.legend(panel)
+    axes[-1, 0].set_xlabel(results.axis)
+    return [style.save(fig, at("drives"))]
 
 
 def node_paths(results, at, nodes=None):
@@ -166,7 +190,7 @@ def bodies(results, at, superelements):
             axes[1, 0].plot(results.time[rows], 1e-6 * np.array(peak))
             axes[1, 0].set_ylabel("von Mises [MPa]")
             axes[1, 0].set_title("highest von Mises stress of the body")
-        axes[-1, 0].set_xlabel("time [s]")
+        axes[-1, 0].set_xlabel(results.axis)
         written.append(style.save(fig, at(f"body_{name}")))
     return written
 
@@ -177,7 +201,8 @@ def beams(results, at):
         values = results.rows(f"elements/{name}/resultants")  # (nt,ne,6): N Qy Qz T My Mz
         quantities = {"axial force": values[:, :, 0], "|shear force|": np.linalg.norm(values[:, :, 1:3], axis=2),
                       "torque": values[:, :, 3], "|bending moment|": np.linalg.norm(values[:, :, 4:], axis=2)}
-        fig, axes = style.figure(2, f"{results.title}: beam {name}")
+        stressed = results.has(f"elements/{name}/von_mises")
+        fig, axes = style.figure(3 if stressed else 2, f"{results.title}: beam {name}")
         axes[0, 0].set_title("in the first element; dashed: in the last one")
         for index, (text, value) in enumerate(quantities.items()):
             panel = axes[index // 2, 0]
@@ -185,7 +210,12 @@ def beams(results, at):
             panel.plot(results.time, value[:, -1], linestyle="--", color=style.COLOURS[index])
         axes[0, 0].set_ylabel("force [N]")
         axes[1, 0].set_ylabel("moment [N m]")
-        axes[1, 0].set_xlabel("time [s]")
+        if stressed:
+            stress = results.rows(f"elements/{name}/von_mises")  # (nt,ne,np)
+            axes[2, 0].plot(results.time, 1e-6 * stress.max(axis=(1, 2)), color="black")
+            axes[2, 0].set_ylabel("von Mises [MPa]")
+            axes[2, 0].set_title("highest von Mises stress at the section's stress points")
+        axes[-1, 0].set_xlabel(results.axis)
         for panel in axes[:, 0]:
             style.legend(panel)
         written.append(style.save(fig, at(f"beam_{name}")))
@@ -216,21 +246,29 @@ def signals(results, at):
                     panel.plot(results.time, column, label=column_names(results, place)[k] if len(columns) > 1 else None)
                 panel.set_ylabel(style.label(quantity, results.units(place)))
                 style.legend(panel)
-            axes[-1, 0].set_xlabel("time [s]")
+            axes[-1, 0].set_xlabel(results.axis)
             written.append(style.save(fig, at(f"{section[:-1]}_{name}".replace("/", "_"))))
     return written
 
 
 def solver(results, at):
     names = [n for n in ("step", "newton_iterations", "error_estimate")
-             if results.has(f"solver/{n}") and np.ptp(results.rows(f"solver/{n}")) > 0]
+             if results.has(f"solver/{n}") and _varies(results.rows(f"solver/{n}")[1:])]
     if not names:
         return []
     fig, axes = style.figure(len(names), f"{results.title}: solver")
     for panel, name in zip(axes[:, 0], names):
-        panel.plot(results.time, results.rows(f"solver/{name}"), drawstyle="steps-pre")
+        middle, low, mean, high = binned(results.time, results.rows(f"solver/{name}"))
+        panel.fill_between(middle, low, high, color=style.COLOURS[0], alpha=0.25, linewidth=0)
+        panel.plot(middle, mean)
+        if name == "newton_iterations":
+            panel.set_ylim(bottom=0)
+        elif low.min() > 0:
+            panel.set_yscale("log")
         panel.set_ylabel(style.label(name.replace("_", "\n"), results.units(f"solver/{name}")))
-    axes[-1, 0].set_xlabel("time [s]")
+    if len(middle) < len(results.time):
+        axes[0, 0].set_title(f"mean and range of {len(results.time) // len(middle)} recorded steps at a time")
+    axes[-1, 0].set_xlabel(results.axis)
     return [style.save(fig, at("solver"))]
 
 
@@ -266,6 +304,22 @@ def frequency_response(results, at):
     axes[1, 0].set_xlabel("frequency [Hz]")
     style.legend(axes[0, 0])
     return [style.save(fig, at("frequency_response"))]
+
+
+def binned(time, values, most=150):
+    """Middle, least, mean and largest value of `most` groups of neighbouring rows; the rows themselves when there are few.
+
+    The start, row 0, has no step and is left out.
+    """
+    time, values = time[1:], values[1:]
+    groups = np.array_split(np.arange(len(time)), min(most, len(time)))
+    return tuple(np.array([reduce(of[rows]) for rows in groups])
+                 for reduce, of in ((np.mean, time), (np.min, values), (np.mean, values), (np.max, values)))
+
+
+def _varies(values):
+    """Whether there is more than rounding to see: steps that meet a given time differ in their last digits."""
+    return len(values) > 0 and np.ptp(values) > 1e-6 * np.abs(values).max()
 
 
 def column_names(results, place):

@@ -1,4 +1,4 @@
-"""Draws the mechanism at one time with matplotlib: bodies coloured by stress, beams as lines, nodes as dots.
+"""Draws the mechanism at one time with matplotlib: bodies coloured by stress, rigid ones grey, beams as lines, nodes as dots.
 
 An orthographic view, painted from back to front: no graphics card, no display, small files. For more there is ParaView.
 """
@@ -8,8 +8,10 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import Normalize, to_rgb
 
 from .plot_style import COLOURS, plt
+from .rigid_bodies import rigid_bodies
 from .superelement_body import SuperelementBody, find_superelement
 
+RIGID = "#b0b0b0"
 STRESS = plt.cm.YlOrRd  # pale to dark: shading shows on it, and so does the order without colours
 LIGHT = np.array([0.35, 0.5, 0.8])  # direction towards the light, in view axes (right, up, towards the viewer)
 VIEWS = {  # rows: right, up; the viewer looks from right x up
@@ -30,6 +32,7 @@ class Scene:
             body = SuperelementBody(find_superelement(results, name, superelements or {}))
             corners = np.concatenate([faces[:, :3] for faces in body.surface().values()])
             self.bodies.append((name, body, corners))
+        self.rigid = rigid_bodies(results)
         self.beams = results.elements_with("position", "rotation")
         self.nodes = results.names("nodes")
         carriers = {name: results.text(f"nodes/{name}", "carrier") for name in self.nodes}
@@ -42,6 +45,7 @@ class Scene:
         low, high, stress = np.full(2, np.inf), np.full(2, -np.inf), 0.0
         for row in rows:
             points = [self._project(positions) for positions, _ in self._bodies_at(row)]
+            points += [self._project(body.place(self.results, row)[0]) for body in self.rigid]
             points += [self._project(self.results.rows(f"elements/{b}/position", row)) for b in self.beams]
             points += [self._project(self.results.rows(f"nodes/{n}/position", row)[None]) for n in self.nodes]
             for p in points:
@@ -64,6 +68,14 @@ class Scene:
             artist, depth = self._paint_body(panel, positions, stress, corners)
             coloured = coloured or (stress is not None and plt.cm.ScalarMappable(self.norm, STRESS))
             depths.append((depth, artist))
+        for body in self.rigid:
+            positions, centre = body.place(self.results, row)
+            if body.extended:
+                artist, depth = self._paint_body(panel, positions, None, body.triangles, RIGID)
+                artist.set(alpha=0.5, edgecolor="none")
+                depths.append((depth, artist))
+            spoke = np.array([self._project(centre[None])[0], self._node(body.node, row)])
+            depths.append((spoke[:, 2].mean(), self._paint_line(panel, spoke, "#8c8c8c", 6)))
         for ends in self.links:
             line = np.array([self._node(name, row) for name in ends])
             depths.append((line[:, 2].mean(), self._paint_line(panel, line, "#8c8c8c", 6)))
@@ -79,7 +91,7 @@ class Scene:
             artist.set_zorder(2 + order)
         return coloured or None
 
-    def _paint_body(self, panel, positions, stress, corners):
+    def _paint_body(self, panel, positions, stress, corners, plain="#7f9db9"):
         view = self._project(positions)
         triangles = view[corners]  # (f,3,3)
         normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
@@ -88,7 +100,7 @@ class Scene:
         order = np.flatnonzero(facing)[np.argsort(triangles[facing][:, :, 2].mean(axis=1))]
         shade = 0.65 + 0.35 * np.clip(normals[order] @ (LIGHT / np.linalg.norm(LIGHT)) / length[order], 0, 1)
         values = None if stress is None else 1e-6 * stress[corners[order]].mean(axis=1)
-        base = np.array([to_rgb("#7f9db9")]) if values is None else STRESS(self.norm(np.nan_to_num(values)))[:, :3]
+        base = np.array([to_rgb(plain)]) if values is None else STRESS(self.norm(np.nan_to_num(values)))[:, :3]
         faces = PolyCollection(triangles[order][:, :, :2], facecolors=base * shade[:, None], edgecolors="face", linewidths=0.4)
         return panel.add_collection(faces), view[:, 2].mean()
 

@@ -27,8 +27,26 @@ class Results:
         if "time" not in self.root and "eigen" not in self.root and "frequency_response" not in self.root:
             raise InputError(f"'{path}' holds no results yet: the run ended before its first step was recorded")
         self.time = np.asarray(self.root["time"]) if "time" in self.root else np.zeros(0)
+        self.static = self._kind() == "static"  # then `time` is the load factor
         if not self.file.attrs.get("complete", True):
             note(f"{path}: the run was not completed; its {len(self.time)} recorded times are shown")
+
+    def _kind(self):
+        """Type of the analysis whose time this is."""
+        for name, analysis in self.file.items():
+            if name.startswith("analysis_") and "time" in analysis and "time" in self.root \
+                    and analysis["time"] == self.root["time"]:
+                return _text(analysis.attrs.get("type", ""))
+        return ""
+
+    @property
+    def axis(self):
+        """What the horizontal axis of a figure over the rows is called."""
+        return "load factor" if self.static else "time [s]"
+
+    def moment(self, row):
+        """`t = 0.1230 s`: which row it is, in words."""
+        return f"load factor {self.time[row]:.4g}" if self.static else f"t = {self.time[row]:.4f} s"
 
     def __enter__(self):
         return self
@@ -53,8 +71,7 @@ class Results:
 
     def text(self, place, attribute):
         """A text attribute of a group or dataset; empty when there is none."""
-        value = self.root[place].attrs.get(attribute, "") if place in self.root else ""
-        return value.decode() if isinstance(value, bytes) else str(value)
+        return _text(self.root[place].attrs.get(attribute, "") if place in self.root else "")
 
     def rows(self, place, index=None):
         """A dataset over time, clipped to the rows that count; `index` picks rows."""
@@ -73,8 +90,9 @@ class Results:
         begin, end = (-np.inf if span[0] is None else span[0], np.inf if span[1] is None else span[1])
         rows = np.flatnonzero((self.time >= begin) & (self.time <= end))
         if not len(rows):
-            raise InputError(f"'{self.path}' has no time from {begin:g} to {end:g} s; it has {self.time[0]:g} to "
-                             f"{self.time[-1]:g} s")
+            what, unit = ("load factor", "") if self.static else ("time", " s")
+            raise InputError(f"'{self.path}' has no {what} from {begin:g} to {end:g}{unit}; it has {self.time[0]:g} to "
+                             f"{self.time[-1]:g}{unit}")
         if every:
             return rows[::every]
         if count is None or len(rows) <= count:
@@ -91,12 +109,15 @@ def open_hdf5(path, expected, meaning):
         file = h5py.File(path, "r")
     except OSError:
         raise InputError(f"'{path}' is no HDF5 file, or it is damaged") from None
-    found = file.attrs.get("format", "")
-    found = found.decode() if isinstance(found, bytes) else str(found)
+    found = _text(file.attrs.get("format", ""))
     if found != expected:
         file.close()
         raise InputError(f"'{path}' does not hold {meaning}" + (f" but '{found}'" if found else ""))
     return file
+
+
+def _text(value):
+    return value.decode() if isinstance(value, bytes) else str(value)
 
 
 def rotation_matrices(quaternions):

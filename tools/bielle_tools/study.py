@@ -20,6 +20,7 @@ import numpy as np
 from .messages import InputError
 
 KEPT = ["joints", "energy", "points", "eigen", "frequency_response", "hydraulics", "contacts"]
+GROUPS = [*KEPT, "nodes", "elements", "solver", "all"]  # what may be kept
 
 
 def read_table(path):

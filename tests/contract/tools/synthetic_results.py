@@ -2,6 +2,7 @@
 
 A box turns about z with OMEGA, its frame's origin moves along x with SPEED, and it is stretched along its own x axis by
 the strain STRAIN sin(2 pi t / DURATION); the von Mises stress of that is YOUNG |strain|. A beam stands still, a hinge turns.
+A solid ellipsoid of uniform density with the semi-axes SEMI_AXES rides on the node of the box, at CENTRE.
 """
 
 import h5py
@@ -12,6 +13,7 @@ from box_mesh import box
 OMEGA, SPEED, STRAIN, YOUNG, DURATION = 30.0, 0.5, 1e-3, 210e9, 0.1
 VTK_TO_GMSH = [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]
 BEAM_NODES = 5
+SEMI_AXES, CENTRE, MASS = np.array([0.03, 0.02, 0.01]), np.array([0.0, 0.05, 0.0]), 2.0
 
 
 def strain(time):
@@ -43,15 +45,18 @@ def write_superelement(path):
     return points, cells
 
 
-def write_results(path, superelement, rows=41, complete=True, extra_rows=0):
+def write_results(path, superelement, rows=41, complete=True, extra_rows=0, analysis=""):
+    """analysis: its type; the results then stand in a group of it, with links at the root, as the program leaves them."""
     time = np.linspace(0, DURATION, rows)
     more = np.concatenate([time, np.zeros(extra_rows)])
     half = 0.5 * OMEGA * more
     zero = np.zeros_like(more)
     turn = np.column_stack([np.cos(half), zero, zero, np.sin(half)])
     origin = np.column_stack([SPEED * more, zero, zero])
-    with h5py.File(path, "w") as file:
-        file.attrs.update({"format": "bielle results", "version": 1, "complete": complete})
+    with h5py.File(path, "w") as root:
+        root.attrs.update({"format": "bielle results", "version": 1, "complete": complete})
+        file = root.create_group("analysis_1") if analysis else root
+        file.attrs.update({"type": analysis} if analysis else {})
         put(file, "time", time, "s")
         put(file, "nodes/hub/position", origin, "m")
         put(file, "nodes/hub/rotation", turn, "")
@@ -62,6 +67,7 @@ def write_results(path, superelement, rows=41, complete=True, extra_rows=0):
             file[f"joints/main/{name}"].attrs["description"] = "displacement, angle"
         put(file, "joints/main/reaction", np.column_stack([zero + 3, zero + 4, zero, zero, zero, np.sin(more)]), "N, N m")
         put(file, "joints/main/reaction_inertial", np.column_stack([zero + 3, zero + 4, zero, zero, zero, zero]), "N, N m")
+        put(file, "joints/main/drive_force", np.column_stack([zero, 7 + more]), "N, N m")
         file["joints/main"].attrs.update({"first_node": "ground", "second_node": "hub"})
         put(file, "elements/rod/frame", np.column_stack([origin, turn]), "m")
         put(file, "elements/rod/coordinates", np.column_stack([zero, strain(more)]), "m")
@@ -73,10 +79,20 @@ def write_results(path, superelement, rows=41, complete=True, extra_rows=0):
         resultants = np.zeros((len(more), BEAM_NODES - 1, 6))
         resultants[:, :, 0] = 10 * np.arange(1, BEAM_NODES)
         put(file, "elements/shaft/resultants", resultants, "N, N m")
+        put(file, "elements/shaft/von_mises", np.abs(resultants[:, :, :2]) * [1e6, 2e6], "Pa")
+        squares = SEMI_AXES ** 2
+        moments = MASS / 5 * (squares.sum() - squares)
+        ball = file.create_group("elements/ball")
+        ball.attrs.update({"type": "rigid_body", "node": "hub", "mass": str(MASS), "centre": " ".join(map(str, CENTRE)),
+                           "inertia": " ".join(map(str, [*moments, 0.0, 0.0, 0.0]))})
+        put(file, "elements/ball/centre", origin, "m")
+        put(file, "elements/ball/angular_momentum", origin, "N m s")
         put(file, "elements/ram/pressure", np.column_stack([1e5 + more, 2e5 - more]), "Pa")
         for name, values in (("kinetic", 5 + more), ("elastic", more ** 2), ("input", more), ("balance", 1e-9 * more)):
             put(file, f"energy/{name}", values, "J")
         put(file, "solver/newton_iterations", np.minimum(3, np.arange(len(more))), "")
+        for name in file if analysis else ():
+            root[name] = h5py.SoftLink(f"/analysis_1/{name}")
     return time
 
 

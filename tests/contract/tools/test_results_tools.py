@@ -1,6 +1,7 @@
 """bielle-paraview, bielle-plot, bielle-animate on results whose motion is known in closed form."""
 
 import os
+import re
 import subprocess
 import tempfile
 import unittest
@@ -94,17 +95,43 @@ class ParaView(ResultsTool):
     def test_beams_nodes_and_joints(self):
         self.succeed("bielle-paraview", self.path("run.h5"), "--every", "20")
         parts = self.parts(self.path("run.pvd"))
-        self.assertEqual(set(parts), {"rod", "beams", "nodes", "joints"})
+        self.assertEqual(set(parts), {"rod", "rigid", "beams", "nodes", "joints"})
         np.testing.assert_allclose([time for time, _ in parts["nodes"]], self.time[::20], rtol=1e-8)
         time, beams = parts["beams"][-1]
         np.testing.assert_allclose(beams.points[:, 2], np.linspace(0, 0.2, synthetic.BEAM_NODES), atol=1e-15)
         np.testing.assert_allclose(beams.cell_data["axial_force"][0], [10, 20, 30, 40])
+        np.testing.assert_allclose(beams.cell_data["von_mises"][0], np.array([10, 20, 30, 40]) * 1e6)
         time, nodes = parts["nodes"][1]
         np.testing.assert_allclose(nodes.points, [[synthetic.SPEED * time, 0, 0]], atol=1e-15)
         c, s = np.cos(synthetic.OMEGA * time), np.sin(synthetic.OMEGA * time)
         np.testing.assert_allclose(nodes.point_data["axis_x"], [[c, s, 0]], atol=1e-12)
         np.testing.assert_allclose(nodes.point_data["axis_y"], [[-s, c, 0]], atol=1e-12)
         np.testing.assert_allclose(parts["joints"][0][1].point_data["reaction_force"], [[3, 4, 0]])
+        np.testing.assert_allclose(parts["joints"][0][1].point_data["drive_force"], [[0, 7]])
+
+    def test_a_rigid_body_is_the_ellipsoid_of_its_inertia(self):
+        self.succeed("bielle-paraview", self.path("run.h5"), "--frames", "3")
+        for time, mesh in self.parts(self.path("run.pvd"))["rigid"]:
+            c, s = np.cos(synthetic.OMEGA * time), np.sin(synthetic.OMEGA * time)
+            local = (mesh.points - [synthetic.SPEED * time, 0, 0]) @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
+            np.testing.assert_allclose((((local - synthetic.CENTRE) / synthetic.SEMI_AXES) ** 2).sum(axis=1), 1, atol=1e-6)
+            corners = mesh.points[mesh.cells_dict["triangle"]]
+            volume = np.einsum("ij,ij->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6  # outward: positive
+            self.assertAlmostEqual(volume / (4 / 3 * np.pi * synthetic.SEMI_AXES.prod()), 1, delta=0.15)  # of its facets
+
+    def test_a_static_analysis_says_that_its_time_is_a_load_factor(self):
+        synthetic.write_results(self.path("static.h5"), "box.h5", rows=3, analysis="static")
+        self.assertIn("load factor of a static analysis", self.succeed("bielle-paraview", self.path("static.h5")).stdout)
+        self.assertNotIn("load factor", self.succeed("bielle-paraview", self.path("run.h5")).stdout)
+        self.refuse("bielle-paraview", [self.path("static.h5"), "--from", "3"], "no load factor from 3")
+        self.succeed("bielle-plot", self.path("static.h5"), "--format", "svg", "-o", self.path("plots"))
+        self.assertEqual(self.labels("plots/energy.svg"), {"load factor", "energy [J]", "missing [J]"})
+
+    def labels(self, picture):
+        """Texts of the axes of an SVG figure; matplotlib writes each as a comment before its outlines."""
+        with open(self.path(picture), encoding="utf-8") as file:
+            texts = set(re.findall(r"<!-- (.*?) -->", file.read()))
+        return {text for text in texts if "[" in text or text in ("load factor",)}
 
     def test_a_span_of_time(self):
         self.succeed("bielle-paraview", self.path("run.h5"), "--from", "0.02", "--to", "0.05", "--frames", "4")
@@ -134,7 +161,7 @@ class Plots(ResultsTool):
     def test_every_figure_is_there_and_not_blank(self):
         done = self.succeed("bielle-plot", self.path("run.h5"), "-o", self.path("plots"))
         written = done.stdout.split()
-        expected = {"energy", "joints", "reactions", "paths", "body_rod", "beam_shaft", "element_ram", "solver"}
+        expected = {"energy", "joints", "reactions", "drives", "paths", "body_rod", "beam_shaft", "element_ram", "solver"}
         self.assertEqual({os.path.splitext(os.path.basename(p))[0] for p in written}, expected)
         for path in written:
             picture = matplotlib.image.imread(path)[:, :, :3]
@@ -164,6 +191,24 @@ class Plots(ResultsTool):
     def test_a_wrong_name_brings_the_nearest(self):
         self.refuse("bielle-plot", [self.path("run.h5"), "--nodes", "hubb"], "no node 'hubb'", "did you mean 'hub'?")
         self.refuse("bielle-plot", [self.path("run.h5"), "--joints", "zzz"], "no joint 'zzz'", "main")
+        self.refuse("bielle-plot", [self.path("run.h5"), "--joints", ","], "expected the name of a joint", "main")
+        for tool in ("bielle-paraview", "bielle-plot", "bielle-animate"):
+            path = self.path("box.h5")
+            self.refuse(tool, [self.path("run.h5"), "--superelement", "rdo=" + path], "'rdo'", "did you mean 'rod'?")
+            self.refuse(tool, [self.path("run.h5"), "--superelement", "rod=" + path + "x"], "box.h5x", "does not exist")
+            self.refuse(tool, [self.path("run.h5"), "--superelment", "rod=" + path], "did you mean '--superelement'?")
+            self.refuse(tool, [self.path("run.h5"), "more.h5"], "'more.h5' is one argument too many")
+
+    def test_a_python_without_the_packages_says_what_to_do(self):
+        for tool, module in (("bielle-plot", "matplotlib"), ("bielle-animate", "h5py"), ("bielle-paraview", "meshio"),
+                             ("convert_mesh.py", "meshio"), ("study", "h5py")):
+            # -S: this Python without the packages of the machine.
+            done = subprocess.run(["/usr/bin/python3", "-B", "-S", os.path.join(REPOSITORY, "tools", tool)], text=True,
+                                  capture_output=True, timeout=60)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+            for text in (tool + ": /usr/bin/python3 has no ", module, "python3-" + module, "tools/install"):
+                self.assertIn(text, done.stderr)
 
 
 class Pictures(ResultsTool):
