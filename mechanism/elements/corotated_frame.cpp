@@ -88,6 +88,7 @@ void CorotatedFrame::update(const LocalState& state, CorotatedGeometry& geometry
 std::string CorotatedFrame::misfit(const LocalState& state, CorotatedGeometry& geometry) const {
   geometry.frame = closest_placement(state);
   update(state, geometry);
+  if (!geometry.q.allFinite()) return "the positions of its interfaces are no numbers any more";
   double distance = 0, angle = 0;
   for (const BodyPoint& point : points_) {
     distance = std::max(distance, geometry.q.segment<3>(point.u).norm());

@@ -108,5 +108,22 @@ TEST_CASE("nodes far from any placement of the body are refused with a sentence"
   State state = alone.rigid_state({});
   state.nodes[0].x.setConstant(std::numeric_limits<double>::quiet_NaN());
   CHECK_THROWS_AS(alone.residual(state), bielle::ComputationError);
-  CHECK_THROWS_WITH(alone.residual(state), Catch::Contains("superelement 'alone'"));
+  CHECK_THROWS_WITH(alone.residual(state),
+                    Catch::Contains("superelement 'alone': the positions of its interfaces are no"));
+  // Thrown anywhere, most nodes still have a frame; of those that have none the distance is told.
+  Random random(3);
+  std::string refusal;
+  for (int k = 0; k < 1000 && refusal.empty(); ++k) {
+    state = alone.rigid_state({});
+    for (auto& node : state.nodes) {
+      node.x = random.vector3(1);
+      node.R = exp_so3(random.vector3(3));
+    }
+    try {
+      alone.residual(state);
+    } catch (const bielle::ComputationError& error) {
+      refusal = error.what();
+    }
+  }
+  CHECK_THAT(refusal, Catch::Contains("off the nearest rigid placement") && Catch::Contains("too soft"));
 }
