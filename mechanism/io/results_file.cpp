@@ -38,7 +38,7 @@ std::size_t rows_in(std::size_t bytes, std::size_t row_bytes, std::size_t most) 
 /// Rows on their way to the file.
 struct Block {
   std::vector<double> times;
-  std::vector<double> values;  ///< each column's rows one after the other: what a dataset takes in one piece
+  std::vector<double> values;  ///< row after row
   std::size_t rows = 0;
 };
 
@@ -52,7 +52,6 @@ struct ResultsFile::Stream {
         rows(model),
         row_bytes(sizeof(double) * (rows.size() + 1)),
         block_rows(rows_in(block_bytes, row_bytes, most_block_rows)),
-        row(rows.size()),
         file(std::move(results)) {}
 
   void start(const std::string& input_text);
@@ -70,8 +69,8 @@ struct ResultsFile::Stream {
   const Model& model;
   ResultsRows rows;
   const std::size_t row_bytes, block_rows;
-  std::vector<double> row;
   Hdf5File file;
+  std::vector<double> together;  ///< the rows of one column, as its dataset takes them
   Block writing;
   int analysis = 0;  // the running one, and its
   std::string group;
@@ -123,8 +122,11 @@ void ResultsFile::Stream::prepare_rows() {
 void ResultsFile::Stream::write(const Block& block) {
   for (std::size_t k = 0; k < datasets.size(); ++k) {
     const ResultsColumn& column = rows.columns()[k];
-    file.append_rows(datasets[k], {block.values.data() + block_rows * column.begin, block.rows * column.size},
-                     block.rows);
+    together.resize(block.rows * column.size);
+    for (std::size_t row = 0; row < block.rows; ++row)
+      std::copy_n(block.values.data() + row * rows.size() + column.begin, column.size,
+                  together.data() + row * column.size);
+    file.append_rows(datasets[k], together, block.rows);
   }
   file.flush();
   file.append_rows(time_dataset, {block.times.data(), block.rows}, block.rows);
@@ -255,16 +257,13 @@ void ResultsFile::record(const State& state, const std::vector<Slots>& slots, co
   Stream& stream = *stream_;
   if (stream.group.empty()) throw std::logic_error("a row of results outside of an analysis");
   if (stream.datasets.empty()) stream.create_datasets();
-  stream.rows.fill(state, slots, environment, step, stream.row.data());
   ++stream.recorded;
 
   std::unique_lock lock(stream.guard);
   stream.changed.wait(lock, [&] { return stream.failure || stream.filling.rows < stream.block_rows; });
   stream.check();
   Block& block = stream.filling;
-  for (const ResultsColumn& column : stream.rows.columns())
-    std::copy_n(stream.row.data() + column.begin, column.size,
-                block.values.data() + stream.block_rows * column.begin + block.rows * column.size);
+  stream.rows.fill(state, slots, environment, step, block.values.data() + block.rows * stream.rows.size());
   block.times[block.rows++] = step.time.value_or(state.time);
   if (block.rows == stream.block_rows) stream.changed.notify_all();
 }

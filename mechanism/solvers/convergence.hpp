@@ -16,10 +16,9 @@ struct NewtonOptions {
   int iterations = 20;      ///< at most
   /// Where a full step makes the residual larger, half of it, a quarter or an eighth is tried.
   bool line_search = true;
-  /// Factors of the tangent serve as long as each iteration with them divides the residual by `1/contraction`;
-  /// otherwise they are renewed at each iteration. Time integration only.
+  /// Factors of the tangent serve as long as the residual falls fast enough with them; otherwise they are renewed at
+  /// each iteration. Time integration only.
   bool reuse_tangent = true;
-  double contraction = 0.1;
 };
 
 class Convergence {

@@ -18,6 +18,17 @@ constexpr double most_turn = 0.9 * 2 * 3.14159265358979324;
 /// Distance from a kink at which its two sides are told apart in spite of rounding [s].
 double beside(double time, double h) { return 1e-12 * h + 8 * std::numeric_limits<double>::epsilon() * std::abs(time); }
 
+/// Whether old factors will do: at the rate at which they brought a residual from `before` to `now` (over its
+/// tolerance), they need no more further iterations than a factorisation costs.
+bool worthwhile(double before, double now) {
+  constexpr double slowest = 0.5, iterations_per_factorisation = 4;
+  if (now <= 1) return true;
+  return now < slowest * before && std::log(now) < iterations_per_factorisation * std::log(before / now);
+}
+
+/// Sizes that differ by rounding are the same.
+bool same_size(double h, double other) { return std::abs(h - other) <= 1e-9 * other; }
+
 }  // namespace
 
 TimeIntegration::TimeIntegration(const System& system, const Environment& environment, const Scheme& scheme,
@@ -154,8 +165,7 @@ void TimeIntegration::start(double h) {
 }
 
 void TimeIntegration::change_step(double h) {
-  // Sizes that differ by rounding are the same.
-  if (std::abs(h - h_) <= 1e-9 * h_) return;
+  if (same_size(h, h_)) return;
   if (resolved(j_, std::max(h, h_))) {
     A_ += scheme_.delta() * (h - h_) * j_;
     perturb_velocity(j_, h * h - h_ * h_);
@@ -242,7 +252,7 @@ void TimeIntegration::factor(StepReport& report) {
   }
   factored_for_ = attempted_;
   ++report.factorisations;
-  if (floor_age_ < floor_lasts && h_ == attempted_) return;
+  if (floor_age_ < floor_lasts && same_size(h_, attempted_)) return;
   convergence_.measure_rounding(linear_, next_);
   floor_age_ = 0;
 }
@@ -289,7 +299,7 @@ void TimeIntegration::polish() {
 
 /// An iteration of Newton's method.
 void TimeIntegration::improve(StepReport& report) {
-  const bool renew = !options_.reuse_tangent || factored_for_ != attempted_;
+  const bool renew = !options_.reuse_tangent || !same_size(attempted_, factored_for_);
   if (renew) factor(report);
   if (report.iterations == 0) {
     convergence_.measure_by(scale_);
@@ -307,7 +317,7 @@ void TimeIntegration::improve(StepReport& report) {
     if (renew && !options_.line_search) throw;
     size_ = std::numeric_limits<double>::infinity();
   }
-  if (!renew && !(size_ < options_.contraction * before)) {
+  if (!renew && !worthwhile(before, size_)) {
     factored_for_ = 0;
     if (size_ < before) return;
     // The old tangent led astray.

@@ -65,14 +65,17 @@ struct Run {
   double seconds = 0;         ///< elapsed
   double processor = 0;       ///< of the computing thread
   double all_processors = 0;  ///< and of the one that writes
-  long iterations = 0, steps = 0;
+  long iterations = 0, factorisations = 0, steps = 0;
   State state;
 };
 
 constexpr double step = 1e-3;
 
-Run integrate(const MechanismFile& file, const System& system, const std::string& results_path) {
-  TimeIntegration integration(system, file.model.environment, Scheme::generalized_alpha(0.8), system.start(0));
+Run integrate(const MechanismFile& file, const System& system, bool reuse, const std::string& results_path) {
+  NewtonOptions newton;
+  newton.reuse_tangent = reuse;
+  TimeIntegration integration(system, file.model.environment, Scheme::generalized_alpha(0.8), system.start(0),
+                              ConstraintForm::position, newton);
   integration.start(step);
   EnergyBalance books;
   books.start(0, system.energy(integration.state(), file.model.environment));
@@ -87,6 +90,7 @@ Run integrate(const MechanismFile& file, const System& system, const std::string
   for (run.steps = 0; run.steps < 2000; ++run.steps) {
     const StepReport report = integration.step(step);
     run.iterations += report.iterations;
+    run.factorisations += report.factorisations;
     books.advance(integration.state().time, system.energy(integration.state(), file.model.environment));
     if (results) {
       StepRecord row;
@@ -142,45 +146,68 @@ void evaluate(const System& system, const State& state, const Environment& envir
   }
 }
 
+void evaluate_residuals(const System& system, const State& state, const Environment& environment) {
+  static VectorX r;
+  for (std::size_t m = 0; m < system.slots().size(); ++m) {
+    const Slots& slots = system.slots()[m];
+    r.setZero(slots.size());
+    system.model().members()[m].component->add_residual(LocalState(state, slots, environment), r);
+  }
+}
+
 void measure(const std::string& title, const std::string& text) {
   const MechanismFile file = read_mechanism_text(text, "model.yaml");
   const System system(file.model);
   const Environment& environment = file.model.environment;
   const std::string path = (std::filesystem::temp_directory_path() / "performance_mechanism_chain.h5").string();
-  const Run with = integrate(file, system, path), without = integrate(file, system, "");
-  std::filesystem::remove(path);
+  fmt::print("\n{}: {} equations\n", title, system.size());
+  for (const bool reuse : {false, true}) {
+    const Run with = integrate(file, system, reuse, path), without = integrate(file, system, reuse, "");
+    std::filesystem::remove(path);
 
-  LinearStep linear(system);
-  const TangentWeights weights{1, 2 / step, 4 / (step * step), 0, 1};
-  const VectorX dq = VectorX::Constant(system.dofs(), 1e-3);
-  VectorX r(system.size()), delta(system.size());
-  ResidualScale scale;
-  std::vector<double> values;
-  const State& state = with.state;
-  linear.factor(state, environment, weights, &dq);
-  const double elements = time_of([&] { evaluate(system, state, environment); });
-  const double residual = time_of([&] { system.residual(state, environment, r, &scale); });
-  const double tangent = time_of([&] { system.tangent(state, environment, weights, &dq, values); });
-  const double factor = time_of([&] { linear.factor(state, environment, weights, &dq); }) - tangent;
-  const double solve = time_of([&] { linear.solve(r, delta); });
+    LinearStep linear(system);
+    const TangentWeights weights{1, 2 / step, 4 / (step * step), 0, 1};
+    const VectorX dq = VectorX::Constant(system.dofs(), 1e-3);
+    VectorX r(system.size()), delta(system.size());
+    ResidualScale scale;
+    std::vector<double> values;
+    const State& state = with.state;
+    linear.factor(state, environment, weights, &dq);
+    // Each part by how often a run needs it: residuals once more per step than there are iterations.
+    const auto iterations = static_cast<double>(with.iterations), steps = static_cast<double>(with.steps);
+    const auto factorisations = static_cast<double>(with.factorisations);
+    const double tangents = factorisations / iterations, residuals = 1 + steps / iterations;
+    const double residual_elements = time_of([&] { evaluate_residuals(system, state, environment); });
+    const double all_elements = time_of([&] { evaluate(system, state, environment); });
+    const double energy = time_of([&] { system.energy(state, environment); }) * steps / iterations;
+    const double residual = time_of([&] { system.residual(state, environment, r, &scale); });
+    const double tangent = time_of([&] { system.tangent(state, environment, weights, &dq, values); });
+    const double factored = time_of([&] { linear.factor(state, environment, weights, &dq); }) - tangent;
+    const double elements = residuals * residual_elements + tangents * (all_elements - residual_elements) + energy;
+    const double assembly =
+        residuals * (residual - residual_elements) + tangents * (tangent - (all_elements - residual_elements));
+    const double factor = tangents * factored;
+    const double solve = time_of([&] { linear.solve(r, delta); }) * (reuse ? residuals : 1);
 
-  const auto iterations = static_cast<double>(with.iterations);
-  const auto per_iteration = [&](double seconds) { return 1e3 * seconds / iterations; };
-  const double total = per_iteration(with.processor), output = total - per_iteration(without.processor);
-  const double parts = 1e3 * (residual + tangent + factor + solve);
-  fmt::print("\n{}: {} equations, {} steps, {} iterations ({:.2f} per step), {:.2f} s\n", title, system.size(),
-             with.steps, with.iterations, iterations / static_cast<double>(with.steps), with.seconds);
-  fmt::print(
-      "  per iteration, output on   {:8.4f} ms elapsed, {:.4f} ms of the processor, {:.4f} ms with the writing "
-      "thread's\n",
-      per_iteration(with.seconds), total, per_iteration(with.all_processors));
-  fmt::print("    elements                 {:8.4f} ms\n", 1e3 * elements);
-  fmt::print("    assembly                 {:8.4f} ms\n", 1e3 * (residual + tangent - elements));
-  fmt::print("    factorisation            {:8.4f} ms\n", 1e3 * factor);
-  fmt::print("    solution                 {:8.4f} ms\n", 1e3 * solve);
-  fmt::print("    output                   {:8.4f} ms\n", output);
-  fmt::print("    the scheme's rest        {:8.4f} ms\n", total - output - parts);
-  std::fflush(stdout);
+    const auto per_iteration = [&](double seconds) { return 1e3 * seconds / iterations; };
+    const double total = per_iteration(with.processor), output = total - per_iteration(without.processor);
+    const auto line = [&](const char* name, double ms) {
+      fmt::print("      {:<24} {:8.4f} ms {:6.1f} %\n", name, ms, 100 * ms / total);
+    };
+    fmt::print("  tangent {}: {} steps, {:.2f} iterations and {:.2f} factorisations per step, {:.4f} ms per step\n",
+               reuse ? "reused" : "renewed", with.steps, iterations / steps, factorisations / steps,
+               1e3 * with.processor / steps);
+    fmt::print(
+        "    per iteration {:.4f} ms of the processor ({:.4f} elapsed, {:.4f} with the writing thread's), of it\n",
+        total, per_iteration(with.seconds), per_iteration(with.all_processors));
+    line("elements", 1e3 * elements);
+    line("assembly", 1e3 * assembly);
+    line("factorisation", 1e3 * factor);
+    line("solution", 1e3 * solve);
+    line("output", output);
+    line("the scheme's rest", total - output - 1e3 * (elements + assembly + factor + solve));
+    std::fflush(stdout);
+  }
 }
 
 }  // namespace
