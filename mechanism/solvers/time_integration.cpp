@@ -22,7 +22,6 @@ double beside(double time, double h) { return 1e-12 * h + 8 * std::numeric_limit
 /// tolerance), they need no more further iterations than a factorisation costs.
 bool worthwhile(double before, double now) {
   constexpr double slowest = 0.5, iterations_per_factorisation = 4;
-  if (now <= 1) return true;
   return now < slowest * before && std::log(now) < iterations_per_factorisation * std::log(before / now);
 }
 
@@ -299,7 +298,9 @@ void TimeIntegration::polish() {
 
 /// An iteration of Newton's method.
 void TimeIntegration::improve(StepReport& report) {
-  const bool renew = !options_.reuse_tangent || !same_size(attempted_, factored_for_);
+  // Late in a step that is hard to solve, old factors are not to blame.
+  const bool renew =
+      !options_.reuse_tangent || !same_size(attempted_, factored_for_) || report.iterations >= options_.iterations / 2;
   if (renew) factor(report);
   if (report.iterations == 0) {
     convergence_.measure_by(scale_);
