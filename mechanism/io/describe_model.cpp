@@ -113,6 +113,8 @@ std::string describe_nodes(const Model& model, const System& system, const State
     text += fmt::format("  massless     rotation of node '{}' about {} in its axes\n", model.node(k).name,
                         format_vector(axis));
   }
+  if (text.find("massless") != std::string::npos)
+    text += "               what has no mass must be held (`fixed`), joined to something, or given inertia by a body\n";
   return text;
 }
 

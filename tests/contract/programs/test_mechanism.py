@@ -128,6 +128,7 @@ class Mechanism(CommandTest):
         self.assertIn("EA 7, GAy 6, GAz 5 N, GJ 4, EIy 3, EIz 2 N m^2", done.stdout)
         self.assertIn("unused       node 'lonely'", done.stdout)
         self.assertIn("massless     rotation y of node 'lonely'", done.stdout)
+        self.assertIn("must be held (`fixed`)", done.stdout)
         self.assertNotIn("massless     rotation y of node 'bob'", done.stdout)
         self.write("rod.yaml", "nodes: {a: {position: [0, 0, 0]}}\nelements: {rod: {type: rigid_body, node: a, mass: 1, "
                    "inertia: [0, 1, 1], inertia_axes: {rotation_vector: [0, 0, pi/2]}, centre: [0.5, 0, 0]}}\n"
