@@ -68,7 +68,9 @@ VectorX factor_mass_saddle(const System& system, const Environment& environment,
   linear.row_sums(VectorX::Ones(system.size()), sums);
   for (int i = 0; i < system.dofs(); ++i)
     if (sums[i] == 0)
-      throw ComputationError(fmt::format("{}: it has no mass, and nothing holds it", system.unknown_name(i)));
+      throw ComputationError(
+          fmt::format("{}: it has no mass, and nothing holds it; hold it (`fixed`), join it, or give it a body with {}",
+                      system.unknown_name(i), system.kind(i) == Kind::rotation ? "inertia" : "mass"));
   if (linear.try_factor(state, environment, weights, nullptr, &extra)) return extra;
   if (!linear.try_factor(state, environment, weights, nullptr, &everywhere)) linear.throw_singular(state.time);
   return everywhere;

@@ -33,6 +33,14 @@ class Mechanism(CommandTest):
         self.write("model.yaml", PENDULUM.replace(old, new))
         return self.expect_refusal(status, "model.yaml", says=says)
 
+    def test_what_has_no_mass_is_told_its_cure(self):
+        model = PENDULUM.replace("type: rigid_body, node: bob, mass: 1, inertia: [1e-3, 1e-3, 1e-3]",
+                                 "type: point_mass, node: bob, mass: 1")
+        begin, end = model.index("joints:"), model.index("analysis:")
+        self.write("model.yaml", model[:begin] + model[end:])
+        self.expect_refusal(2, "model.yaml", says=["rotation x of node 'bob'", "no mass",
+                                                   "hold it (`fixed`), join it, or give it a body with inertia"])
+
     def test_a_good_model_runs_and_is_summarised(self):
         self.write("model.yaml", PENDULUM)
         done = self.run_program("model.yaml")
