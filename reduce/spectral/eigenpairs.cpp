@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "reduce/common/error.hpp"
+#include "reduce/spectral/blas.hpp"
 
 namespace bielle {
 
@@ -204,6 +205,9 @@ Eigenpairs shift_invert_eigenpairs(const ShiftInvertProblem& problem, int count,
     throw ComputationError(
         fmt::format("all {} eigenpairs of a problem of that size cannot be computed; ask for fewer", n));
   }
+  // ARPACK's products of vectors are short: a second BLAS thread would mostly wait, by spinning, and take its core from
+  // the products with the mass.
+  const BlasThreads one(1);
   const bool dense = n <= small || (n <= large && 2 * static_cast<Eigen::Index>(count) + 20 > n);
   Eigenpairs pairs = dense ? dense_eigenpairs(problem, count) : arpack_eigenpairs(problem, count, options, {}, 1);
   if (!dense) add_missed_copies(problem, options, pairs);
