@@ -1,5 +1,6 @@
 #include "mechanism/solvers/convergence.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -40,16 +41,18 @@ void Convergence::measure_rounding(const LinearStep& linear, const State& state)
   scale_ = linear.scale();
 }
 
-double Convergence::reference(Kind kind, const ResidualScale& scale) const {
-  return kind == Kind::multiplier ? std::max(scale[Kind::translation], scale[Kind::rotation]) / scale_ : scale[kind];
+std::array<double, kind_count> Convergence::tolerances(const ResidualScale& scale) const {
+  std::array<double, kind_count> result = scale.largest;
+  result[static_cast<std::size_t>(Kind::multiplier)] =
+      std::max(scale[Kind::translation], scale[Kind::rotation]) / scale_;
+  for (double& value : result) value *= options_.tolerance;
+  return result;
 }
 
 bool Convergence::reached(const Eigen::Ref<const VectorX>& r, const ResidualScale& scale) {
   worst_ = -1;
   worst_ratio_ = worst_residual_ = 0;
-  std::array<double, kind_count> allowed{};
-  for (std::size_t kind = 0; kind < kind_count; ++kind)
-    allowed[kind] = options_.tolerance * reference(static_cast<Kind>(kind), scale);
+  const std::array<double, kind_count> allowed = tolerances(scale);
   for (int i = 0; i < system_.size(); ++i) {
     const double residual = std::abs(r[i]);
     // Only what may be worse than the worst so far is divided.
@@ -64,9 +67,7 @@ bool Convergence::reached(const Eigen::Ref<const VectorX>& r, const ResidualScal
 }
 
 void Convergence::measure_by(const ResidualScale& scale) {
-  std::array<double, kind_count> allowed{};
-  for (std::size_t kind = 0; kind < kind_count; ++kind)
-    allowed[kind] = options_.tolerance * reference(static_cast<Kind>(kind), scale);
+  const std::array<double, kind_count> allowed = tolerances(scale);
   measure_.resize(system_.size());
   for (int i = 0; i < system_.size(); ++i) {
     const double most = allowed[static_cast<std::size_t>(system_.kind(i))] + floor_[i];

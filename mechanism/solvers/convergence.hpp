@@ -7,6 +7,8 @@
 // contribution), nothing is left to be small beside in the end: there it is rounding that decides.
 #pragma once
 
+#include <array>
+
 #include "mechanism/solvers/linear_step.hpp"
 
 namespace bielle::mechanism {
@@ -43,7 +45,8 @@ class Convergence {
   double worst_ratio() const { return worst_ratio_; }  ///< residual over tolerance
 
  private:
-  double reference(Kind kind, const ResidualScale& scale) const;
+  /// Of the residuals of each kind, rounding left out.
+  std::array<double, kind_count> tolerances(const ResidualScale& scale) const;
 
   const System& system_;
   NewtonOptions options_;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "tests/order/self_convergence.hpp"
+#include "tests/support/four_bar.hpp"
 
 using namespace bielle::mechanism;
 using bielle::test::check_order_two;
@@ -11,14 +12,8 @@ using bielle::test::ReadyModel;
 
 namespace {
 
-/// Ground 1 m, crank 0.3 m at 60 degrees, coupler 0.9 m, rocker 0.7 m.
 std::string flexible_four_bar() {
-  const double a = M_PI / 3;
-  const Vector3 A(0, 0, 0), D(1, 0, 0), B(0.3 * std::cos(a), 0.3 * std::sin(a), 0);
-  const Vector3 BD = D - B;
-  const double distance = BD.norm(), along = (0.81 - 0.49 + distance * distance) / (2 * distance);
-  const Vector3 e = BD / distance, n(-e.y(), e.x(), 0);
-  const Vector3 C = B + along * e + std::sqrt(0.81 - along * along) * n;
+  const auto [A, B, C, D] = bielle::test::released_four_bar();
   const auto at = [](const Vector3& x) { return fmt::format("[{}, {}, {}]", x.x(), x.y(), x.z()); };
   return "gravity: [0, -9.81, 0]\nnodes:\n  crank: {position: " + at(0.5 * (A + B)) + "}\n  b: {position: " + at(B) +
          "}\n  c: {position: " + at(C) + "}\n  rocker: {position: " + at(0.5 * (C + D)) + R"yaml(}

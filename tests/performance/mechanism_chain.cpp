@@ -17,37 +17,21 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <time.h>
 
 #include "mechanism/io/energy_balance.hpp"
 #include "mechanism/io/mechanism_file.hpp"
 #include "mechanism/io/results_file.hpp"
+#include "tests/performance/chain.hpp"
+#include "tests/performance/processor_time.hpp"
 
 namespace {
 
 using namespace bielle;
 using namespace bielle::mechanism;
+using namespace bielle::performance;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// Processor time [s] of the calling thread, or of all threads.
-double processor_seconds(clockid_t clock) {
-  timespec t{};
-  clock_gettime(clock, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-std::string chain(int links) {
-  std::string nodes, elements, joints;
-  for (int k = 0; k < links; ++k) {
-    nodes += fmt::format("  n{}: {{position: [{}, 0, 0]}}\n", k, k + 0.5);
-    elements += fmt::format("  e{}: {{type: rigid_body, node: n{}, mass: 1, inertia: [1e-3, 1/12, 1/12]}}\n", k, k);
-    joints += fmt::format("  j{}: {{type: spherical, nodes: [{}, n{}], position: [{}, 0, 0]}}\n", k,
-                          k == 0 ? "ground" : fmt::format("n{}", k - 1), k, k);
-  }
-  return "gravity: [0, 0, -9.81]\nnodes:\n" + nodes + "elements:\n" + elements + "joints:\n" + joints;
 }
 
 std::string beam(int elements) {

@@ -14,16 +14,18 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <time.h>
 
 #include "mechanism/io/mechanism_file.hpp"
 #include "mechanism/solvers/redundancy.hpp"
 #include "mechanism/solvers/time_integration.hpp"
+#include "tests/performance/chain.hpp"
+#include "tests/performance/processor_time.hpp"
 
 namespace {
 
 using namespace bielle;
 using namespace bielle::mechanism;
+using namespace bielle::performance;
 
 struct Case {
   const char* name;
@@ -36,12 +38,6 @@ struct Samples {
   double seconds = 0;
   std::string failure;
 };
-
-double processor_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 /// A run recorded at multiples of `every` steps.
 Samples run(const MechanismFile& file, const System& system, const Scheme& scheme, ConstraintForm form, double h,
@@ -102,17 +98,6 @@ void measure(const Case& subject) {
       fmt::print("\n");
       std::fflush(stdout);
     }
-}
-
-std::string chain(int links) {
-  std::string nodes, elements, joints;
-  for (int k = 0; k < links; ++k) {
-    nodes += fmt::format("  n{}: {{position: [{}, 0, 0]}}\n", k, k + 0.5);
-    elements += fmt::format("  e{}: {{type: rigid_body, node: n{}, mass: 1, inertia: [1e-3, 1/12, 1/12]}}\n", k, k);
-    joints += fmt::format("  j{}: {{type: spherical, nodes: [{}, n{}], position: [{}, 0, 0]}}\n", k,
-                          k == 0 ? "ground" : fmt::format("n{}", k - 1), k, k);
-  }
-  return "gravity: [0, 0, -9.81]\nnodes:\n" + nodes + "elements:\n" + elements + "joints:\n" + joints;
 }
 
 const char* const heavy_top = R"yaml(

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/benchmarks/four_bar/loops.hpp"
+#include "tests/support/four_bar.hpp"
 #include "tests/support/second_order.hpp"
 
 using namespace bielle::mechanism;
@@ -14,14 +15,8 @@ using bielle::test::ReadyModel;
 
 namespace {
 
-/// Ends of coupler and rocker from the angle of the crank: the open branch.
 std::string released_linkage() {
-  const double a = M_PI / 3;
-  const Vector3 A(0, 0, 0), D(1, 0, 0), B(0.3 * std::cos(a), 0.3 * std::sin(a), 0);
-  const Vector3 BD = D - B;
-  const double distance = BD.norm(), along = (0.81 - 0.49 + distance * distance) / (2 * distance);
-  const Vector3 e = BD / distance, n(-e.y(), e.x(), 0);
-  const Vector3 C = B + along * e + std::sqrt(0.81 - along * along) * n;
+  const auto [A, B, C, D] = bielle::test::released_four_bar();
   return "gravity: [0, -9.81, 0]\nnodes:\n" + bar_node("crank", A, B) + bar_node("coupler", B, C) +
          bar_node("rocker", D, C) + "elements:\n" + bar_body("crank", 0.3) + bar_body("coupler", 0.9) +
          bar_body("rocker", 0.7) + "joints:\n" + hinge("a", "ground", "crank", A) + hinge("b", "crank", "coupler", B) +

@@ -1,25 +1,12 @@
 // Residuals and tangents of beams, bodies, line loads, loads and joints, assembled by the system, do not touch the heap
-// once they have been made. Counts calls of malloc, which this program replaces (glibc); Eigen allocates through it.
-// Not built with sanitizers, which replace it themselves.
-#include <cstdlib>
-
+// once they have been made.
 #include <catch2/catch.hpp>
 
+#include "tests/support/allocations.hpp"
 #include "tests/support/run_model.hpp"
 
-extern "C" void* __libc_malloc(std::size_t size);
-
-namespace {
-bool counting = false;
-int calls = 0;
-}  // namespace
-
-extern "C" void* malloc(std::size_t size) {
-  if (counting) ++calls;
-  return __libc_malloc(size);
-}
-
 using namespace bielle::mechanism;
+using bielle::test::AllocationCount;
 using bielle::test::ReadyModel;
 
 namespace {
@@ -89,9 +76,24 @@ TEST_CASE("residual and tangent of a whole model allocate nothing behind the fir
   };
   evaluate();
   const VectorX first = r;
-  counting = true;
-  evaluate();
-  counting = false;
+  int calls = 0;
+  {
+    const AllocationCount count;
+    evaluate();
+    calls = count.calls();
+  }
   CHECK(calls == 0);
   CHECK(first == r);
+}
+
+TEST_CASE("the counter sees a vector that is made") {
+  const ReadyModel model(model_text);
+  int calls = 0;
+  {
+    const AllocationCount count;
+    const State state = model.system.start(0);
+    calls = count.calls();
+    CHECK(state.nodes.size() > 1);
+  }
+  CHECK(calls > 0);
 }

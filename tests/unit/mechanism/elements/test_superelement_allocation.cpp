@@ -1,22 +1,8 @@
-// Evaluations of a superelement do not touch the heap once they have been made. Counts calls of malloc, which this
-// program replaces (glibc); Eigen allocates through it. Not built with sanitizers, which replace it themselves.
-#include <cstdlib>
-
+// Evaluations of a superelement do not touch the heap once they have been made.
 #include <catch2/catch.hpp>
 
+#include "tests/support/allocations.hpp"
 #include "tests/support/superelement_alone.hpp"
-
-extern "C" void* __libc_malloc(std::size_t size);
-
-namespace {
-bool counting = false;
-int calls = 0;
-}  // namespace
-
-extern "C" void* malloc(std::size_t size) {
-  if (counting) ++calls;
-  return __libc_malloc(size);
-}
 
 using namespace bielle::mechanism;
 using namespace bielle::test;
@@ -35,9 +21,12 @@ TEST_CASE("residual and tangents of a superelement allocate nothing behind the f
   alone.body().add_tangent(alone.local(first), tangent);
 
   const LocalState local = alone.local(second);
-  counting = true;
-  alone.body().add_residual(local, r);
-  alone.body().add_tangent(local, tangent);
-  counting = false;
+  int calls = 0;
+  {
+    const AllocationCount count;
+    alone.body().add_residual(local, r);
+    alone.body().add_tangent(local, tangent);
+    calls = count.calls();
+  }
   CHECK(calls == 0);
 }
