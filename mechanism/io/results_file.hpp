@@ -1,9 +1,9 @@
 // Streams a run to its HDF5 results file. The format is described in mechanism/io/README.md.
 //
-// Rows are collected in memory and written in blocks, `/time` last: whatever happens to the program, the file is
-// readable and every row that its `/time` counts is whole. A thread writes what has been waiting for 0.2 s (up to 2 s
-// where thousands of datasets take long to write), so that completed steps reach the file in time also while the next
-// one is slow.
+// The run hands over copies of its state; a second thread makes rows of them and writes these in blocks, `/time` last:
+// whatever happens to the program, the file is readable and every row that its `/time` counts is whole. Nothing waits
+// for longer than 0.2 s (up to 2 s where thousands of datasets take long to write), so that completed steps reach the
+// file in time also while the next one is slow.
 #pragma once
 
 #include <memory>
@@ -23,6 +23,7 @@ class Hdf5File;
 namespace bielle::mechanism {
 
 class Model;
+class ResultsStream;
 class System;
 
 /// What a step has to report beside the state.
@@ -59,8 +60,9 @@ class ResultsFile {
   ///        piece, so that no moment is a bad one to be killed in (see Hdf5File::create_rows).
   void begin_analysis(const std::string& type, std::size_t expected_rows = 0);
 
-  /// Adds a row. No memory is allocated but for the first row of an analysis.
-  /// @param slots  of the model's members, in their order
+  /// Adds a row. No memory is allocated but for the first one. Components are asked for their outputs in another thread,
+  /// a moment later.
+  /// @param slots  of the model's members, in their order; they must outlive the analysis
   /// @throws ComputationError when this or an earlier row could not be written (a full disk)
   void record(const State& state, const std::vector<Slots>& slots, const Environment& environment,
               const StepRecord& step);
@@ -80,8 +82,8 @@ class ResultsFile {
   std::string analysis_group() const;
 
  private:
-  struct Stream;
-  std::unique_ptr<Stream> stream_;
+  std::unique_ptr<ResultsStream> stream_;
+  int analysis_ = 0;  ///< number of the running one
 };
 
 }  // namespace bielle::mechanism
