@@ -62,6 +62,14 @@ void RigidBody::add_tangent(const LocalState& state, LocalTangent& tangent) cons
   }
 }
 
+void RigidBody::add_pattern(const Slots& /*slots*/, LocalPattern& pattern) const {
+  pattern.add_diagonal(0, 0);
+  pattern.add_block(3, 3);
+  if (c_.isZero(0)) return;
+  pattern.add_block(0, 3);
+  pattern.add_block(3, 0);
+}
+
 void RigidBody::add_energy(const LocalState& state, Energy& energy) const {
   const NodeState& n = state.node(0);
   energy.kinetic +=

@@ -40,8 +40,7 @@ ResultsFile::ResultsFile(const std::string& path, const Model& model, const std:
 
 ResultsFile::ResultsFile(const std::string& path, const Model& model, const std::string& input_text,
                          const Checkpoint& checkpoint)
-    : stream_(std::make_unique<ResultsStream>(Hdf5File::open_to_extend(path), model)),
-      analysis_(checkpoint.analysis) {
+    : stream_(std::make_unique<ResultsStream>(Hdf5File::open_to_extend(path), model)), analysis_(checkpoint.analysis) {
   Hdf5File& file = stream_->file();
   rewind_to(file, checkpoint);
   stream_->resume(group_of(analysis_), checkpoint.rows);

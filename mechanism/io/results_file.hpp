@@ -60,8 +60,8 @@ class ResultsFile {
   ///        piece, so that no moment is a bad one to be killed in (see Hdf5File::create_rows).
   void begin_analysis(const std::string& type, std::size_t expected_rows = 0);
 
-  /// Adds a row. No memory is allocated but for the first one. Components are asked for their outputs in another thread,
-  /// a moment later.
+  /// Adds a row. No memory is allocated but for the first one. Components are asked for their outputs in another
+  /// thread, a moment later.
   /// @param slots  of the model's members, in their order; they must outlive the analysis
   /// @throws ComputationError when this or an earlier row could not be written (a full disk)
   void record(const State& state, const std::vector<Slots>& slots, const Environment& environment,

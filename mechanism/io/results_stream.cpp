@@ -32,8 +32,8 @@ std::size_t pieces_in(std::size_t bytes, std::size_t piece, std::size_t most) {
 }
 
 std::size_t bytes_of(const State& state) {
-  const auto numbers = 3 * state.amplitude.size() + 2 * state.first_order.size() + state.multiplier.size() +
-                       state.memory.size();
+  const auto numbers =
+      3 * state.amplitude.size() + 2 * state.first_order.size() + state.multiplier.size() + state.memory.size();
   return sizeof(State) + sizeof(NodeState) * state.nodes.size() + sizeof(double) * static_cast<std::size_t>(numbers);
 }
 

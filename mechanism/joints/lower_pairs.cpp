@@ -4,7 +4,8 @@ namespace bielle::mechanism {
 
 LowerPair::LowerPair(std::string type, std::string name, JointFrames frames, std::vector<JointCoordinate> coordinates,
                      const LockedMotions& locked, const Model& model)
-    : Joint(std::move(type), std::move(name), std::move(frames), std::move(coordinates), model) {
+    : Joint(std::move(type), std::move(name), std::move(frames), std::move(coordinates), model),
+      locks_point_(locked.translation == std::array{true, true, true}) {
   constexpr const char* force_names[] = {"x", "y", "z"};
   for (int k = 0; k < 3; ++k)
     if (locked.translation[static_cast<std::size_t>(k)]) rows_.push_back({true, k, 0, force_names[k]});
@@ -35,19 +36,27 @@ void LowerPair::declare(Declaration& declaration) const {
 void LowerPair::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
   const auto lambda = state.multiplier();
   const NodeState &first = state.node(0), &second = state.node(1);
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    if (rows_[k].is_translation) continue;
+    const auto row = static_cast<Eigen::Index>(k);
+    const AxisPair pair = axes(rows_[k], first, second);
+    r.head<12>() += lambda[row] * pair.gradient();
+    r[12 + row] += pair.value();
+  }
+  if (inertial(state)) {
+    const PointGap gap(first, second, frames().on_first.x, frames().on_second.x);
+    r.segment<3>(12) += gap.value();
+    gap.add_forces(lambda.head<3>(), r);
+    return;
+  }
   const PointPair points(first, second, frames().on_second.x);
   Vector3 force = Vector3::Zero();  // of the locked translations, first node's axes
   for (std::size_t k = 0; k < rows_.size(); ++k) {
+    if (!rows_[k].is_translation) continue;
     const auto row = static_cast<Eigen::Index>(k);
-    if (rows_[k].is_translation) {
-      const Vector3 e_hat = frames().on_first.R.col(rows_[k].first_axis);
-      force += lambda[row] * e_hat;
-      r[12 + row] += points.value(e_hat, frames().on_first.x);
-    } else {
-      const AxisPair pair = axes(rows_[k], first, second);
-      r.head<12>() += lambda[row] * pair.gradient();
-      r[12 + row] += pair.value();
-    }
+    const Vector3 e_hat = frames().on_first.R.col(rows_[k].first_axis);
+    force += lambda[row] * e_hat;
+    r[12 + row] += points.value(e_hat, frames().on_first.x);
   }
   r.head<12>() += points.gradient(force);
 }
@@ -56,34 +65,78 @@ void LowerPair::add_tangent(const LocalState& state, LocalTangent& tangent) cons
   if (!tangent.wants_K) return;
   const auto lambda = state.multiplier();
   const NodeState &first = state.node(0), &second = state.node(1);
+  const auto add_gradient = [&](Eigen::Index row, const Vector12& gradient) {
+    tangent.K.block<12, 1>(0, 12 + row) += gradient;
+    tangent.K.block<1, 12>(12 + row, 0) += gradient.transpose();
+  };
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    if (rows_[k].is_translation) continue;
+    const auto row = static_cast<Eigen::Index>(k);
+    const AxisPair pair = axes(rows_[k], first, second);
+    pair.add_second(lambda[row], tangent.K);
+    add_gradient(row, pair.gradient());
+  }
+  if (inertial(state)) {
+    const PointGap gap(first, second, frames().on_first.x, frames().on_second.x);
+    gap.add_gradients(12, tangent.K);
+    gap.add_second(lambda.head<3>(), tangent.K);
+    return;
+  }
   const PointPair points(first, second, frames().on_second.x);
   Vector3 force = Vector3::Zero();
   for (std::size_t k = 0; k < rows_.size(); ++k) {
+    if (!rows_[k].is_translation) continue;
     const auto row = static_cast<Eigen::Index>(k);
-    Vector12 gradient;
-    if (rows_[k].is_translation) {
-      const Vector3 e_hat = frames().on_first.R.col(rows_[k].first_axis);
-      force += lambda[row] * e_hat;
-      gradient = points.gradient(e_hat);
-    } else {
-      const AxisPair pair = axes(rows_[k], first, second);
-      pair.add_second(lambda[row], tangent.K);
-      gradient = pair.gradient();
-    }
-    tangent.K.block<12, 1>(0, 12 + row) += gradient;
-    tangent.K.block<1, 12>(12 + row, 0) += gradient.transpose();
+    const Vector3 e_hat = frames().on_first.R.col(rows_[k].first_axis);
+    force += lambda[row] * e_hat;
+    add_gradient(row, points.gradient(e_hat));
   }
   points.add_second(force, tangent.K);
 }
 
+void LowerPair::add_pattern(const Slots& slots, LocalPattern& pattern) const {
+  const auto count = static_cast<int>(rows_.size());
+  const auto add_rows = [&](int begin, int end) {
+    for (const int rotation : {3, 9}) {
+      pattern.add_block(rotation, 12 + begin, 3, end - begin);
+      pattern.add_block(12 + begin, rotation, end - begin, 3);
+    }
+  };
+  int translations = 0;
+  while (translations < count && rows_[static_cast<std::size_t>(translations)].is_translation) ++translations;
+  add_rows(0, count);
+  for (const int rotation : {3, 9}) pattern.add_block(rotation, rotation);
+  if (translations < count || !inertial(slots)) {
+    pattern.add_block(3, 9);
+    pattern.add_block(9, 3);
+  }
+  for (const int position : {0, 6}) {
+    if (inertial(slots)) {
+      pattern.add_diagonal(position, 12);
+      pattern.add_diagonal(12, position);
+      continue;
+    }
+    pattern.add_block(position, 12, 3, translations);
+    pattern.add_block(12, position, translations, 3);
+    pattern.add_block(position, 3);
+    pattern.add_block(3, position);
+  }
+}
+
 void LowerPair::add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
                                      Eigen::Ref<VectorX> acceleration) const {
-  const Vector12 v = pair_rate(state.node(0), state.node(1)), a = pair_acceleration(state.node(0), state.node(1));
+  const NodeState &first = state.node(0), &second = state.node(1);
+  const Vector12 v = pair_rate(first, second), a = pair_acceleration(first, second);
   for (std::size_t k = 0; k < rows_.size(); ++k) {
-    const Measure m = calc_row(rows_[k], state.node(0), state.node(1));
+    if (rows_[k].is_translation && inertial(state)) continue;
+    const Measure m = calc_row(rows_[k], first, second);
     velocity[static_cast<Eigen::Index>(k)] += m.rate(v);
     acceleration[static_cast<Eigen::Index>(k)] += m.acceleration(v, a);
   }
+  if (!inertial(state)) return;
+  const PointGap gap(first, second, frames().on_first.x, frames().on_second.x);
+  velocity.head<3>() += gap.rate(first, second);
+  acceleration.head<3>() += gap.acceleration(first, second);
 }
 
 namespace {

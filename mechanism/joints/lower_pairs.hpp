@@ -11,6 +11,8 @@
 // Constraint rows, with the joint's axes x_A y_A z_A on the first node and x_B y_B z_B on the second, p_A and p_B the
 // attachment points:  x_A . (p_B - p_A) = 0 and likewise y, z;  about x and y: x_A . z_B = 0, y_A . z_B = 0;
 // all: also x_A . y_B = 0. Multipliers are the forces along the joint's axes [N] and moments [N m] that hold the rows.
+// Where all three translations are locked and no row may have to be set aside (Slots::carried_axes), their rows stand
+// in inertial axes, p_B - p_A = 0: the forces are the same, and the two nodes are coupled by multipliers alone.
 // Reference: A. Cardona, M. Geradin, D. B. Doan, CMAME 89 (1991) 395; Geradin and Cardona (2001) ch. 7.
 #pragma once
 
@@ -32,6 +34,7 @@ class LowerPair final : public Joint {
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
+  void add_pattern(const Slots& slots, LocalPattern& pattern) const override;
   void add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
                             Eigen::Ref<VectorX> acceleration) const override;
 
@@ -43,8 +46,12 @@ class LowerPair final : public Joint {
     const char* name;
   };
   Measure calc_row(const Row& row, const NodeState& first, const NodeState& second) const;
+  /// Whether the locked translations are rows in inertial axes.
+  bool inertial(const LocalState& state) const { return inertial(state.slots()); }
+  bool inertial(const Slots& slots) const { return locks_point_ && !slots.carried_axes; }
   AxisPair axes(const Row& row, const NodeState& first, const NodeState& second) const;
   std::vector<Row> rows_;
+  bool locks_point_;  ///< all three translations, which come first
 };
 
 void read_rigid(const std::string& name, const YamlValue& entry, Model& model);

@@ -48,6 +48,57 @@ void PointPair::add_second(const Vector3& e_hat, Eigen::Ref<MatrixX> S) const {
   S.block<3, 3>(9, 9) += skew_product(c_2_, R_12_.transpose() * e_hat);
 }
 
+PointGap::PointGap(const NodeState& first, const NodeState& second, const Vector3& c_1, const Vector3& c_2)
+    : c_1_(c_1),
+      c_2_(c_2),
+      R_1_(first.R),
+      R_2_(second.R),
+      value_(second.x - first.x + second.R * c_2 - first.R * c_1) {}
+
+Vector3 PointGap::rate(const NodeState& first, const NodeState& second) const {
+  return second.v - first.v + R_2_ * second.Omega.cross(c_2_) - R_1_ * first.Omega.cross(c_1_);
+}
+
+Vector3 PointGap::acceleration(const NodeState& first, const NodeState& second) const {
+  const auto of_arm = [](const NodeState& node, const Vector3& c) -> Vector3 {
+    return node.Omegadot.cross(c) + node.Omega.cross(node.Omega.cross(c));
+  };
+  return second.a - first.a + R_2_ * of_arm(second, c_2_) - R_1_ * of_arm(first, c_1_);
+}
+
+//        dx_1   dTheta_1      dx_2   dTheta_2
+// g = [ -1      R_1 c_1~      1     -R_2 c_2~ ]      f_k = R_k^T f
+// S = [  0      0             0      0
+//        0     -c_1~ f_1~     0      0
+//        0      0             0      0
+//        0      0             0      c_2~ f_2~ ]
+void PointGap::add_forces(const Vector3& force, Eigen::Ref<VectorX> r) const {
+  r.segment<3>(0) -= force;
+  r.segment<3>(3) -= c_1_.cross(R_1_.transpose() * force);
+  r.segment<3>(6) += force;
+  r.segment<3>(9) += c_2_.cross(R_2_.transpose() * force);
+}
+
+void PointGap::add_gradients(Eigen::Index row, Eigen::Ref<MatrixX> S) const {
+  const Matrix3 turn_1 = R_1_ * skew(c_1_), turn_2 = -R_2_ * skew(c_2_);
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const std::pair<Eigen::Index, double> signs[] = {{k, -1.0}, {6 + k, 1.0}};
+    for (const auto& [at, sign] : signs) {
+      S(row + k, at) += sign;
+      S(at, row + k) += sign;
+    }
+  }
+  S.block<3, 3>(row, 3) += turn_1;
+  S.block<3, 3>(3, row) += turn_1.transpose();
+  S.block<3, 3>(row, 9) += turn_2;
+  S.block<3, 3>(9, row) += turn_2.transpose();
+}
+
+void PointGap::add_second(const Vector3& force, Eigen::Ref<MatrixX> S) const {
+  S.block<3, 3>(3, 3) -= skew_product(c_1_, R_1_.transpose() * force);
+  S.block<3, 3>(9, 9) += skew_product(c_2_, R_2_.transpose() * force);
+}
+
 AxisPair::AxisPair(const NodeState& first, const NodeState& second, const Vector3& a_hat, const Vector3& b_hat)
     : a_hat_(a_hat), b_hat_(b_hat), R_12_(first.R.transpose() * second.R) {
   b_1_ = R_12_ * b_hat;

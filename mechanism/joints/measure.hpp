@@ -49,6 +49,27 @@ class PointPair {
   Matrix3 R_1_, R_12_;
 };
 
+/// The way p_2 - p_1 from a point p_1 = x_1 + R_1 c_1 of node 1 to a point p_2 = x_2 + R_2 c_2 of node 2, inertial:
+/// three measures at once, whose second derivatives do not couple the nodes.
+class PointGap {
+ public:
+  PointGap(const NodeState& first, const NodeState& second, const Vector3& c_1, const Vector3& c_2);
+  const Vector3& value() const { return value_; }
+  Vector3 rate(const NodeState& first, const NodeState& second) const;
+  Vector3 acceleration(const NodeState& first, const NodeState& second) const;
+  /// g^T f of an inertial force f on node 2 into the first twelve rows of a vector.
+  void add_forces(const Vector3& force, Eigen::Ref<VectorX> r) const;
+  /// g into three rows of a matrix from `row` on, g^T into its columns.
+  void add_gradients(Eigen::Index row, Eigen::Ref<MatrixX> S) const;
+  /// d(g^T f) into the first twelve rows and columns of a matrix.
+  void add_second(const Vector3& force, Eigen::Ref<MatrixX> S) const;
+
+ private:
+  const Vector3 &c_1_, &c_2_;
+  const Matrix3 &R_1_, &R_2_;
+  Vector3 value_;
+};
+
 /// Alignment a . b of axes a = R_1 a^ carried by node 1 and b = R_2 b^ carried by node 2.
 class AxisPair {
  public:

@@ -148,19 +148,15 @@ struct System::Workspace {
 };
 
 /// Adds local entries to the global values.
-void System::scatter(const std::vector<Stretch>& stretches, const double* entries, std::vector<double>& values) {
-  for (const Stretch& stretch : stretches) {
-    const double* entry = entries + stretch.entry;
-    double* value = values.data() + stretch.place;
-    int k = 0;
-    // Of a node with itself or another: three and three.
-    for (; k + 3 <= stretch.count; k += 3) {
-      value[k] += entry[k];
-      value[k + 1] += entry[k + 1];
-      value[k + 2] += entry[k + 2];
-    }
-    for (; k < stretch.count; ++k) value[k] += entry[k];
+void System::scatter(const Targets& targets, const double* entries, std::vector<double>& values) {
+  for (const auto [first, place] : targets.triples) {
+    const double* entry = entries + first;
+    double* value = values.data() + place;
+    value[0] += entry[0];
+    value[1] += entry[1];
+    value[2] += entry[2];
   }
+  for (const auto [entry, place] : targets.singles) values[static_cast<std::size_t>(place)] += entries[entry];
 }
 
 /// K <- d(B v)/dq, C <- B in the rows of holonomic constraints. d(B^T lambda)/dq of one multiplier at a time has the
@@ -257,7 +253,7 @@ void System::add_reduced(const Placement& placement, const LocalState& local, co
           weights.first_order * C.middleCols(first_order, slots.first_orders);
     }
     if (wants_M && !weights.velocity_level) K += weights.mass * M;
-    scatter(placement.stretches, K.data(), values);
+    scatter(placement.targets, K.data(), values);
     return;
   }
   Map sum(work.sum.data(), reduced, reduced);
@@ -309,7 +305,7 @@ void System::add_reduced(const Placement& placement, const LocalState& local, co
           weights.stiffness * (G.bottomRows<3>().transpose() * turn * GT.bottomRows<3>());
     }
   }
-  scatter(placement.stretches, sum.data(), values);
+  scatter(placement.targets, sum.data(), values);
 }
 
 void System::tangent(const State& state, const Environment& environment, const TangentWeights& weights,
@@ -326,7 +322,7 @@ void System::tangent(const State& state, const Environment& environment, const T
   }
   for (std::size_t m = 0; m < slots_.size(); ++m) {
     const Placement& placement = placements_[m];
-    if (placement.stretches.empty()) continue;
+    if (placement.targets.empty()) continue;
     add_reduced(placement, LocalState(state, slots_[m], environment), weights, *model_.members()[m].component, dq,
                 *work, values);
   }

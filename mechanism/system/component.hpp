@@ -35,6 +35,23 @@ struct Declaration {
   bool stiffness = false, damping = false, mass = false;
 };
 
+/// The entries of a component's local tangent that can differ from zero at some state.
+class LocalPattern {
+ public:
+  explicit LocalPattern(int size) : entries_(size, size) { entries_.setConstant(false); }
+  void add_all() { entries_.setConstant(true); }
+  void add_block(int row, int column, int rows = 3, int columns = 3) {
+    entries_.block(row, column, rows, columns).setConstant(true);
+  }
+  void add_diagonal(int row, int column, int count = 3) {
+    for (int k = 0; k < count; ++k) entries_(row + k, column + k) = true;
+  }
+  bool has(int row, int column) const { return entries_(row, column); }
+
+ private:
+  Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> entries_;
+};
+
 /// Local matrices to add to. Only those asked for (and declared) are valid; all are zero on entry.
 struct LocalTangent {
   Eigen::Ref<MatrixX> K;  ///< d r / d(q, y, lambda) at fixed rates; unsymmetric in moment rows off equilibrium
@@ -84,6 +101,10 @@ class Component {
 
   /// Adds the derivatives of the residual.
   virtual void add_tangent(const LocalState& state, LocalTangent& tangent) const = 0;
+
+  /// Which entries of K, C and M can differ from zero; all, unless a component says that they are fewer. What is left
+  /// out is not looked at. Factorisations take the less time for it.
+  virtual void add_pattern(const Slots& /*slots*/, LocalPattern& pattern) const { pattern.add_all(); }
 
   /// Adds the first and second total time derivatives of this component's constraint rows along (v, a, t): for a
   /// holonomic row `velocity` = dPhi/dt and `acceleration` = d2Phi/dt2; for a non-holonomic one B v + c and its rate.

@@ -42,6 +42,10 @@ struct Slots {
   int first_order_begin = 0, first_orders = 0;
   int multiplier_begin = 0, multipliers = 0;
   int memory_begin = 0, memories = 0;
+  /// Whether constraint rows must hold along axes that ride on the component's nodes. Rows that may be set aside as
+  /// redundant have to: what a planar linkage repeats is normal to its plane, wherever that plane turns. Otherwise a
+  /// component may choose axes (its forces are the same).
+  bool carried_axes = true;
   /// Size of the component's local vector: [6 per node (dx, dTheta) | amplitudes | first-order | multipliers].
   int size() const { return amplitude_row() + amplitudes + first_orders + multipliers; }
   int amplitude_row() const { return 6 * static_cast<int>(nodes.size()); }

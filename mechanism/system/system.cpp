@@ -118,45 +118,76 @@ void System::place(const std::vector<Declaration>& declarations) {
   build_pattern();
 }
 
+LocalPattern System::reduced_pattern(std::size_t member) const {
+  const Placement& placement = placements_[member];
+  const Slots& slots = slots_[member];
+  const auto size = static_cast<int>(placement.unknown.size());
+  LocalPattern pattern(size);
+  if (!placement.plain) {  // what a carrier takes over mixes directions
+    pattern.add_all();
+    return pattern;
+  }
+  model_.members()[member].component->add_pattern(slots, pattern);
+  // T(Dq) mixes the three columns of a rotation.
+  for (std::size_t k = 0; k < slots.nodes.size(); ++k)
+    for (int row = 0, first = 6 * static_cast<int>(k) + 3; row < size; ++row)
+      if (pattern.has(row, first) || pattern.has(row, first + 1) || pattern.has(row, first + 2))
+        pattern.add_block(row, first, 1, 3);
+  return pattern;
+}
+
 void System::build_pattern() {
   // A constraint does not depend on multipliers: that block stays out of the pattern, but for those set aside.
   const int first_multiplier = dofs() + first_orders_;
   std::vector<std::pair<int, int>> entries;
-  const auto kept = [&](int row, int column) {
-    return row >= 0 && column >= 0 && !(row >= first_multiplier && column >= first_multiplier);
+  const auto for_each_kept = [&](std::size_t member, const auto& act) {
+    const Placement& placement = placements_[member];
+    if (!placement.stiffness && !placement.damping && !placement.mass) return;
+    const LocalPattern pattern = reduced_pattern(member);
+    const auto n = static_cast<int>(placement.unknown.size());
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) {
+        const int row = placement.unknown[static_cast<std::size_t>(i)],
+                  column = placement.unknown[static_cast<std::size_t>(j)];
+        if (row >= 0 && column >= 0 && !(row >= first_multiplier && column >= first_multiplier) && pattern.has(i, j))
+          act(j * n + i, row, column);
+      }
   };
-  const auto contributes = [](const Placement& p) { return p.stiffness || p.damping || p.mass; };
-  for (const Placement& placement : placements_) {
-    if (!contributes(placement)) continue;
-    for (const int column : placement.unknown)
-      for (const int row : placement.unknown)
-        if (kept(row, column)) entries.emplace_back(row, column);
-  }
+  for (std::size_t member = 0; member < placements_.size(); ++member)
+    for_each_kept(member, [&](int, int row, int column) { entries.emplace_back(row, column); });
+  for (int i = 0; i < dofs(); ++i) entries.emplace_back(i, i);  // solvers add to it
   for (const int multiplier : set_aside_)
     entries.emplace_back(first_multiplier + multiplier, first_multiplier + multiplier);
   pattern_ = SparsePattern(size(), std::move(entries));
-  for (Placement& placement : placements_) {
-    if (!contributes(placement)) continue;
-    placement.stretches.clear();
-    int entry = -1;
-    for (const int column : placement.unknown)
-      for (const int row : placement.unknown) {
-        ++entry;
-        if (!kept(row, column)) continue;
-        const int place = pattern_.find(row, column);
-        if (!placement.stretches.empty())
-          if (Stretch& last = placement.stretches.back();
-              last.entry + last.count == entry && last.place + last.count == place) {
-            ++last.count;
-            continue;
-          }
-        placement.stretches.push_back({entry, place, 1});
-      }
+  for (std::size_t member = 0; member < placements_.size(); ++member) {
+    std::vector<Target> targets;
+    for_each_kept(member, [&](int entry, int row, int column) {
+      targets.push_back({entry, pattern_.find(row, column)});
+    });
+    placements_[member].targets = in_triples(targets);
   }
+}
+
+System::Targets System::in_triples(const std::vector<Target>& targets) {
+  Targets result;
+  const auto follows = [&](std::size_t k, int distance) {
+    return k < targets.size() && targets[k].entry == targets[k - static_cast<std::size_t>(distance)].entry + distance &&
+           targets[k].place == targets[k - static_cast<std::size_t>(distance)].place + distance;
+  };
+  for (std::size_t k = 0; k < targets.size();) {
+    const bool triple = follows(k + 1, 1) && follows(k + 2, 2);
+    (triple ? result.triples : result.singles).push_back(targets[k]);
+    k += triple ? 3 : 1;
+  }
+  return result;
 }
 
 void System::set_aside(const std::vector<int>& multipliers) {
   set_aside_ = multipliers;
+  for (Slots& slots : slots_)
+    slots.carried_axes = std::any_of(multipliers.begin(), multipliers.end(), [&](int multiplier) {
+      return multiplier >= slots.multiplier_begin && multiplier < slots.multiplier_begin + slots.multipliers;
+    });
   build_pattern();
   set_aside_entries_.clear();
   set_aside_diagonal_.clear();

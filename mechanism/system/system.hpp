@@ -57,7 +57,8 @@ class System {
   std::string equation_name(int equation) const;  ///< "moment y at node 'pin'", "constraint x of joint 'main'"
   std::string equation_units(int equation) const;
 
-  /// Takes redundant constraints out of the equations: their multipliers stay zero. Call before solvers are made.
+  /// Takes redundant constraints out of the equations: their multipliers stay zero. Components none of whose rows are
+  /// among them may choose the axes of their rows from here on. Call before solvers are made.
   void set_aside(const std::vector<int>& multipliers);
   const std::vector<int>& set_aside() const { return set_aside_; }
 
@@ -87,24 +88,31 @@ class System {
   void accept(State& state, const Environment& environment) const;
 
  private:
-  /// Local entries that are neighbours among the global values, too.
-  struct Stretch {
-    int entry, place, count;  ///< first local entry, first place among the values
+  /// A local entry and its place among the global values.
+  struct Target {
+    int entry, place;
+  };
+  /// Where local entries go: three neighbours that are neighbours there, too, and single ones.
+  struct Targets {
+    std::vector<Target> triples, singles;
+    bool empty() const { return triples.empty() && singles.empty(); }
   };
   /// How one component's local rows and columns reach the global ones.
   struct Placement {
     bool plain = true;               ///< every node is free in all six directions, or held in all
     std::vector<int> unknown;        ///< global unknown of each reduced local row, -1 where held
-    std::vector<Stretch> stretches;  ///< of the reduced entries (column-major), without those that are dropped
+    Targets targets;                 ///< of the reduced entries (column-major), without those that are dropped
     std::vector<int> reduced_begin;  ///< first reduced row of each node
     bool stiffness = false, damping = false, mass = false;
     std::vector<int> nonholonomic;  ///< local rows
   };
   struct Workspace;
-  static void scatter(const std::vector<Stretch>& stretches, const double* entries, std::vector<double>& values);
+  static void scatter(const Targets& targets, const double* entries, std::vector<double>& values);
   void velocity_rows(const Placement& placement, const LocalState& local, const Component& component,
                      Workspace& work) const;
   void place(const std::vector<Declaration>& declarations);
+  LocalPattern reduced_pattern(std::size_t member) const;
+  static Targets in_triples(const std::vector<Target>& targets);
   void build_pattern();
   void node_forces(const State& state, const Environment& environment, VectorX& forces, Eigen::Ref<VectorX> r,
                    ResidualScale* scale) const;

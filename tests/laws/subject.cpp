@@ -55,7 +55,11 @@ std::vector<Subject> subjects(const Sample& sample) {
   const auto& members = file->model.members();
   for (std::size_t m = 0; m < members.size(); ++m)
     if (members[m].component->name() == "it")
-      list.push_back({file, std::make_unique<DenseModel>(file->model, m), sample.scales});
+      for (const bool carried_axes : {true, false}) {
+        auto dense = std::make_unique<DenseModel>(file->model, m, carried_axes);
+        if (carried_axes || dense->size() > dense->multiplier_begin())
+          list.push_back({file, std::move(dense), sample.scales, carried_axes});
+      }
   return list;
 }
 

@@ -21,11 +21,13 @@ using test::DenseModel;
 /// @throws what the readers throw
 std::unique_ptr<mechanism::MechanismFile> read_sample(const Sample& sample, const std::string& text);
 
-/// One component named `it`, alone with a state of its own. (A beam has several.)
+/// One component named `it`, alone with a state of its own. (A beam has several; one with constraints comes twice, with
+/// either axes of their rows.)
 struct Subject {
   std::shared_ptr<mechanism::MechanismFile> file;
   std::unique_ptr<DenseModel> dense;
   Scales scales;
+  bool carried_axes;  ///< of its constraint rows, see Slots
 
   /// What one unit of each unknown (or of its rate) is in SI.
   VectorX position_units() const;

@@ -141,7 +141,8 @@ void evaluate_residuals(const System& system, const State& state, const Environm
 
 void measure(const std::string& title, const std::string& text) {
   const MechanismFile file = read_mechanism_text(text, "model.yaml");
-  const System system(file.model);
+  System system(file.model);
+  system.set_aside({});
   const Environment& environment = file.model.environment;
   const std::string path = (std::filesystem::temp_directory_path() / "performance_mechanism_chain.h5").string();
   fmt::print("\n{}: {} equations\n", title, system.size());

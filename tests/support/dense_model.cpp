@@ -11,7 +11,7 @@ using mechanism::LocalState;
 using mechanism::LocalTangent;
 using mechanism::NodeState;
 
-DenseModel::DenseModel(const Model& model, std::optional<std::size_t> only)
+DenseModel::DenseModel(const Model& model, std::optional<std::size_t> only, bool carried_axes)
     : environment(model.environment), model_(model), nodes_(static_cast<int>(model.nodes().size())) {
   for (std::size_t m = 0; m < model.members().size(); ++m) {
     if (only && *only != m) continue;
@@ -20,6 +20,7 @@ DenseModel::DenseModel(const Model& model, std::optional<std::size_t> only)
     members_.push_back({model.members()[m].component.get(), {}, {}});
     mechanism::Slots& s = members_.back().slots;
     s.nodes = d.nodes;
+    s.carried_axes = carried_axes;
     s.amplitude_begin = amplitudes_;
     amplitudes_ += s.amplitudes = static_cast<int>(d.amplitudes.size());
     s.first_order_begin = first_orders_;
@@ -141,9 +142,14 @@ MatrixX DenseModel::tangent(const State& state, Part part) const {
     if (!declared) continue;
     m.component->add_tangent({state, m.slots, environment}, tangent);
     MatrixX& asked = part == Part::K ? K : part == Part::C ? C : M;
+    mechanism::LocalPattern pattern(n);
+    m.component->add_pattern(m.slots, pattern);
     for (int i = 0; i < n; ++i)
-      for (int j = 0; j < n; ++j)
+      for (int j = 0; j < n; ++j) {
+        if (asked(i, j) != 0 && !pattern.has(i, j))
+          throw std::logic_error("component '" + m.component->name() + "' wrote outside of its pattern");
         A(m.place[static_cast<std::size_t>(i)], m.place[static_cast<std::size_t>(j)]) += asked(i, j);
+      }
     asked.setZero();
     if (!K.isZero(0) || !C.isZero(0) || !M.isZero(0))
       throw std::logic_error("component '" + m.component->name() + "' wrote a tangent that was not asked for");

@@ -21,8 +21,9 @@ using mechanism::VectorX;
 
 class DenseModel {
  public:
-  /// @param only  index of a member to look at alone; all of them otherwise
-  explicit DenseModel(const Model& model, std::optional<std::size_t> only = {});
+  /// @param only          index of a member to look at alone; all of them otherwise
+  /// @param carried_axes  of constraint rows, see Slots
+  explicit DenseModel(const Model& model, std::optional<std::size_t> only = {}, bool carried_axes = true);
 
   int size() const { return multiplier_begin_ + multipliers_; }
   int nodes() const { return nodes_; }
@@ -49,7 +50,8 @@ class DenseModel {
   State along_motion(const State& state, double s) const;
 
   VectorX residual(const State& state) const;
-  /// One of the three tangents.
+  /// One of the three tangents. @throws std::logic_error when a component wrote what was not asked for, or outside of
+  /// the pattern that it declares
   enum class Part { K, C, M };
   MatrixX tangent(const State& state, Part part) const;
   /// First and second time derivatives of the constraint rows.
