@@ -206,10 +206,16 @@ Analysis read_analysis(const YamlValue& entry) {
     analysis.newton = read_newton(entry, true);
     analysis.equilibrium =
         entry.has("start") && entry.at("start").word({"as_given", "equilibrium"}, "start") == "equilibrium";
-    if (entry.has("constraints") &&
-        entry.at("constraints").word({"position", "stabilized"}, "a form of constraints") == "stabilized") {
-      analysis.form = ConstraintForm::stabilised;
-      analysis.scheme_name += ", stabilised constraints";
+    if (entry.has("constraints")) {
+      const std::string form =
+          entry.at("constraints").word({"corrected", "position", "stabilized"}, "a form of constraints");
+      if (form == "position") {
+        analysis.form = ConstraintForm::position;
+        analysis.scheme_name += ", constraints of positions alone";
+      } else if (form == "stabilized") {
+        analysis.form = ConstraintForm::stabilised;
+        analysis.scheme_name += ", stabilised constraints";
+      }
     }
   }
   return analysis;

@@ -18,7 +18,7 @@ struct Analysis {
   double duration = 0;   ///< [s] dynamics
   StepOptions stepping;  ///< without break points
   Scheme scheme{};       ///< dynamics
-  ConstraintForm form = ConstraintForm::position;
+  ConstraintForm form = ConstraintForm::corrected;
   NewtonOptions newton;      ///< statics and dynamics
   bool equilibrium = false;  ///< dynamics: positions of static equilibrium first
   std::string scheme_name;   ///< for the summary

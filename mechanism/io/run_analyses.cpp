@@ -209,8 +209,9 @@ class Run {
     std::optional<TimeIntegration> integration;
     std::optional<March> march;
     EnergyBalance books;
-    long grid_steps = 0;  ///< done
-    bool saved = false;   ///< nothing has happened since the last checkpoint
+    long grid_steps = 0;     ///< done
+    bool saved = false;      ///< nothing has happened since the last checkpoint
+    bool cautioned = false;  ///< of joints that turn far in a step
   };
 
   /// @param checkpoint  to go on from, or nullptr
@@ -315,6 +316,11 @@ class Run {
     const EnergyBalance books_before = motion.books;
     const MarchStep step = motion.march->advance();
     motion.saved = false;
+    if (!motion.cautioned)
+      if (const std::string caution = integration.caution(); !caution.empty()) {
+        progress_.note(caution);
+        motion.cautioned = true;
+      }
     const State& now = integration.state();
     motion.books.advance(now.time, system_.energy(now, environment_));
     if (step.on_grid) ++motion.grid_steps;

@@ -1,5 +1,7 @@
 #include "mechanism/solvers/scheme.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "reduce/common/error.hpp"
@@ -20,5 +22,7 @@ Scheme Scheme::hht(double alpha) {
 }
 
 Scheme Scheme::newmark() { return {0, 0, 0.5, 0.25}; }
+
+double Scheme::most_turn() const { return 0.7 * std::log((gamma + 0.5) / (1.5 - gamma)); }
 
 }  // namespace bielle::mechanism

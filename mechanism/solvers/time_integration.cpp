@@ -38,8 +38,9 @@ TimeIntegration::TimeIntegration(const System& system, const Environment& enviro
       state_(std::move(state)),
       linear_(system),
       options_(options),
-      convergence_(system, options) {
-  allocate(form);
+      convergence_(system, options),
+      form_(form) {
+  allocate();
   start_report_ = make_consistent(system_, environment_, state_);
   take_rates();
   system_.accept(state_, environment_);
@@ -54,17 +55,18 @@ TimeIntegration::TimeIntegration(const System& system, const Environment& enviro
       state_(system.start(0)),
       linear_(system),
       options_(options),
-      convergence_(system, options) {
-  allocate(form);
+      convergence_(system, options),
+      form_(form) {
+  allocate();
   exchange(archive);
   next_ = state_;
 }
 
-void TimeIntegration::allocate(ConstraintForm form) {
+void TimeIntegration::allocate() {
   for (VectorX* vector : {&v_, &a_, &A_, &dq_, &v_new_, &a_new_, &j_, &last_dq_}) vector->setZero(system_.dofs());
   Y_ = state_.first_order_rate;
   Y_rate_.setZero(system_.first_orders());
-  if (form == ConstraintForm::stabilised && system_.multipliers() > 0)
+  if (form_ == ConstraintForm::stabilised && system_.multipliers() > 0)
     stabilised_ = std::make_unique<StabilisedStep>(system_);
   eta_.setZero(system_.dofs());
   mu_.setZero(system_.multipliers());
@@ -79,6 +81,7 @@ void TimeIntegration::exchange(Archive& archive) {
   archive(state_);
   for (VectorX* vector : {&v_, &a_, &A_, &j_, &Y_, &Y_rate_}) archive(*vector);
   archive(Y_rate_known_);
+  archive(turning_);
   archive(h_);
   linear_.choose_pivots_anew();
   if (stabilised_) stabilised_->choose_pivots_anew();
@@ -126,30 +129,6 @@ bool TimeIntegration::resolved(const VectorX& j, double h) const {
   for (std::size_t kind = 0; kind < kind_count; ++kind)
     if (h * rate[kind] > acceleration[kind] && h * h * rate[kind] > little * velocity[kind]) return false;
   return true;
-}
-
-void TimeIntegration::perturb_velocity(const VectorX& j, double factor) {
-  if (system_.multipliers() == 0 || stabilised_) return;
-  const double delta = scheme_.delta();
-  VectorX c = -(1 + 3 * delta * delta) / 12 * j;
-  for (std::size_t i = 0; i < state_.nodes.size(); ++i) {
-    const NodeFreedom& f = system_.kinematics().freedom(static_cast<int>(i));
-    if (f.rotations == 3)
-      c.segment<3>(f.begin + f.count - 3) += state_.nodes[i].Omega.cross(state_.nodes[i].Omegadot) / 12;
-  }
-  // B c is the change of the constraint rates when the accelerations change by c.
-  VectorX velocity(system_.multipliers()), with(system_.multipliers()), without(system_.multipliers());
-  State moved = state_;
-  system_.set_rates(moved, v_, a_ + c);
-  system_.constraint_rates(moved, environment_, velocity, with);
-  system_.constraint_rates(state_, environment_, velocity, without);
-  r_.setZero();
-  r_.tail(system_.multipliers()) = without - with;
-  for (const int multiplier : system_.set_aside()) r_[system_.size() - system_.multipliers() + multiplier] = 0;
-  factored_for_ = 0;
-  factor_mass_saddle(system_, environment_, state_, linear_);
-  linear_.solve(r_, delta_);
-  v_ += factor * delta_.head(system_.dofs());
 }
 
 void TimeIntegration::start(double h) {
@@ -410,6 +389,7 @@ void TimeIntegration::accept() {
   Y_rate_known_ = true;
   A_ = A;
   Y_ = Y;
+  watch_turns();
   v_ = v_new_;
   a_ = a_new_;
   last_dq_ = dq_;

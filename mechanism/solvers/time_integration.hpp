@@ -7,8 +7,9 @@
 // solved for Dq and lambda_{n+1} with the matrix K T(Dq) + gamma' C + beta' M, gamma' = gamma/(beta h),
 // beta' = (1 - alpha_m)/((1 - alpha_f) beta h^2). First-order unknowns use the velocity formula with their own rates.
 //
-// The form above, of index 3, keeps the constraints of positions. The stabilised one (stabilised_step.hpp) keeps those
-// of velocities as well, at twice the number of unknowns; its errors are smaller and its steps may be longer.
+// The form above, of index 3, keeps the constraints of positions. Where they turn fast it is unstable unless velocities
+// are corrected after each step (velocity_correction.cpp). The stabilised form (stabilised_step.hpp) keeps the
+// constraints of velocities as well, at twice the number of unknowns.
 //
 // Second order in positions and velocities; in multipliers and accelerations from the first step only with the start
 // values
@@ -31,8 +32,9 @@
 
 namespace bielle::mechanism {
 
-/// How constraints are kept.
-enum class ConstraintForm { position, stabilised };
+/// How constraints are kept: those of positions alone; with velocities that are corrected after each step
+/// (velocity_correction.cpp); those of velocities as well.
+enum class ConstraintForm { position, corrected, stabilised };
 
 /// What a step did.
 struct StepReport {
@@ -51,11 +53,11 @@ class TimeIntegration {
  public:
   /// @param state  positions and velocities to start from; made consistent here
   TimeIntegration(const System& system, const Environment& environment, const Scheme& scheme, State state,
-                  ConstraintForm form = ConstraintForm::position, const NewtonOptions& options = {});
+                  ConstraintForm form = ConstraintForm::corrected, const NewtonOptions& options = {});
 
   /// Continues a motion from where `exchange` left it.
   TimeIntegration(const System& system, const Environment& environment, const Scheme& scheme, Archive& archive,
-                  ConstraintForm form = ConstraintForm::position, const NewtonOptions& options = {});
+                  ConstraintForm form = ConstraintForm::corrected, const NewtonOptions& options = {});
   /// All that the motion goes on from. What comes after does not depend on whether it was interrupted here: pivots of
   /// the tangent are chosen anew in both cases.
   void exchange(Archive& archive);
@@ -89,14 +91,21 @@ class TimeIntegration {
   VectorX position_error() const;
   /// The same of the first-order unknowns (first_orders); zero in the first step.
   VectorX first_order_error() const;
+  /// What the user should know of the last accepted step, whose joints turn far: a sentence, or nothing.
+  std::string caution() const;
   const StartReport& start_report() const { return start_report_; }
 
  private:
-  void allocate(ConstraintForm form);
+  void allocate();
   void take_rates();                                ///< of the state, as algorithmic values
   VectorX acceleration_rate(double h);              ///< j
   bool resolved(const VectorX& j, double h) const;  ///< accelerations change little within a step
+  VectorX velocity_target(const State& state, const VectorX& v, const VectorX& a, const VectorX& j) const;
   void perturb_velocity(const VectorX& j, double factor);
+  VectorX across_constraints(const State& state);
+  double turn_of_constraints() const;  ///< in the attempted step [rad]
+  void correct_velocity();             ///< of the attempt
+  void watch_turns();                  ///< of constraints: corrects velocities once they are fast
   void predict(double h, double end);
   void move(double part);  ///< the attempt, by a part of the last solution
   void evaluate();         ///< residual and its scale at the attempt
@@ -137,6 +146,10 @@ class TimeIntegration {
   double factored_for_ = 0;                     ///< the step size that the factors belong to; 0: none that serve
   int floor_age_ = 1 << 20;                     ///< steps since the rounding floor was measured
   std::unique_ptr<StabilisedStep> stabilised_;  ///< of that form only
+  ConstraintForm form_;
+  double turn_ = 0;       ///< of constraints in the last accepted step [rad]
+  bool turning_ = false;  ///< fast enough for velocities to be corrected, now or before
+  std::unique_ptr<LinearStep> saddle_;          ///< [M B^T; B 0], once needed
   VectorX eta_, mu_;                            ///< of the attempt: see there
   VectorX last_dq_;                             ///< of the last accepted step
 };

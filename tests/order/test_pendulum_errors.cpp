@@ -21,7 +21,8 @@ nodes: {bob: {position: [1, 0, 0]}}
 elements: {bob: {type: rigid_body, node: bob, mass: 1, inertia: [1e-12, 1e-12, 1e-12]}}
 joints: {pivot: {type: hinge, nodes: [ground, bob], axis: [0, 0, 1], position: [0, 0, 0]}}
 )yaml");
-  TimeIntegration integration(model.system, model.environment(), scheme, model.system.start(0));
+  TimeIntegration integration(model.system, model.environment(), scheme, model.system.start(0),
+                              ConstraintForm::position);
   // Without start(h): with A_0 = a_0 and the velocity as it is.
   for (long k = 0; k < std::lround(1 / h); ++k) integration.step(h);
   const State& state = integration.state();

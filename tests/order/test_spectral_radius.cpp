@@ -49,7 +49,8 @@ elements: {m: {type: rigid_body, node: m, mass: 1, inertia: [1, 1, 1]}}
 joints: {guide: {type: prismatic, nodes: [ground, m], axis: [1, 0, 0]}}
 drives: {push: {joint: guide, displacement: "t^3/6"}}
 )yaml");
-  TimeIntegration integration(model.system, model.environment(), scheme, model.system.start(0));
+  TimeIntegration integration(model.system, model.environment(), scheme, model.system.start(0),
+                              ConstraintForm::position);
   std::vector<double> errors;
   for (int k = 0; k < steps; ++k) {
     integration.step(1e-2);

@@ -33,6 +33,18 @@ struct Case {
   double duration, longest;  ///< [s]; steps are longest, longest/2, longest/4
 };
 
+const char* name_of(ConstraintForm form) {
+  switch (form) {
+    case ConstraintForm::position:
+      return "index 3";
+    case ConstraintForm::corrected:
+      return "corrected";
+    case ConstraintForm::stabilised:
+      break;
+  }
+  return "stabilised";
+}
+
 struct Samples {
   std::vector<VectorX> positions, multipliers;
   double seconds = 0;
@@ -83,9 +95,9 @@ void measure(const Case& subject) {
   for (long parts = 1; parts <= finest; parts *= 2)
     fmt::print("  h = {:<9.3g} x        lambda   ms   ", subject.longest / static_cast<double>(parts));
   fmt::print("\n");
-  for (const ConstraintForm form : {ConstraintForm::position, ConstraintForm::stabilised})
+  for (const ConstraintForm form : {ConstraintForm::position, ConstraintForm::corrected, ConstraintForm::stabilised})
     for (const double rho : {0.5, 0.7, 0.8, 0.9, 0.95}) {
-      fmt::print("  {:<11} rho = {:<5}", form == ConstraintForm::position ? "index 3" : "stabilised", rho);
+      fmt::print("  {:<11} rho = {:<5}", name_of(form), rho);
       for (long parts = 1; parts <= finest; parts *= 2) {
         const Samples samples = run(file, system, Scheme::generalized_alpha(rho), form,
                                     subject.longest / static_cast<double>(parts), subject.duration, parts);

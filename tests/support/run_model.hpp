@@ -27,7 +27,7 @@ struct ReadyModel {
 /// Integrates from 0 to `end` in steps of h. @param record  called at the start and after every step
 inline mechanism::State integrate(const ReadyModel& model, const mechanism::Scheme& scheme, double h, double end,
                                   const std::function<void(const mechanism::State&)>& record = {},
-                                  mechanism::ConstraintForm form = mechanism::ConstraintForm::position) {
+                                  mechanism::ConstraintForm form = mechanism::ConstraintForm::corrected) {
   mechanism::TimeIntegration integration(model.system, model.environment(), scheme, model.system.start(0), form);
   if (record) record(integration.state());
   integration.start(h);
