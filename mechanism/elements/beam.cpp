@@ -83,17 +83,17 @@ void read_beam(const std::string& name, const YamlValue& entry, Model& model) {
     const Vector6 d0 = log_se3(inverse(sections[i]) * sections[i + 1]);
     const Matrix3 R_A = model.node(nodes[i]).frame.R.transpose() * sections[i].R;
     const Matrix3 R_B = model.node(nodes[i + 1]).frame.R.transpose() * sections[i + 1].R;
-    model.add(std::make_unique<BeamElement>(
-                  name, BeamPlace{k + 1, count}, nodes[i], nodes[i + 1], R_A, R_B, d0,
-                  section.over(static_cast<double>(k) / count, static_cast<double>(k + 1) / count), damping_time, law),
+    const double s_A = static_cast<double>(k) / count, s_B = static_cast<double>(k + 1) / count;
+    BeamReference reference = d0;
+    if (line.angle() != 0 && total_twist != 0)  // else it is a helix
+      reference = {d0, line.length() / count, line.rate(s_A, R_start, total_twist) / count,
+                   line.rate(s_B, R_start, total_twist) / count, [&, back = inverse(sections[i + 1])](double z) {
+                     return back * line.frame((1 - z) * s_A + z * s_B, R_start, total_twist);
+                   }};
+    model.add(std::make_unique<BeamElement>(name, BeamPlace{k + 1, count}, nodes[i], nodes[i + 1], R_A, R_B, reference,
+                                            section.over(s_A, s_B), damping_time, law),
               "elements/" + name, true);
-    const BeamSpan span{nodes[i],
-                        nodes[i + 1],
-                        R_A,
-                        R_B,
-                        d0.head<3>(),
-                        static_cast<double>(k) / count,
-                        static_cast<double>(k + 1) / count};
+    const BeamSpan span{nodes[i], nodes[i + 1], R_A, R_B, {line.length() / count, 0, 0}, s_A, s_B};
     for (const LineLoad& load : loads) model.add(std::make_unique<DistributedLoad>(name, span, load), "");
   }
   model.add_chain("elements/" + name, nodes);

@@ -26,10 +26,10 @@ Matrix6 inverse(const Matrix6& A) {
   return 0.5 * (B + B.transpose());
 }
 
-/// Resultants at z in [0, 1] of an element of relative motion d that is in equilibrium, of its f: the nodal wrench at
-/// B, T6^-T(d) f, carried to z along the helix.
-Matrix6 equilibrium(const Vector6& d, double z) {
-  return adjoint(exp_se3((z - 1) * d)).transpose() * tangent_se3_inverse(d).transpose();
+/// Resultants at a section of an element of relative motion d that is in equilibrium, of its f: the nodal wrench at B,
+/// T6^-T(d) f, carried there. @param section  in the axes of the section frame at B
+Matrix6 equilibrium(const Vector6& d, const Frame& section) {
+  return adjoint(section).transpose() * tangent_se3_inverse(d).transpose();
 }
 
 /// Flexibility at z: the parabola through those of the Gauss points (constant for a uniform section).
@@ -43,8 +43,8 @@ Matrix6 flexibility_at(const std::array<Matrix6, 3>& S, double z) {
   return sum;
 }
 
-Matrix6 element_stiffness(const ElementSections& sections, const Vector6& d0, BeamBending bending) {
-  constexpr int parts = 16;  // three Gauss points in each: rounding, whatever the element turns by
+Matrix6 element_stiffness(const ElementSections& sections, const BeamReference& reference, BeamBending bending) {
+  constexpr int parts = 16;  // three Gauss points in each: 1e-10 for an element that turns by a right angle
   std::array<Matrix6, 3> S;
   Matrix6 mean = Matrix6::Zero(), sum = Matrix6::Zero();
   for (std::size_t g = 0; g < 3; ++g) {
@@ -55,7 +55,7 @@ Matrix6 element_stiffness(const ElementSections& sections, const Vector6& d0, Be
   for (int part = 0; part < parts; ++part)
     for (std::size_t g = 0; g < 3; ++g) {
       const double z = (part + Gauss3::place[g]) / parts;
-      const Matrix6 A = equilibrium(d0, z);
+      const Matrix6 A = equilibrium(reference.d0, reference.seen_from_B(z));
       sum += Gauss3::weight[g] / parts * A.transpose() * flexibility_at(S, z) * A;
     }
   return inverse(sum);
@@ -64,24 +64,24 @@ Matrix6 element_stiffness(const ElementSections& sections, const Vector6& d0, Be
 }  // namespace
 
 BeamElement::BeamElement(std::string name, BeamPlace place, int node_a, int node_b, const Matrix3& R_A,
-                         const Matrix3& R_B, const Vector6& d0, const ElementSections& sections, double damping,
-                         BeamBending bending)
+                         const Matrix3& R_B, const BeamReference& reference, const ElementSections& sections,
+                         double damping, BeamBending bending)
     : Component("beam", std::move(name)),
       place_(place),
       node_a_(node_a),
       node_b_(node_b),
       R_A_(R_A),
       R_B_(R_B),
-      d0_(d0),
-      L_(d0.head<3>().norm()),
+      d0_(reference.d0),
+      L_(reference.length),
       bending_(bending),
-      stiffness_(element_stiffness(sections, d0, bending)),
+      stiffness_(element_stiffness(sections, reference, bending)),
       section_(sections.middle().stiffness),
       flexibility_(inverse(section_)),
       mass_(L_ * sections.mean_mass()),
       stress_(sections.middle().stress),
       damping_(damping),
-      inertia_(sections, R_A, R_B, d0.head<3>()) {}
+      inertia_(sections, R_A, R_B, reference) {}
 
 void BeamElement::declare(Declaration& declaration) const {
   declaration.nodes = {node_a_, node_b_};
@@ -232,7 +232,7 @@ void BeamElement::write_output(const LocalState& state, double* values) const {
   const Deformation D = deformation(state);
   // Physical resultants in the middle; constant strain has but one set.
   Matrix6 middle = Matrix6::Identity();
-  if (bending_ == BeamBending::residual) middle = equilibrium(D.d, 0.5);
+  if (bending_ == BeamBending::residual) middle = equilibrium(D.d, exp_se3(-0.5 * D.d));
   const Vector6 f = middle * D.f;
   Eigen::Map<Vector12> out(values);
   out << flexibility_ * middle * stiffness_ * D.eps, f;

@@ -1,7 +1,9 @@
 // One geometrically exact beam element: two nodes, a helix between them.
 //
-// Section frames H_A, H_B ride on nodes A and B. With d = log6(H_A^-1 H_B) = [u; psi], d0 its stress-free value and L =
-// |d0_u| the interpolation H(s) = H_A exp6(s d/L) has the constant strain eps = [Gamma; Kappa] = (d - d0)/L. Then
+// Section frames H_A, H_B ride on nodes A and B. With d = log6(H_A^-1 H_B) = [u; psi], d0 its stress-free value and the
+// length L (|d0_u| of a helix) the interpolation H(s) = H_A exp6(s d/L) has the constant strain eps = [Gamma; Kappa] =
+// (d
+// - d0)/L. Then
 //     dd = P [dh_A; dh_B],   P = [-T6^-1(-d), T6^-1(d)]     (dh body increments of the section frames)
 //     V = (L/2) eps^T C_e eps,   f = C_e eps + C_d epsdot,   epsdot = P v/L,   forces P^T f
 // Objective, path-independent, free of locking, exact for constant strain. Reference: V. Sonneville, A. Cardona, O.
@@ -14,7 +16,8 @@
 //     f(z) = A(z) f,   A(z) = Ad(exp6((z-1) d))^T T6^-T(d),   z from 0 at A to 1 at B,
 // which at the reference gives the element its complementary energy:
 //     C_e^-1 = int_0^1 A^T C^-1 A dz  at d0   (a tapered C^-1 as the parabola through three Gauss points).
-// The linear stiffness is then exact for any 6x6 C, straight, curved or twisted; that of a tapered element converges
+// Where the line of the beam is no helix (an arc that is twisted) its own frames take the place of exp6((z-1) d0). The
+// linear stiffness is then exact for any 6x6 C, straight, curved, twisted or both; that of a tapered element converges
 // with the sixth power of its length. A uniform straight element has the well-known
 //     C_e^-1 = C^-1 + L^2/12 diag(t~^T S t~, 0),   t = d0_u/L,   S the lower right 3x3 of C^-1
 // (R. MacNeal, Comput. Struct. 8 (1978) 175). f = C_e eps; the physical resultants in the middle are A(1/2) f, now at
@@ -52,10 +55,10 @@ class BeamElement : public Component {
 
   /// @param node_a,node_b  its nodes
   /// @param R_A,R_B        section frames in the axes of the nodes (constant)
-  /// @param d0             stress-free relative frame log6(H_A^-1 H_B); |d0_u| is the element's length
+  /// @param reference      stress-free shape
   /// @param damping        Kelvin-Voigt time [s]: C_d = damping * C_e
   BeamElement(std::string name, BeamPlace place, int node_a, int node_b, const Matrix3& R_A, const Matrix3& R_B,
-              const Vector6& d0, const ElementSections& sections, double damping, BeamBending bending);
+              const BeamReference& reference, const ElementSections& sections, double damping, BeamBending bending);
 
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;

@@ -38,6 +38,12 @@ Frame BeamLine::frame(double s, const Matrix3& R_start, double twist) const {
   return {point(s), exp_so3(s * angle_ * axis_) * R_start * exp_so3(Vector3(s * twist, 0, 0))};
 }
 
+Vector6 BeamLine::rate(double s, const Matrix3& R_start, double twist) const {
+  Vector6 d;
+  d << length(), 0, 0, frame(s, R_start, twist).R.transpose() * (angle_ * axis_) + Vector3(twist, 0, 0);
+  return d;
+}
+
 namespace {
 
 /// Two points closer than this part of the scale of the figure are one.

@@ -23,6 +23,8 @@ class BeamLine {
 
   /// Section frame. @param R_start  section axes at the start (x = start_tangent) @param twist [rad] from start to end
   Frame frame(double s, const Matrix3& R_start, double twist) const;
+  /// Rate of the section frame with s, in its own axes: [length along x; turn].
+  Vector6 rate(double s, const Matrix3& R_start, double twist) const;
 
  private:
   Vector3 start_ = Vector3::Zero(), along_ = Vector3::Zero();   // straight: end - start

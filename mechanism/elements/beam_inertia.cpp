@@ -12,12 +12,15 @@ std::array<const NodeState*, 2> ends(const LocalState& state) { return {&state.n
 
 constexpr Eigen::Index first_row(std::size_t node) { return 6 * static_cast<Eigen::Index>(node); }
 
+/// Of the line of mass centres at c, from the rate of the section frame.
+Vector3 tangent_of(const Vector6& rate, const Vector3& c) { return rate.head<3>() + rate.tail<3>().cross(c); }
+
 }  // namespace
 
 BeamInertia::BeamInertia(const ElementSections& sections, const Matrix3& R_A, const Matrix3& R_B,
-                         const Vector3& chord) {
-  const double L = chord.norm();
-  const Vector3 t = chord / L;
+                         const BeamReference& reference) {
+  const double L = reference.length;
+  const Vector3 t = reference.d0.head<3>().normalized();
   double mass = 0;  // per length, mean
   Vector3 moment = Vector3::Zero();
   Matrix3 J_A = Matrix3::Zero(), J_B = Matrix3::Zero();
@@ -25,15 +28,21 @@ BeamInertia::BeamInertia(const ElementSections& sections, const Matrix3& R_A, co
     const BeamSection& section = sections.at[g];
     const Vector3& c = section.mass_offset;
     const double z = Gauss3::place[g], w = Gauss3::weight[g];
-    const Vector3 bubble = 0.5 * z * (1 - z) * chord;
-    points_[g] = {section.mass * L * w, {1 - z, z}, {R_A * ((1 - z) * c + bubble), R_B * (z * c - bubble)}};
+    const double bubble = 0.5 * z * (1 - z);
+    points_[g] = {section.mass * L * w,
+                  {1 - z, z},
+                  {R_A * ((1 - z) * c + bubble * tangent_of(reference.rate_A, c)),
+                   R_B * (z * c - bubble * tangent_of(reference.rate_B, c))}};
     mass += w * section.mass;
     moment += w * section.mass * c;
     J_A += w * (1 - z) * L * section.inertia;
     J_B += w * z * L * section.inertia;
   }
   const Vector3 c = mass > 0 ? Vector3(moment / mass) : Vector3::Zero();
-  points_[3] = {mass * L / 12, {-1, 1}, {R_A * (-c - 0.5 * chord), R_B * (c - 0.5 * chord)}};
+  points_[3] = {
+      mass * L / 12,
+      {-1, 1},
+      {R_A * (-c - 0.5 * tangent_of(reference.rate_A, c)), R_B * (c - 0.5 * tangent_of(reference.rate_B, c))}};
   const Matrix3 torsional = t.dot((J_A + J_B) * t) / 12 * t * t.transpose();
   J_[0] = {R_A * (J_A - torsional) * R_A.transpose(), R_A * torsional * R_B.transpose()};
   J_[1] = {R_B * torsional * R_A.transpose(), R_B * (J_B - torsional) * R_B.transpose()};

@@ -1,8 +1,8 @@
 // Force and moment per length along a beam: weight, wind, pressure of a stream, thrust.
 //
 // At z in [0, 1] of an element between nodes A and B (S_k = R_k R_Sk section axes, psi = log(S_A^T S_B), L the length
-// of the reference, d0_u its chord in section axes) the load acts on the line and on the section
-//     x(z) = (1-z) x_A + z x_B + z (1-z) (S_A d0_u - S_B d0_u)/2,     S(z) = S_A exp(z psi)
+// of the reference) the load acts on the line and on the section
+//     x(z) = (1-z) x_A + z x_B + z (1-z) L (S_A e_x - S_B e_x)/2,     S(z) = S_A exp(z psi)
 //     dx = sum_k (N_k dx_k - R_k a_k~ dTheta_k),    dTheta(z) = sum_k W_k R_Sk^T dTheta_k
 //     W_B = z T(z psi) T^-1(psi),   W_A the same of 1-z and -psi.
 // The line is that of the element's inertia (beam_inertia.hpp): a force m g per length is the weight of the beam, to
@@ -43,7 +43,7 @@ std::vector<LineLoad> read_line_loads(const YamlValue& value, int elements);
 struct BeamSpan {
   int node_a = 0, node_b = 0;
   Matrix3 R_A = Matrix3::Identity(), R_B = Matrix3::Identity();  ///< section frames in the axes of the nodes
-  Vector3 chord = Vector3::UnitX();                              ///< d0_u [m], section axes
+  Vector3 chord = Vector3::UnitX();                              ///< its length [m] along x of the section axes
   double s_A = 0, s_B = 1;                                       ///< its ends along the beam, 0 .. 1
 };
 

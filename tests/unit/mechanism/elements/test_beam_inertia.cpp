@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
 
+#include "mechanism/elements/mass_properties.hpp"
 #include "tests/support/dense_model.hpp"
 #include "tests/support/finite_difference.hpp"
 #include "tests/support/model_text.hpp"
@@ -178,6 +179,87 @@ TEST_CASE("mass, centre and inertia of a beam") {
   expected << mass * Matrix3::Identity(), -mass * skew(centre), mass * skew(centre),
       rotary - mass * skew(centre) * skew(centre);
   CHECK((body - expected).cwiseAbs().maxCoeff() < 1e-13);
+}
+
+TEST_CASE("a beam of unsymmetric section turns like the solids that it is made of") {
+  // An l of legs 0.5 x 0.1 along y and 0.1 x 0.3 along z on top of it; its centroid stands on the line of the nodes.
+  const double A = 0.05 + 0.03, y = (0.05 * 0.25 + 0.03 * 0.05) / A, z = (0.05 * 0.05 + 0.03 * 0.25) / A;
+  const MassProperties leg_y = placed({Vector3(0.5, 0.25 - y, 0.05 - z), Matrix3::Identity()}, box({1, 0.5, 0.1})),
+                       leg_z = placed({Vector3(0.5, 0.05 - y, 0.25 - z), Matrix3::Identity()}, box({1, 0.1, 0.3}));
+  const Matrix3 expected = (leg_y + leg_z).inertia_about_origin();
+  const auto beam = unit_beam(2, "l: {width: 0.5, height: 0.4, thickness: 0.1}, young: 1, shear: 1, density: 1");
+  const DenseModel dense(*beam);
+  State state = dense.start();
+  const auto kinetic = [&](const Vector3& omega) {
+    for (NodeState& n : state.nodes) {
+      n.v = omega.cross(n.x);
+      n.Omega = n.R.transpose() * omega;
+    }
+    return dense.energy(state).kinetic;
+  };
+  Random random(4);
+  for (int k = 0; k < 6; ++k) {
+    const Vector3 omega = random.vector3();
+    CHECK_THAT(kinetic(omega), Catch::WithinRel(0.5 * omega.dot(expected * omega), 1e-12));
+  }
+}
+
+TEST_CASE("the inertia of curved and twisted beams beside the node line converges with the fourth power") {
+  // A turning beam as points along its line of mass centres, section axes turning with the line; rotary inertia 1e-12.
+  for (const bool curved : {true, false}) {
+    const Vector3 offset(0, 0.15, -0.2), omega(0.5, -0.7, 0.4);
+    const double turn = curved ? pi / 2 : 2.0;
+    const auto rate = [&](double s) {
+      const Matrix3 R = exp_so3(curved ? Vector3(0, 0, -s * turn) : Vector3(s * turn, 0, 0));
+      const Vector3 line = curved ? Vector3(std::sin(s * turn), std::cos(s * turn), 0) : Vector3(2 * s, 0, 0);
+      return omega.cross(line + R * offset).squaredNorm();
+    };
+    double exact = 0;
+    constexpr int parts = 1000;
+    for (int k = 0; k < parts; ++k)
+      exact += (rate(k / 1000.0) + 4 * rate((k + 0.5) / parts) + rate((k + 1.0) / parts)) / 6 / parts;
+    exact *= 0.5 * (curved ? pi / 2 : 2);
+    std::vector<double> errors;
+    for (const int elements : {2, 4, 8, 16}) {
+      const auto model = model_from_text(
+          "nodes: {a: {position: " + std::string(curved ? "[0, 1, 0]" : "[0, 0, 0]") + "}, b: {position: " +
+          (curved ? "[1, 0, 0]" : "[2, 0, 0]") + "}}\nelements:\n  b: {type: beam, nodes: [a, b], " +
+          (curved ? "arc_centre: [0, 0, 0], orientation: [0, 1, 0]" : "twist: 2, orientation: [0, 1, 0]") +
+          ", elements: " + std::to_string(elements) +
+          ", section: {EA: 1, GAy: 1, GAz: 1, GJ: 1, EIy: 1, EIz: 1, mass_per_length: 1, Jx: 1e-12, Jy: 1e-12, Jz: "
+          "1e-12, offset: [0.15, -0.2]}}\n");
+      const DenseModel dense(*model);
+      State state = dense.start();
+      for (NodeState& n : state.nodes) {
+        n.v = omega.cross(n.x);
+        n.Omega = n.R.transpose() * omega;
+      }
+      errors.push_back(std::abs(dense.energy(state).kinetic / exact - 1));
+    }
+    CAPTURE(curved, errors);
+    CHECK(errors[3] < 1e-5);
+    for (std::size_t k = 2; k < 4; ++k) CHECK_THAT(std::log2(errors[k - 1] / errors[k]), Catch::WithinAbs(4, 0.15));
+  }
+}
+
+TEST_CASE(
+    "frequencies of a slender twisted arc beside its nodes converge with the fourth power of the element length") {
+  const auto modes = [](int elements) {
+    const auto model = model_from_text(
+        "nodes: {a: {position: [1, 0, 0]}, b: {position: [0, 1, 0]}}\nelements:\n  arc: {type: beam, nodes: [a, b], "
+        "arc_centre: [0, 0, 0], twist: 1, elements: " +
+        std::to_string(elements) +
+        ", section: {rectangle: [0.002, 0.003], young: 1e6, poisson: 0.3, density: 1, offset: [0.05, 0.03]}}\n");
+    return VectorX(frequencies(*model, unknowns(elements + 1, {0, 1, 2, 3, 4, 5}, {6, 7, 8, 9, 10, 11})).head(3));
+  };
+  std::vector<VectorX> f;
+  for (const int elements : {4, 8, 16, 32}) f.push_back(modes(elements));
+  for (int mode = 0; mode < 3; ++mode) {
+    CAPTURE(mode, f[0][mode], f[1][mode], f[2][mode], f[3][mode]);
+    const double coarse = f[0][mode] - f[1][mode], fine = f[1][mode] - f[2][mode], finest = f[2][mode] - f[3][mode];
+    CHECK(std::log2(std::abs(coarse / fine)) > 3.3);
+    CHECK(std::log2(std::abs(fine / finest)) > 3.8);
+  }
 }
 
 TEST_CASE("the polar inertia of a quarter circle converges with the fourth power of the element length") {

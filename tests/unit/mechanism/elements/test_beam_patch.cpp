@@ -37,8 +37,8 @@ double patch_error(const Vector3& K0, const Vector6& eps, const Matrix6& C, cons
   }
   for (std::size_t k = 0; k + 1 < nodes.size(); ++k)
     model.add(std::make_unique<BeamElement>("patch", BeamPlace{}, nodes[k], nodes[k + 1], Matrix3::Identity(),
-                                            Matrix3::Identity(), (stations[k + 1] - stations[k]) * reference, section,
-                                            0.0, bending),
+                                            Matrix3::Identity(), Vector6((stations[k + 1] - stations[k]) * reference),
+                                            section, 0.0, bending),
               "elements/patch", true);
   const DenseModel dense(model);
   const VectorX r = dense.residual(dense.start());

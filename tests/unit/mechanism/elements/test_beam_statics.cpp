@@ -116,6 +116,38 @@ TEST_CASE("a quarter ring deflects in and out of its plane as Castigliano says")
                    [&](int n, const char* bending) { return unit_deflection(ring(n, bending), Vector3::UnitZ()).z(); });
 }
 
+TEST_CASE("an arc that is twisted has the exact flexibility of its rod") {
+  // A quarter circle of radius 2 about z, section turned by 1.5 on the way: a wrench at the tip gives the resultants
+  // A (n, m) in the section's axes, and moves the tip by the sum of A^T C^-1 A along the line.
+  Vector6 compliance;
+  compliance << 1 / 40.0, 1 / 15.0, 1 / 12.0, 1 / 3.0, 1 / 5.0, 1 / 0.7;
+  Matrix6 F = Matrix6::Zero();
+  const Vector3 end(0, 2, 0);
+  Matrix3 start;
+  start << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  constexpr int parts = 2000;
+  for (int k = 0; k <= 2 * parts; ++k) {
+    const double s = k / (2.0 * parts), weight = (k % 2 ? 4 : (k == 0 || k == 2 * parts) ? 1 : 2) / (6.0 * parts);
+    const Matrix3 R = exp_so3({0, 0, s * pi / 2}) * start * exp_so3({1.5 * s, 0, 0});
+    Matrix6 A = Matrix6::Zero();
+    A.topLeftCorner<3, 3>() = A.bottomRightCorner<3, 3>() = R.transpose();
+    A.bottomLeftCorner<3, 3>() = R.transpose() * skew(end - 2 * Vector3(std::cos(s * pi / 2), std::sin(s * pi / 2), 0));
+    F += weight * pi * A.transpose() * compliance.asDiagonal() * A;
+  }
+  for (const int elements : {1, 3}) {
+    const Cantilever beam(
+        "nodes: {root: {position: [2, 0, 0]}, tip: {position: [0, 2, 0]}}\n"
+        "elements: {b: {type: beam, nodes: [root, tip], arc_centre: [0, 0, 0], twist: 1.5, orientation: [-1, 0, 0], "
+        "elements: " +
+        std::to_string(elements) + ", section: {EA: 40, GAy: 15, GAz: 12, GJ: 3, EIy: 5, EIz: 0.7}}}\n");
+    const std::vector<int> free = free_from(beam.dense, 2);
+    const MatrixX K = beam.dense.tangent(beam.state, DenseModel::Part::K)(free, free);
+    const Matrix6 computed = K.inverse().topLeftCorner<6, 6>();
+    // One element integrates its right angle in 16 parts of 6th order.
+    CHECK((computed - F).cwiseAbs().maxCoeff() < (elements == 1 ? 2e-10 : 1e-12) * F.cwiseAbs().maxCoeff());
+  }
+}
+
 TEST_CASE("the twisted beam of MacNeal and Harder") {
   // R. MacNeal, R. Harder, Finite Elem. Anal. Des. 1 (1985) 3: L = 12, 1.1 x 0.32, twist 90 degrees, E = 29e6, nu =
   // 0.22; published 5.424e-3 and 1.754e-3. Here the exact linear solution of the pre-twisted Timoshenko rod (k = 5/6),

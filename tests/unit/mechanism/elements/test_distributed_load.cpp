@@ -114,6 +114,15 @@ TEST_CASE("forces beside the line and jumps along the beam have the right result
   CHECK((two - (Vector6() << 0, 0, 2, 0, -2 + 1, 0).finished()).norm() < 1e-13);
 }
 
+TEST_CASE("loads per length grow with the load factor") {
+  const auto model =
+      model_from_text(cantilever(2, "[{force: [1, 2, s], at: [0.1, 0.2]}, {moment: [s, 1, 2], follower: true}]"));
+  DenseModel dense(*model);
+  const VectorX whole = dense.residual(dense.start());
+  dense.environment.load_factor = 0.25;
+  CHECK((dense.residual(dense.start()) - 0.25 * whole).cwiseAbs().maxCoeff() < 1e-15);
+}
+
 namespace {
 
 /// Pressure that makes the stiffness of a quarter ring singular in the mode of two waves, R = 1, EI = 1.

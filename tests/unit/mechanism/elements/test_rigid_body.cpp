@@ -196,8 +196,8 @@ TEST_CASE("cones and rings agree with sums of thin slices") {
   const MassProperties thin = ring(2, 1e-4);
   CHECK(error(thin.inertia / thin.mass, MatrixX(Vector3(2, 2, 4).asDiagonal())) < 1e-8);
   CHECK_THAT(thin.mass, Catch::WithinRel(4 * M_PI * M_PI * 1e-8, 1e-14));
-  // Pappus, and the polar moment of a solid of revolution: J = 2 pi int (R + r cos t)^3 ... over the section.
-  double mass = 0, polar = 0;
+  // A thick one: sums over its volume, of which the turn around the axis is done exactly.
+  double mass = 0, polar = 0, across = 0;
   const int n = 400;
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < 64; ++j) {
@@ -205,9 +205,11 @@ TEST_CASE("cones and rings agree with sums of thin slices") {
       const double volume = 2 * M_PI * rho * r * (0.7 / n) * (2 * M_PI / 64);
       mass += volume;
       polar += volume * rho * rho;
+      across += volume * (rho * rho / 2 + std::pow(r * std::sin(t), 2));
     }
   CHECK_THAT(ring(2, 0.7).mass, Catch::WithinRel(mass, 1e-10));
   CHECK_THAT(ring(2, 0.7).inertia(2, 2), Catch::WithinRel(polar, 1e-6));
+  CHECK_THAT(ring(2, 0.7).inertia(0, 0), Catch::WithinRel(across, 1e-6));
 }
 
 TEST_CASE("solids that make no body are refused") {

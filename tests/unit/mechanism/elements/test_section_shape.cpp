@@ -244,6 +244,37 @@ TEST_CASE("an l has its principal axes where its product of inertia puts them") 
   CHECK_THAT(k.shear_centre.x(), WithinRel(k.shear_centre.y(), 1e-9));
 }
 
+TEST_CASE("pairs of wall thicknesses belong to the walls that the manual says") {
+  // l: first the leg along y; box: first the walls across y (the upright ones); i: first what is below.
+  const SectionConstants l = shape("l", "{width: 5, height: 4, thickness: [1, 0.5]}")->constants();
+  CHECK_THAT(l.A, WithinRel(5 * 1 + 3 * 0.5, 1e-14));
+  const double z = (5 * 0.5 + 1.5 * 2.5) / 6.5;
+  CHECK_THAT(l.I_y, WithinRel(5 / 12.0 + 5 * std::pow(z - 0.5, 2) + 0.5 * 27 / 12 + 1.5 * std::pow(z - 2.5, 2), 1e-13));
+  const SectionConstants box = shape("box", "{width: 4, height: 5, thickness: [1, 0.5]}")->constants();
+  CHECK_THAT(box.I_y, WithinRel((4 * 125 - 2 * 64) / 12.0, 1e-13));
+  const auto i = shape("i", "{width: [4, 2], height: 5, web: 0.5, flange: [1, 0.5]}");
+  const double middle = (4 * 0.5 + 3.5 * 0.5 * 2.75 + 1 * 4.75) / (4 + 1.75 + 1);
+  CHECK(i->contains({2, 0.5 - middle}));
+  CHECK(!i->contains({1.5, 4.75 - middle}));
+}
+
+TEST_CASE("stresses of unit resultants about the node line add up to these, beside the centroid as well") {
+  const auto l = shape("l", "{width: 5, height: 4, thickness: 1}");
+  const Vector2 corner(-(5 * 2.5 + 3 * 0.5) / 8, -(5 * 0.5 + 3 * 2.5) / 8), offset(3, -2);
+  Matrix6 sum = Matrix6::Zero();
+  over_cells(*l, corner, corner + Vector2(5, 4), 0.05)([&](double dA, const Vector2& p) {
+    const Eigen::Matrix<double, 3, 6> sigma = stress(*l, p, offset);
+    const Vector2 arm = p + offset;
+    sum.topRows<3>() += dA * sigma;
+    sum.row(3) += dA * (arm.x() * sigma.row(2) - arm.y() * sigma.row(1));
+    sum.row(4) += dA * arm.y() * sigma.row(0);
+    sum.row(5) -= dA * arm.x() * sigma.row(0);
+  });
+  CAPTURE(sum);
+  // The midpoint rule misses the peaks in the re-entrant corner.
+  CHECK((sum - Matrix6::Identity()).cwiseAbs().maxCoeff() < 2e-2);
+}
+
 TEST_CASE("shear stresses add up to the shear forces and the torque that make them") {
   const auto check = [](const Matrix3& sum, double length, double tolerance) {
     const Matrix3 scaled = Vector3(1, 1, 1 / length).asDiagonal() * sum * Vector3(1, 1, length).asDiagonal();
