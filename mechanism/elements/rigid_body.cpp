@@ -43,19 +43,22 @@ void RigidBody::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) con
 void RigidBody::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   const NodeState& n = state.node(0);
   const Matrix3 c = skew(c_);
+  const bool centred = c_.isZero(0);  // nothing couples translation and rotation
   if (tangent.wants_M) {
-    const Matrix3 coupling = m_ * n.R * c;
     tangent.M.diagonal().head<3>().array() += m_;
-    tangent.M.block<3, 3>(0, 3) -= coupling;
-    tangent.M.block<3, 3>(3, 0) -= coupling.transpose();
     tangent.M.block<3, 3>(3, 3) += J_;
+    if (!centred) {
+      const Matrix3 coupling = m_ * n.R * c;
+      tangent.M.block<3, 3>(0, 3) -= coupling;
+      tangent.M.block<3, 3>(3, 0) -= coupling.transpose();
+    }
   }
   if (tangent.wants_C) {
     const Matrix3 W = skew(n.Omega);
-    tangent.C.block<3, 3>(0, 3) -= m_ * n.R * (W * c + skew(n.Omega.cross(c_)));
     tangent.C.block<3, 3>(3, 3) += W * J_ - skew(J_ * n.Omega);
+    if (!centred) tangent.C.block<3, 3>(0, 3) -= m_ * n.R * (W * c + skew(n.Omega.cross(c_)));
   }
-  if (tangent.wants_K) {
+  if (tangent.wants_K && !centred) {
     const Vector3 convected = n.Omegadot.cross(c_) + n.Omega.cross(n.Omega.cross(c_));
     tangent.K.block<3, 3>(0, 3) -= m_ * n.R * skew(convected);
     tangent.K.block<3, 3>(3, 3) += m_ * c * skew(n.R.transpose() * (n.a - state.environment().gravity));

@@ -110,7 +110,7 @@ class Run {
     results_.record(state_, system_.slots(), environment, row);
   }
 
-  void record(const MarchStep& step, const EnergyBalance& books) {
+  void record(const State& state, const MarchStep& step, const EnergyBalance& books) {
     StepRecord row;
     row.energy = books.totals();
     row.balance = books.balance();
@@ -119,7 +119,7 @@ class Run {
     row.error_estimate = step.error;
     row.worst_residual = step.report.worst_ratio;
     row.worst_equation = step.report.worst_equation;
-    results_.record(state_, system_.slots(), environment_, row);
+    results_.record(state, system_.slots(), environment_, row);
   }
 
   static long grid_steps(const Analysis& dynamics) {
@@ -327,15 +327,14 @@ class Run {
     if (!output.times.empty()) {
       for (auto time = std::upper_bound(output.times.begin(), output.times.end(), before);
            time != output.times.end() && *time <= now.time; ++time) {
-        state_ = *time == now.time ? now : integration.interpolated(*time);
+        const State state = *time == now.time ? now : integration.interpolated(*time);
         EnergyBalance books = books_before;
-        books.advance(*time, system_.energy(state_, environment_));
-        record(step, books);
+        books.advance(*time, system_.energy(state, environment_));
+        record(state, step, books);
         ++summary.records;
       }
     } else if ((step.on_grid && motion.grid_steps % output.every == 0) || motion.march->done()) {
-      state_ = now;
-      record(step, motion.books);
+      record(now, step, motion.books);
       ++summary.records;
     }
     if (output.checkpoint > 0 && step.on_grid && motion.grid_steps % output.checkpoint == 0) save(motion);

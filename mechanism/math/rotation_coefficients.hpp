@@ -24,14 +24,22 @@ namespace bielle::mechanism {
 /// form that loses most (d2) is good to 7e-15, all others to 1e-15, and the series to 4e-16.
 inline constexpr double series_angle = 3.0;
 
+/// Angle [rad] below which the first seven terms of a1 ... c2 are enough: the eighth is less than 1e-16 of the first.
+/// Rotations within a time step mostly are smaller.
+inline constexpr double short_series_angle = 0.5;
+
 namespace coefficient_series {
 
-/// sum_k c_k x^k
+/// sum_k c_k x^k of the first `terms` terms
+template <std::size_t terms, std::size_t N>
+constexpr double horner_of_first(const std::array<double, N>& c, double x) {
+  double sum = c[terms - 1];
+  for (std::size_t k = terms - 1; k-- > 0;) sum = sum * x + c[k];
+  return sum;
+}
 template <std::size_t N>
 constexpr double horner(const std::array<double, N>& c, double x) {
-  double sum = c[N - 1];
-  for (std::size_t k = N - 1; k-- > 0;) sum = sum * x + c[k];
-  return sum;
+  return horner_of_first<N>(c, x);
 }
 
 constexpr double factorial(int n) {
@@ -111,12 +119,12 @@ struct ExpCoefficients {
   explicit ExpCoefficients(double phi_squared) {
     namespace series = coefficient_series;
     const double x = phi_squared;
+    if (x < short_series_angle * short_series_angle) {
+      sum_series<7>(x);
+      return;
+    }
     if (x < series_angle * series_angle) {
-      a1 = series::horner(series::a1, x);
-      a2 = series::horner(series::a2, x);
-      a3 = series::horner(series::a3, x);
-      c1 = series::horner(series::c1, x);
-      c2 = series::horner(series::c2, x);
+      sum_series<series::exp_terms>(x);
       return;
     }
     const double phi = std::sqrt(x);
@@ -126,6 +134,17 @@ struct ExpCoefficients {
     a3 = (phi - std::sin(phi)) / (phi * x);
     c1 = (a1 - 2 * a2) / x;
     c2 = (a2 - 3 * a3) / x;
+  }
+
+ private:
+  template <std::size_t terms>
+  void sum_series(double x) {
+    namespace series = coefficient_series;
+    a1 = series::horner_of_first<terms>(series::a1, x);
+    a2 = series::horner_of_first<terms>(series::a2, x);
+    a3 = series::horner_of_first<terms>(series::a3, x);
+    c1 = series::horner_of_first<terms>(series::c1, x);
+    c2 = series::horner_of_first<terms>(series::c2, x);
   }
 };
 
