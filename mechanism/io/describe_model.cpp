@@ -202,6 +202,7 @@ std::string format_summary(const MechanismFile& file, const std::vector<Analysis
     text +=
         fmt::format("  {} steps, {:.2f} Newton iterations per step, {} rows recorded, until t = {:.6g} s\n", s.steps,
                     static_cast<double>(s.iterations) / static_cast<double>(s.steps), s.records, s.end_time);
+    for (const double factor : s.limit_points) text += fmt::format("  limit point at load factor {:.9g}\n", factor);
     text += format_march(s.march, s.slowest_equation);
     if (s.largest_energy > 0)
       text += fmt::format(

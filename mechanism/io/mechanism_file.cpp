@@ -177,7 +177,62 @@ NewtonOptions read_newton(const YamlValue& analysis, bool dynamic) {
   return options;
 }
 
-Analysis read_analysis(const YamlValue& entry) {
+/// `until: {load_factor: s}` or `{node: tip, displacement: d, direction: x}`.
+PathEnd read_path_end(const YamlValue& entry, const Model& model) {
+  entry.check_keys({"load_factor", "node", "displacement", "direction"}, "`until`");
+  PathEnd end;
+  const bool by_node = entry.has("node") || entry.has("displacement") || entry.has("direction");
+  if (entry.has("load_factor") == by_node)
+    entry.fail("a path ends either at a `load_factor` or at the `displacement` of a `node`: give one of the two");
+  if (!by_node) {
+    end.load_factor = entry.at("load_factor").number();
+    return end;
+  }
+  end.node = model.node_named_by(entry.at("node"));
+  end.displacement = entry.at("displacement").number();
+  if (const auto direction = entry.find("direction")) {
+    end.direction = direction->is_sequence() ? Vector3(direction->direction())
+                                             : Vector3::Unit(static_cast<Eigen::Index>(direction_index(direction->word(
+                                                   {"x", "y", "z"}, "a direction (x, y, z or a vector)"))));
+  } else if (end.displacement <= 0) {
+    entry.at("displacement")
+        .fail("expected a positive number: without `direction` it is the distance from where the node is drawn [m]");
+  }
+  bool held = true;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (model.node(end.node).freedom[k] != Freedom::fixed &&
+        (end.direction.isZero(0) || end.direction[static_cast<Eigen::Index>(k)] != 0))
+      held = false;
+  if (held) entry.at("node").fail("this node is fixed: it has no such displacement");
+  return end;
+}
+
+/// `arc_length: {until: {..}, points: 1000}`.
+PathOptions read_path(const YamlValue& entry, int steps, const Model& model) {
+  entry.check_keys({"until", "points"}, "`arc_length`");
+  PathOptions path;
+  path.end = read_path_end(entry.at("until"), model);
+  path.steps = steps;
+  if (entry.has("points")) path.most_points = entry.at("points").integer();
+  if (path.most_points < 1) entry.at("points").fail("expected at least 1");
+  return path;
+}
+
+void read_static(const YamlValue& entry, const Model& model, Analysis& analysis) {
+  entry.check_keys({"type", "steps", "arc_length", "newton"}, "the analysis 'static'");
+  analysis.type = Analysis::Type::statics;
+  const auto path = entry.find("arc_length");
+  if (path) analysis.steps = 0;
+  if (const auto steps = entry.find("steps")) {
+    const bool automatic = steps->is_scalar() && steps->text() == "auto";
+    analysis.steps = automatic ? 0 : steps->integer();
+    if (!automatic && analysis.steps < 1) steps->fail("expected at least one load step, or auto");
+  }
+  if (path) analysis.path = read_path(*path, analysis.steps, model);
+  analysis.newton = read_newton(entry, false);
+}
+
+Analysis read_analysis(const YamlValue& entry, const Model& model) {
   const std::vector<std::string> planned = {"kinematic", "eigen", "inverse_dynamics", "frequency_response",
                                             "state_space"};
   const std::string type = entry.at("type").text();
@@ -190,11 +245,7 @@ Analysis read_analysis(const YamlValue& entry) {
     entry.check_keys({"type"}, "the analysis 'assembly'");
     analysis.type = Analysis::Type::assembly;
   } else if (analysis.name == "static") {
-    entry.check_keys({"type", "steps", "newton"}, "the analysis 'static'");
-    analysis.type = Analysis::Type::statics;
-    if (entry.has("steps")) analysis.steps = entry.at("steps").integer();
-    if (analysis.steps < 1) entry.at("steps").fail("expected at least one load step");
-    analysis.newton = read_newton(entry, false);
+    read_static(entry, model, analysis);
   } else {
     entry.check_keys({"type", "duration", "step", "tolerance", "largest_step", "scheme", "rho", "alpha", "constraints",
                       "start", "newton"},
@@ -295,7 +346,7 @@ MechanismFile read_mechanism(YamlValue root, const std::map<std::string, std::st
   if (file.model.members().empty()) root.fail("the mechanism has no elements, joints or loads");
 
   if (const auto analyses = root.find("analysis"))
-    for (const YamlValue& entry : analyses->items()) file.analyses.push_back(read_analysis(entry));
+    for (const YamlValue& entry : analyses->items()) file.analyses.push_back(read_analysis(entry, file.model));
   double end = 0;
   for (const Analysis& analysis : file.analyses) end += analysis.duration;
   if (const auto output = root.find("output")) file.output = read_output(*output, end, file.model);

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "mechanism/solvers/arc_length.hpp"
 #include "mechanism/solvers/march.hpp"
 #include "mechanism/system/model.hpp"
 
@@ -13,11 +15,12 @@ namespace bielle::mechanism {
 /// One entry of `analysis`.
 struct Analysis {
   enum class Type { assembly, statics, dynamics } type;
-  std::string name;      ///< as in the file: "dynamic"
-  int steps = 1;         ///< statics
-  double duration = 0;   ///< [s] dynamics
-  StepOptions stepping;  ///< without break points
-  Scheme scheme{};       ///< dynamics
+  std::string name;                 ///< as in the file: "dynamic"
+  int steps = 1;                    ///< statics; 0: chosen by the program
+  std::optional<PathOptions> path;  ///< statics that follow a path
+  double duration = 0;              ///< [s] dynamics
+  StepOptions stepping;             ///< without break points
+  Scheme scheme{};                  ///< dynamics
   ConstraintForm form = ConstraintForm::corrected;
   NewtonOptions newton;      ///< statics and dynamics
   bool equilibrium = false;  ///< dynamics: positions of static equilibrium first

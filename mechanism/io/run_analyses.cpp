@@ -129,7 +129,8 @@ class Run {
   /// 0: unknown.
   std::size_t expected_rows(const Analysis& analysis) const {
     if (analysis.type == Analysis::Type::assembly) return 1;
-    if (analysis.type == Analysis::Type::statics) return static_cast<std::size_t>(analysis.steps) + 1;
+    if (analysis.type == Analysis::Type::statics)
+      return analysis.steps == 0 || analysis.path ? 0 : static_cast<std::size_t>(analysis.steps) + 1;
     if (!file_.output.times.empty()) return file_.output.times.size() + 1;
     if (analysis.stepping.tolerance > 0) return 0;
     return static_cast<std::size_t>(grid_steps(analysis) / file_.output.every) + 2;  // and the first, and the last
@@ -141,6 +142,7 @@ class Run {
     assemble_positions(system_, environment_, state_, summary.start);
     make_velocities_consistent(system_, environment_, state_, summary.start);
     system_.accept(state_, environment_);
+    loaded_.motions = 1;
     EnergyBalance books;
     books.start(state_.time, system_.energy(state_, environment_));
     record(environment_, books, 0, 0);
@@ -151,10 +153,8 @@ class Run {
 
   AnalysisSummary solve_static(const Analysis& analysis) {
     AnalysisSummary summary;
-    summary.name = fmt::format("static, {} load step{}", analysis.steps, analysis.steps == 1 ? "" : "s");
     EnergyBalance books;
-    books.start(0, system_.energy(state_, environment_));
-    const auto note = [&](const State& state, double factor, int iterations) {
+    const auto note = [&](const State& state, double factor, int iterations, double done) {
       guard_.check(state.time);
       Environment loaded = environment_;
       loaded.load_factor = factor;
@@ -166,18 +166,33 @@ class Run {
       ++summary.steps;
       ++summary.records;
       summary.iterations += iterations;
-      progress_.update(factor, fmt::format("load factor {:.4g}", factor));
+      progress_.update(done, fmt::format("load factor {:.4g}", factor));
     };
     VectorX v(system_.dofs()), unused(system_.dofs());
     system_.get_rates(state_, v, unused);
     if (!v.isZero(0))
       progress_.note(
           "a static analysis is at rest, and so is what comes behind it: the velocities are dropped (a dynamic "
-          "analysis "
-          "with `start: equilibrium` keeps them)");
+          "analysis with `start: equilibrium` keeps them)");
     Environment statics = environment_;
     statics.statics = true;
-    solve_statics(system_, statics, analysis.steps, analysis.newton, state_, note);
+    if (analysis.path) {
+      loaded_ = follow_path(system_, statics, loaded_, *analysis.path, analysis.newton, state_,
+                            [&](const State& state, const PathPoint& point) {
+                              note(state, point.load_factor, point.iterations, point.done);
+                              if (point.limit) summary.limit_points.push_back(point.load_factor);
+                            });
+      summary.name =
+          fmt::format("static, arc length, {} points to load factor {:.6g}", summary.records, loaded_.factor);
+    } else {
+      const double begin = loaded_.factor;
+      solve_statics(system_, statics, LoadSteps(analysis.steps, loaded_), analysis.newton, state_,
+                    [&](const State& state, double factor, int iterations) {
+                      note(state, factor, iterations, begin == 1 ? 1 : (factor - begin) / (1 - begin));
+                    });
+      loaded_ = {1, 1};
+      summary.name = fmt::format("static, {} load step{}", summary.records, summary.records == 1 ? "" : "s");
+    }
     summary.energy = books.totals();
     summary.end_time = state_.time;
     return summary;
@@ -262,6 +277,12 @@ class Run {
   }
 
   void set_off(const Analysis& analysis, Motion& motion, StartReport& start) {
+    // All of the loads and of the prescribed motions act, wherever statics have stopped.
+    loaded_ = {1, 1};
+    if (state_.motion_factor != 1) {
+      state_.motion_factor = 1;
+      system_.displace(state_, State(state_), VectorX::Zero(system_.dofs()));
+    }
     if (analysis.equilibrium) settle(system_, environment_, analysis.newton, state_, start);
     motion.begin = state_.time;
     motion.end = motion.begin + analysis.duration;
@@ -285,6 +306,7 @@ class Run {
     exchange_books(archive, motion);
     motion.end = motion.begin + analysis.duration;
     motion.stepping = stepping_of(analysis, motion.begin);
+    loaded_ = {1, 1};
     motion.integration.emplace(system_, environment_, analysis.scheme, archive, analysis.form, analysis.newton);
     make_march(motion);
     motion.march->exchange(archive);
@@ -345,6 +367,7 @@ class Run {
   System system_;
   Environment environment_;
   State state_;
+  Loaded loaded_;  ///< what the analyses so far have brought about
   std::optional<Checkpoint> checkpoint_;
   ResultsFile results_;
   Progress& progress_;

@@ -18,6 +18,7 @@ struct AnalysisSummary {
   MarchLog march;                      ///< dynamics
   std::string slowest_equation;        ///< dynamics: the worst in the step with the most iterations
   long records = 0;                    ///< rows written
+  std::vector<double> limit_points;    ///< statics by arc length: load factors at its maxima and minima
   std::vector<std::string> redundant;  ///< constraints set aside
   StartReport start;                   ///< dynamics: what the consistent start had to change
   Energy energy;                       ///< at the end [J]; dissipation and input are integrals over the analysis

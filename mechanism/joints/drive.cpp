@@ -51,9 +51,7 @@ void Drive::add_break_points(std::vector<double>& times) const {
 
 Measure PositionDrive::distance(const LocalState& state) const {
   Measure m = measure(state);
-  double target = law()(state.time());
-  const double s = state.environment().load_factor;
-  if (s != 1) target = s * target + (1 - s) * state.memory()[0];
+  const double target = state.motion_factor() * law()(state.time());
   // An angle is wanted modulo turns: the drive counts them by time, not by memory, so that steps of any size and
   // restarts find the same. Whole turns are taken off the target by itself: rounding of large angles would otherwise
   // keep Newton's method from its tolerance.
@@ -69,7 +67,6 @@ double PositionDrive::force(const LocalState& state) const { return -state.multi
 void PositionDrive::declare(Declaration& declaration) const {
   declare_nodes(declaration);
   declaration.multipliers.push_back({coordinate().name, force_units()});
-  declaration.memory = {0};  // the coordinate under full load, for statics
 }
 
 void PositionDrive::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
@@ -96,10 +93,6 @@ void PositionDrive::add_constraint_rates(const LocalState& state, Eigen::Ref<Vec
 
 void PositionDrive::add_energy(const LocalState& state, Energy& energy) const {
   energy.input += force(state) * law().derivative(state.time(), 1);
-}
-
-void PositionDrive::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {
-  if (state.environment().load_factor == 1) memory[0] = law()(state.time());
 }
 
 // -- rate

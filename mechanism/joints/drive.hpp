@@ -1,8 +1,8 @@
 // Drives: what moves a joint's coordinate c.
 //
 //   angle or displacement (t):  constraint c(q) - f(t) = 0; its multiplier is the drive's torque or force on the
-//                               coordinate, negated (the residual holds + B^T lambda). In statics, with the load
-//                               factor s: c = (1 - s) c_0 + s f(t), c_0 from where the analysis before ended
+//                               coordinate, negated (the residual holds + B^T lambda). On the way of statics: c = s
+//                               f(t) with the part s of the motion that is made
 //   rate or speed (t):          constraint cdot - f(t) = 0, non-holonomic; in statics the joint stays where it is
 //   torque or force (t):        generalised force f(t) along +c: the second node is pushed, the first pulled
 //
@@ -47,7 +47,6 @@ class PositionDrive final : public Drive {
   void add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
                             Eigen::Ref<VectorX> acceleration) const override;
   void add_energy(const LocalState& state, Energy& energy) const override;
-  void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
 
  private:
   Measure distance(const LocalState& state) const;  ///< from where the law wants the coordinate

@@ -34,8 +34,11 @@ Joint::ValueAndRate Joint::value_and_rate(std::size_t index, const LocalState& s
   const auto memory = state.memory();
   const auto at = 2 * static_cast<Eigen::Index>(index);
   const double time_before = memory[memory.size() - 1];
-  const double turned = std::isnan(time_before) ? 0 : 0.5 * (memory[at + 1] + rate) * (state.time() - time_before);
-  return {unwrap_angle(m.value, memory[at] + turned), rate};
+  // Before the first step: as far as statics have brought the drive that starts elsewhere than drawn.
+  const double expected = std::isnan(time_before)
+                              ? state.motion_factor() * memory[at]
+                              : memory[at] + 0.5 * (memory[at + 1] + rate) * (state.time() - time_before);
+  return {unwrap_angle(m.value, expected), rate};
 }
 
 void Joint::write_coordinates(const LocalState& state, double* values, double* rates) const {

@@ -6,20 +6,8 @@
 #include "mechanism/solvers/model_length.hpp"
 
 namespace bielle::mechanism {
-namespace {
-
-/// Diagonal of the box around all nodes but the ground, which stands at the origin wherever the mechanism is.
-double extent(const State& state) {
-  Eigen::AlignedBox3d box;
-  for (std::size_t i = 1; i < state.nodes.size(); ++i) box.extend(state.nodes[i].x);
-  const double length = state.nodes.size() > 1 ? box.diagonal().norm() : 0;
-  return length > 0 ? length : model_length(state);
-}
-
-}  // namespace
-
 ErrorNorm::ErrorNorm(const System& system, const Environment& environment, const State& state)
-    : system_(system), length_(extent(state)), largest_first_order_(state.first_order.cwiseAbs()) {
+    : system_(system), length_(model_extent(state)), largest_first_order_(state.first_order.cwiseAbs()) {
   std::vector<double> values;
   system.tangent(state, environment, TangentWeights{0, 0, 1, 0, 0}, nullptr, values);
   mass_.setZero(system.dofs());

@@ -11,6 +11,13 @@ double model_length(const State& state) {
   return length > 0 ? length : 1;
 }
 
+double model_extent(const State& state) {
+  Eigen::AlignedBox3d box;
+  for (std::size_t i = 1; i < state.nodes.size(); ++i) box.extend(state.nodes[i].x);
+  const double length = state.nodes.size() > 1 ? box.diagonal().norm() : 0;
+  return length > 0 ? length : model_length(state);
+}
+
 VectorX constraint_sizes(const System& system, const Environment& environment, const State& state) {
   const SparsePattern& pattern = system.pattern();
   const int first = system.size() - system.multipliers();

@@ -9,6 +9,9 @@ namespace bielle::mechanism {
 /// stand there.
 double model_length(const State& state);
 
+/// Diagonal of the box around all nodes but the ground, which stands at the origin wherever the mechanism is [m].
+double model_extent(const State& state);
+
 /// What each constraint's residual is small beside: sum_j |B_ij| s_j, s_j the model's length for translations and 1 rad
 /// for rotations; lengths of arms count through B. 1 for rows without entries. @returns (multipliers)
 VectorX constraint_sizes(const System& system, const Environment& environment, const State& state);

@@ -1,184 +1,41 @@
 #include "mechanism/solvers/statics.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
-#include <string>
 
 #include <fmt/format.h>
 
-#include "mechanism/solvers/model_length.hpp"
-#include "mechanism/solvers/redundancy.hpp"
+#include "mechanism/solvers/equilibrium.hpp"
 
 namespace bielle::mechanism {
-namespace {
 
-/// Newton's method at a fixed load.
-class Equilibrium {
- public:
-  Equilibrium(const System& system, const NewtonOptions& options)
-      : system_(system),
-        options_(options),
-        linear_(system),
-        convergence_(system, options),
-        r_(system.size()),
-        delta_(system.size()) {}
-
-  /// Returns the iterations, or -1 with the state as it was. @throws ComputationError from components and from a
-  /// singular tangent
-  int find(const Environment& environment, State& state) {
-    const State start = state;
-    evaluate(environment, state);
-    for (int iteration = 0;; ++iteration) {
-      if (iteration > 0 && convergence_.reached(r_, scale_)) return iteration;
-      if (iteration == options_.iterations || !r_.allFinite()) {
-        convergence_.reached(r_, scale_);
-        state = start;
-        return -1;
-      }
-      improve(environment, state);
-    }
-  }
-  /// Goes down to an equilibrium from afar, also where nothing but inertia resists at first (an arm that is to hang):
-  /// pseudo-transient continuation, (K + M/tau^2) dq = -r with tau growing as the residual falls, from steps of a tenth
-  /// of the mechanism's size on (C. T. Kelley, D. E. Keyes, SIAM J. Numer. Anal. 35 (1998) 508). Returns as `find`.
-  int relax(const Environment& environment, State& state) {
-    constexpr int most_iterations = 300;
-    const State start = state;
-    evaluate(environment, state);
-    double tau_squared = first_tau_squared(environment, state);
-    for (int iteration = 0; iteration < most_iterations && r_.allFinite(); ++iteration) {
-      if (iteration > 0 && convergence_.reached(r_, scale_)) return iteration;
-      linear_.factor(state, environment, TangentWeights{1, 0, 1 / tau_squared, 0, 1, true}, nullptr);
-      convergence_.measure_rounding(linear_, state);
-      convergence_.measure_by(scale_);
-      const double before = convergence_.size_of(r_);
-      linear_.solve(r_, delta_);
-      if (const double excess = extent(state) / longest; excess > 1) {
-        tau_squared /= 2 * excess;
-        continue;
-      }
-      const State base = state;
-      move(state, base, 1);
-      evaluate(environment, state);
-      tau_squared *= std::clamp(before / convergence_.size_of(r_), 1.0, 10.0);
-    }
-    state = start;
-    return -1;
-  }
-  const Convergence& convergence() const { return convergence_; }
-
- private:
-  static constexpr double longest = 0.3;  ///< step of `relax`: of the mechanism's size, or [rad]
-
-  /// The last solution's largest turn [rad], or displacement beside the mechanism's size.
-  double extent(const State& state) const {
-    double most = 0;
-    for (int i = 0; i < system_.dofs(); ++i) {
-      if (system_.kind(i) == Kind::rotation) most = std::max(most, std::abs(delta_[i]));
-      if (system_.kind(i) == Kind::translation) most = std::max(most, std::abs(delta_[i]) / model_length(state));
-    }
-    return most;
-  }
-
-  /// In which the accelerations of rest lead through a part of `longest`.
-  double first_tau_squared(const Environment& environment, const State& state) {
-    State released = state;
-    make_accelerations_consistent(system_, environment, released);
-    VectorX unused(system_.dofs());
-    system_.get_rates(released, unused, delta_.head(system_.dofs()));
-    const double rate = extent(state);
-    return rate > 0 ? 0.3 * longest / rate : 1;
-  }
-
-  void move(State& state, const State& base, double part) const {
-    system_.displace(state, base, part * delta_.head(system_.dofs()));
-    state.first_order = base.first_order + part * delta_.segment(system_.dofs(), system_.first_orders());
-    state.multiplier = base.multiplier + part * delta_.tail(system_.multipliers());
-  }
-
-  void evaluate(const Environment& environment, const State& state) {
-    system_.residual(state, environment, r_, &scale_);
-    // Nothing moves: what relates velocities keeps things where they are.
-    const int first = system_.size() - system_.multipliers();
-    for (int i = 0; i < system_.multipliers(); ++i)
-      if (system_.constraint_kind(i) == ConstraintKind::nonholonomic) r_[first + i] = 0;
-  }
-
-  void improve(const Environment& environment, State& state) {
-    TangentWeights weights;
-    weights.acceleration_level = true;
-    linear_.factor(state, environment, weights, nullptr);
-    convergence_.measure_rounding(linear_, state);
-    convergence_.measure_by(scale_);
-    const double before = convergence_.size_of(r_);
-    linear_.solve(r_, delta_);
-    const State base = state;
-    const auto size_at = [&](double part) {
-      move(state, base, part);
-      evaluate(environment, state);
-      return convergence_.size_of(r_);
-    };
-    const auto smaller = [&](double part) {
-      try {
-        return size_at(part) <= before;
-      } catch (const ComputationError&) {
-        return false;  // refused by a component
-      }
-    };
-    for (double part = 1; options_.line_search && part > 0.1; part /= 2)
-      if (smaller(part)) return;
-    size_at(1);  // Newton's method may have to pass over a hill
-  }
-
-  const System& system_;
-  NewtonOptions options_;
-  LinearStep linear_;
-  Convergence convergence_;
-  VectorX r_, delta_;
-  ResidualScale scale_;
-};
-
-}  // namespace
-
-void solve_statics(const System& system, const Environment& environment, int steps, const NewtonOptions& options,
-                   State& state, const std::function<void(const State&, double, int)>& record) {
-  const VectorX zero = VectorX::Zero(system.dofs());
-  system.set_rates(state, zero, zero);
-  state.first_order_rate.setZero();
-  Equilibrium equilibrium(system, options);
-  const double first_increment = 1.0 / steps, least_increment = first_increment / 1024;
-  double factor = 0, increment = first_increment;
-  while (factor < 1) {
-    const double target = factor + increment > 1 - 1e-12 ? 1 : factor + increment;
-    Environment loaded = environment;
-    loaded.load_factor = target;
-    loaded.gravity = target * environment.gravity;
-    // A component that refuses a wild iterate (a beam whose ends turn too far) makes the attempt fail, not the
-    // analysis.
-    std::string refusal;
-    int iterations = -1;
-    const State before = state;
-    try {
-      iterations = equilibrium.find(loaded, state);
-    } catch (const ComputationError& error) {
-      refusal = error.what();
-      state = before;
-    }
+void solve_statics(const System& system, const Environment& environment, const LoadSteps& steps,
+                   const NewtonOptions& options, State& state,
+                   const std::function<void(const State&, double, int)>& record) {
+  const LoadRamp ramp(system, environment, steps.start);
+  ramp.set_off(state);
+  Equilibrium equilibrium(ramp, options);
+  const double begin = ramp.begin();
+  // Parts of the way from there to the full load.
+  const double first_part = begin == 1 ? 1 : steps.count > 0 ? 1.0 / steps.count : 0.1;
+  const double largest_part = steps.count > 0 ? first_part : 1, least_part = first_part / 1024;
+  double made = 0, part = first_part;
+  while (made < 1) {
+    const double end = made + part > 1 - 1e-12 ? 1 : made + part;
+    const double factor = end == 1 ? 1 : begin + end * (1 - begin);
+    int iterations = equilibrium.find(factor, state);
+    if (iterations < 0 && begin == 1) iterations = equilibrium.relax(factor, state);
     if (iterations < 0) {
-      increment /= 2;
-      if (increment < least_increment && !refusal.empty()) throw ComputationError(refusal);
-      if (increment < least_increment)
-        throw ComputationError(fmt::format(
-            "statics: Newton did not converge at load factor {:.6g} (increment {:.3g}); largest residual: {}", target,
-            increment * 2, equilibrium.convergence().worst()));
+      part /= 2;
+      if (part < least_part || begin == 1)
+        throw ComputationError(fmt::format("statics: no equilibrium found at load factor {:.6g} (increment {:.3g}): {}",
+                                           factor, (end - made) * (1 - begin), equilibrium.why()));
       continue;
     }
-    check_set_aside(system, loaded, state);
-    factor = target;
-    system.accept(state, loaded);
+    equilibrium.accept(factor, state);
+    made = end;
     if (record) record(state, factor, iterations);
-    if (iterations <= 5) increment = std::min(first_increment, 2 * increment);
+    if (iterations <= 5) part = std::min(largest_part, 2 * part);
   }
 }
 
@@ -200,20 +57,13 @@ std::optional<int> loose_unknown(const System& system, const Environment& enviro
 }
 
 void relax(const System& system, const Environment& environment, const NewtonOptions& options, State& state) {
-  const VectorX zero = VectorX::Zero(system.dofs());
-  system.set_rates(state, zero, zero);
-  Equilibrium equilibrium(system, options);
-  std::string why;
-  try {
-    if (equilibrium.relax(environment, state) < 0) why = "largest residual: " + equilibrium.convergence().worst();
-  } catch (const ComputationError& error) {
-    why = error.what();
-  }
-  if (!why.empty())
-    throw ComputationError(
-        fmt::format("static equilibrium at the start: none was found (what nothing holds has none); {}", why));
-  check_set_aside(system, environment, state);
-  system.accept(state, environment);
+  const LoadRamp ramp(system, environment, {1, 1});
+  ramp.set_off(state);
+  Equilibrium equilibrium(ramp, options);
+  if (equilibrium.relax(1, state) < 0)
+    throw ComputationError(fmt::format(
+        "static equilibrium at the start: none was found (what nothing holds has none); {}", equilibrium.why()));
+  equilibrium.accept(1, state);
 }
 
 }  // namespace
@@ -227,7 +77,7 @@ void settle(const System& system, const Environment& of_motion, const NewtonOpti
   system.get_rates(state, v, unused);
   const State assembled = state;
   try {
-    solve_statics(system, environment, 1, options, state);
+    solve_statics(system, environment, LoadSteps(1, {0, 1}), options, state);
   } catch (const ComputationError&) {
     state = assembled;
     relax(system, environment, options, state);

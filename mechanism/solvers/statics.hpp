@@ -1,20 +1,32 @@
-// Static equilibrium by load steps: loads, gravity and prescribed joint motions grow with the load factor from 0 to 1.
+// Static equilibrium by load steps: loads, gravity and prescribed motions grow with the load factor to their full
+// value. Past limit points of the load: arc_length.hpp.
 #pragma once
 
 #include <functional>
 
 #include "mechanism/solvers/consistent_start.hpp"
+#include "mechanism/solvers/load_ramp.hpp"
 
 namespace bielle::mechanism {
 
-/// Brings the state into equilibrium under the full load in equal increments of the load factor, each by Newton's
-/// method; an increment that does not converge is halved (down to 1/1024 of the first). Velocities and accelerations
-/// are zero.
+/// Equal increments of the load factor.
+struct LoadSteps {
+  /// 0: a tenth of the way is tried first, and increments grow as long as Newton's method finds its way easily.
+  int count = 1;
+  Loaded start{};  ///< what acts already
+  LoadSteps(int steps, const Loaded& begin = {}) : count(steps), start(begin) {}
+};
+
+/// Brings the state into equilibrium under the full load in increments of the load factor, each by Newton's method; an
+/// increment that does not converge is halved (down to 1/1024 of the first). Velocities and accelerations are zero.
+/// Where all of the load acts already (behind a motion), there is one step, down to the equilibrium from where the
+/// state is.
 /// @param environment  with gravity of load factor 1
-/// @param record       called after each increment with the state and its load factor
-/// @throws ComputationError naming the load factor and the equation where Newton stalled
-void solve_statics(const System& system, const Environment& environment, int steps, const NewtonOptions& options,
-                   State& state, const std::function<void(const State&, double, int)>& record = {});
+/// @param record       called after each increment with the state, its load factor and the iterations
+/// @throws ComputationError naming the load factor and what refused, or the equation where Newton stalled
+void solve_statics(const System& system, const Environment& environment, const LoadSteps& steps,
+                   const NewtonOptions& options, State& state,
+                   const std::function<void(const State&, double, int)>& record = {});
 
 /// Brings the state into equilibrium under the loads at its time, as the start of a motion: velocities stay as they
 /// are. Adds to the report what had to move, by assembly and by equilibrium.

@@ -87,13 +87,14 @@ const Carry* NodeKinematics::carry(int node) const {
   return index < 0 ? nullptr : &carries_[static_cast<std::size_t>(index)];
 }
 
-void NodeKinematics::prescribe_positions(std::vector<NodeState>& nodes, double time) const {
+void NodeKinematics::prescribe_positions(std::vector<NodeState>& nodes, double time, double motion_factor) const {
   for (const Prescribed& p : prescribed_) {
     NodeState& node = nodes[static_cast<std::size_t>(p.node)];
     for (std::size_t k = 0; k < 3; ++k)
       if (p.freedom[k] == Freedom::prescribed)
-        node.x[static_cast<int>(k)] = p.start.x[static_cast<int>(k)] + p.motion[k](time);
-    if (p.rotation) node.R = exp_so3({p.motion[3](time), p.motion[4](time), p.motion[5](time)}) * p.start.R;
+        node.x[static_cast<int>(k)] = p.start.x[static_cast<int>(k)] + motion_factor * p.motion[k](time);
+    if (p.rotation)
+      node.R = exp_so3(motion_factor * Vector3(p.motion[3](time), p.motion[4](time), p.motion[5](time))) * p.start.R;
   }
 }
 
@@ -113,14 +114,14 @@ void NodeKinematics::follow_carriers(std::vector<NodeState>& nodes) const {
 
 void NodeKinematics::start(std::vector<NodeState>& nodes, double time) const {
   nodes = start_;
-  prescribe_positions(nodes, time);
+  prescribe_positions(nodes, time, 1);
   VectorX v(unknowns_), a(unknowns_);
   get_rates(nodes, v, a);
   set_rates(nodes, v, a, time);
 }
 
 void NodeKinematics::displace(std::vector<NodeState>& nodes, const std::vector<NodeState>& base,
-                              const Eigen::Ref<const VectorX>& dp, double time) const {
+                              const Eigen::Ref<const VectorX>& dp, double time, double motion_factor) const {
   for (std::size_t i = 0; i < freedom_.size(); ++i) {
     const NodeFreedom& f = freedom_[i];
     if (f.count == 0) continue;
@@ -132,7 +133,7 @@ void NodeKinematics::displace(std::vector<NodeState>& nodes, const std::vector<N
     nodes[i].x = base[i].x + dz.head<3>();
     nodes[i].R.noalias() = base[i].R * exp_so3(dz.tail<3>());
   }
-  prescribe_positions(nodes, time);
+  prescribe_positions(nodes, time, motion_factor);
   follow_carriers(nodes);
 }
 

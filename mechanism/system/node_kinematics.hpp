@@ -47,8 +47,9 @@ class NodeKinematics {
   /// Start positions and rates of all nodes at the given time.
   void start(std::vector<NodeState>& nodes, double time) const;
   /// nodes = base o exp(G dp), prescribed and carried nodes following. @param dp (unknowns)
+  /// @param motion_factor  part of the prescribed motions that is made
   void displace(std::vector<NodeState>& nodes, const std::vector<NodeState>& base, const Eigen::Ref<const VectorX>& dp,
-                double time) const;
+                double time, double motion_factor) const;
   /// Rates of all nodes from the independent ones. @param v,a (unknowns)
   void set_rates(std::vector<NodeState>& nodes, const Eigen::Ref<const VectorX>& v, const Eigen::Ref<const VectorX>& a,
                  double time) const;
@@ -62,7 +63,7 @@ class NodeKinematics {
   double support_power(const std::vector<NodeState>& nodes, const Eigen::Ref<const VectorX>& forces) const;
 
  private:
-  void prescribe_positions(std::vector<NodeState>& nodes, double time) const;
+  void prescribe_positions(std::vector<NodeState>& nodes, double time, double motion_factor) const;
   void follow_carriers(std::vector<NodeState>& nodes) const;
 
   /// A node with prescribed directions.

@@ -21,6 +21,8 @@ struct NodeState {
 /// Everything that moves. Restart, results and components read it; only system/ and solvers/ write it.
 struct State {
   double time = 0;  ///< [s]
+  /// Part of the prescribed motions (of nodes, and of joints by drives) that is made: 1 but on the way of statics.
+  double motion_factor = 1;
   std::vector<NodeState> nodes;
   VectorX amplitude, amplitude_rate, amplitude_acceleration;  ///< second-order scalars (modes of superelements)
   VectorX first_order, first_order_rate;                      ///< first-order unknowns y (pressures)
@@ -31,7 +33,7 @@ struct State {
 /// What acts everywhere, as seen by components.
 struct Environment {
   Vector3 gravity = Vector3::Zero();  ///< [m/s^2], inertial, already multiplied by the load factor
-  double load_factor = 1;             ///< on loads and drives: 1 but in a static analysis
+  double load_factor = 1;             ///< on loads and forces of drives: 1 but in a static analysis
   bool statics = false;               ///< the load factor takes the place of time, in messages as well
 };
 
@@ -61,6 +63,7 @@ class LocalState {
       : state_(state), slots_(slots), environment_(environment) {}
   const State& global() const { return state_; }
   double time() const { return state_.time; }
+  double motion_factor() const { return state_.motion_factor; }
   const Environment& environment() const { return environment_; }
   const Slots& slots() const { return slots_; }
   const NodeState& node(int k) const {

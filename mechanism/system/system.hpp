@@ -64,7 +64,7 @@ class System {
 
   /// State of the input file at a time: positions and rates as given, start values of scalars, multipliers zero.
   State start(double time) const;
-  /// state = base o exp(dq) at state.time. @param dq (dofs)
+  /// state = base o exp(dq) at state.time, with the part state.motion_factor of prescribed motions. @param dq (dofs)
   void displace(State& state, const State& base, const Eigen::Ref<const VectorX>& dq) const;
   void set_rates(State& state, const Eigen::Ref<const VectorX>& v, const Eigen::Ref<const VectorX>& a) const;
   void get_rates(const State& state, Eigen::Ref<VectorX> v, Eigen::Ref<VectorX> a) const;

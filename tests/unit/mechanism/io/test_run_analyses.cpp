@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include "mechanism/io/describe_model.hpp"
 #include "mechanism/io/run_analyses.hpp"
@@ -33,6 +34,66 @@ analysis: [{type: static, steps: 2}]
   REQUIRE(torque.size() == 2);
   CHECK(torque(0, 0) == Approx(2));
   CHECK(torque(1, 0) == Approx(4));
+}
+
+TEST_CASE(
+    "a path records its points with their load factors, names its limit points, and load steps go on from its end") {
+  // Von Mises' truss, b = 3, h = 1, 200 N/m: its limit load is 2 k L0 y (1/L - 1/L0) at L^3 = b^2 L0, y^2 = L^2 - b^2.
+  const test::TemporaryFolder folder;
+  const MechanismFile file = read_mechanism_text(R"yaml(
+nodes:
+  left: {position: [-3, 0, 0], fixed: true}
+  right: {position: [3, 0, 0], fixed: true}
+  apex: {position: [0, 1, 0], fixed: [x, z, rx, ry, rz]}
+  stage: {motion: {x: "0.5 + t"}}
+elements:
+  l: {type: spring_damper, nodes: [left, apex], stiffness: 200}
+  r: {type: spring_damper, nodes: [right, apex], stiffness: 200}
+  load: {type: point_mass, node: stage, mass: 1}
+loads: {p: {node: apex, force: [0, -20, 0]}}
+analysis:
+  - {type: static, arc_length: {until: {node: apex, displacement: -1.9, direction: y}}}
+  - {type: static, steps: 2}
+  - {type: dynamic, duration: 0.1, step: 0.1}
+  - {type: static, steps: 4}
+)yaml",
+                                                 "truss.yaml");
+  const std::string path = folder / "truss.h5";
+  Progress progress(true);
+  const std::vector<AnalysisSummary> summaries = run_analyses(file, path, progress);
+  const double L0 = std::sqrt(10.0), L = std::cbrt(9 * L0), y = std::sqrt(L * L - 9);
+  const double limit = 2 * 200 * L0 * y * (1 / L - 1 / L0) / 20;
+  REQUIRE(summaries.front().limit_points.size() == 2);
+  CHECK(summaries.front().limit_points[0] == Approx(limit).epsilon(1e-9));
+  CHECK(summaries.front().limit_points[1] == Approx(-limit).epsilon(1e-9));
+  CHECK_THAT(
+      format_summary(file, summaries, {}, path),
+      Catch::Contains("static, arc length") && Catch::Contains(fmt::format("limit point at load factor {:.6}", limit)));
+  const Hdf5File results = Hdf5File::open(path);
+  const auto column = [&](const std::string& name, Eigen::Index k) {
+    return Eigen::VectorXd(results.read_matrix(name).col(k));
+  };
+  const Eigen::VectorXd factor = column("/analysis_1/time", 0), apex = column("/analysis_1/nodes/apex/position", 1),
+                        stage = column("/analysis_1/nodes/stage/position", 0);
+  REQUIRE(factor.size() == summaries.front().records);
+  for (Eigen::Index k = 0; k < factor.size(); ++k) {
+    CHECK(20 * factor[k] == Approx(400 * L0 * apex[k] * (1 / std::hypot(3, apex[k]) - 1 / L0)).margin(1e-7));
+    CHECK(stage[k] == Approx(0.5 * factor[k]).margin(1e-12));
+  }
+  CHECK(apex[factor.size() - 1] == Approx(-0.9).margin(1e-11));
+  const double end = factor[factor.size() - 1];
+  const Eigen::VectorXd second = column("/analysis_2/time", 0), moved = column("/analysis_2/nodes/stage/position", 0);
+  REQUIRE(second.size() == 2);
+  CHECK(second[0] == Approx(0.5 * (1 + end)));
+  CHECK(second[1] == 1);
+  CHECK(moved[1] == Approx(0.5));
+  // Behind the motion all of the loads act, and the stage stands where its motion at that time has it.
+  const Eigen::VectorXd last = column("/analysis_4/time", 0);
+  REQUIRE(last.size() == 1);
+  CHECK(last[0] == 1);
+  CHECK(column("/analysis_4/nodes/stage/position", 0)[0] == Approx(0.6));
+  CHECK(column("/analysis_4/nodes/apex/position", 1)[0] ==
+        Approx(column("/analysis_2/nodes/apex/position", 1)[1]).margin(1e-8));
 }
 
 TEST_CASE("two drives on one joint move its two coordinates, and record their forces side by side") {
