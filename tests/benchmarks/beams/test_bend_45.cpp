@@ -110,3 +110,35 @@ TEST_CASE("the load steps of a static analysis find the 45-degree bend, also fro
     CHECK((state.nodes[2].x - Vector3(15.684800534, 47.150438574, 53.474858792)).norm() < 1e-4);
   }
 }
+
+TEST_CASE("the 45-degree bend at five times the usual load by the steps that the program chooses") {
+  // P = 3000; the tip goes up by 68.5. References as above.
+  struct Case {
+    std::string section;
+    Vector3 exact;
+  };
+  for (const Case& c :
+       {Case{polar, {4.232875917, 23.024308225, 68.539089493}},
+        Case{"{EA: 1e7, GAy: 5e6*5/6, GAz: 5e6*5/6, GJ: 5e6/6, EIy: 1e7/12, EIz: 1e7/12}",
+             {4.232850791, 23.023589455, 68.540398996}},
+        Case{"{rectangle: [1, 1], young: 1e7, poisson: 0}", {4.213966855, 22.958001273, 68.524190791}}}) {
+    std::vector<double> errors;
+    for (const int elements : {8, 16, 32}) {
+      const MechanismFile file = read_mechanism_text(
+          fmt::format("nodes: {{root: {{position: [0, 0, 0], fixed: true}}, tip: {{position: ['100 - 50*sqrt(2)', "
+                      "'50*sqrt(2)', 0]}}}}\nelements: {{b: {{type: beam, nodes: [root, tip], arc_centre: [100, 0, 0], "
+                      "elements: {}, section: {}}}}}\nloads: {{p: {{node: tip, force: [0, 0, 3000]}}}}\n"
+                      "analysis: [{{type: static, steps: auto}}]\n",
+                      elements, c.section),
+          "bend.yaml");
+      const System system(file.model);
+      State state = system.start(0);
+      solve_statics(system, file.model.environment, file.analyses.front().steps, NewtonOptions{}, state);
+      errors.push_back((state.nodes[2].x - c.exact).norm());
+    }
+    CAPTURE(c.section, errors);
+    CHECK(std::log2(errors[0] / errors[1]) > 1.9);
+    CHECK(std::log2(errors[1] / errors[2]) > 1.9);
+    CHECK(errors[2] < 1e-3);
+  }
+}

@@ -2,6 +2,7 @@
 #include "tests/benchmarks/beams/flying_spaghetti.hpp"
 
 using namespace bielle::test::spaghetti;
+using bielle::test::ReadyModel;
 
 TEST_CASE("flying spaghetti in the plane at late times converges to the reference") {
   check(100, true, 0.01, {{15, {32.425897, 4.518096, 0}, {23.771001, 5.922268, 0}}}, 5e-4);
@@ -10,4 +11,15 @@ TEST_CASE("flying spaghetti in the plane at late times converges to the referenc
 
 TEST_CASE("flying spaghetti in space at a late time converges to the reference") {
   check(500, false, 0.005, {{10, {44.402384, 1.669030, -2.065274}, {36.408950, 6.335486, 1.678987}}}, 5e-4);
+}
+
+TEST_CASE("flying spaghetti in the plane at a late time: its middle, too") {
+  std::vector<bielle::mechanism::Vector3> errors;
+  for (const int level : {1, 2})
+    fly(16 << level, 100, true, 0.01 / (1 << level), {15},
+        [&](const ReadyModel& model, const bielle::mechanism::State& state, std::size_t) {
+          errors.push_back(model.node(state, fmt::format("s.{}", 8 << level)).x -
+                           bielle::mechanism::Vector3(27.802573, 3.041078, 0));
+        });
+  CHECK(((4 * errors[1] - errors[0]) / 3).norm() < 5e-4);
 }

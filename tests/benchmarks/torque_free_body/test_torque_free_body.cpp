@@ -33,6 +33,14 @@ TEST_CASE("a body turning about its intermediate axis follows the elliptic funct
       0.2, 0.2);
 }
 
+TEST_CASE("a body turning about its intermediate axis is right after four flips, too") {
+  const ReadyModel model(body);
+  const Vector3 exact(0.01571521768, 4.99998530317, 0.01220611959);  // at 20 s
+  check_second_order(
+      [&](double h) -> VectorX { return model.node(integrate(model, scheme, h, 20), "body").Omega - exact; }, 2e-3, 2,
+      0.2, 0.2);
+}
+
 TEST_CASE("a body turning about its intermediate axis flips when the closed form does, with order 2") {
   const ReadyModel model(body);
   const auto flips = [&](double h) -> VectorX {

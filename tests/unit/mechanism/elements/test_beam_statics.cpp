@@ -152,11 +152,11 @@ TEST_CASE("the twisted beam of MacNeal and Harder") {
   // R. MacNeal, R. Harder, Finite Elem. Anal. Des. 1 (1985) 3: L = 12, 1.1 x 0.32, twist 90 degrees, E = 29e6, nu =
   // 0.22; published 5.424e-3 and 1.754e-3. Here the exact linear solution of the pre-twisted Timoshenko rod (k = 5/6),
   // by shooting.
-  const auto twisted = [](int elements, const std::string& bending) {
+  const auto twisted = [](int elements, const std::string& bending, const std::string& shear = "") {
     return "nodes: {root: {position: [0, 0, 0]}, tip: {position: [12, 0, 0]}}\n"
            "elements: {b: {type: beam, nodes: [root, tip], orientation: [0, 1, 0], twist: pi/2, elements: " +
            std::to_string(elements) + ", bending: " + bending +
-           ", section: {rectangle: [0.32, 1.1], young: 29e6, poisson: 0.22}}}\n";
+           ", section: {rectangle: [0.32, 1.1], young: 29e6, poisson: 0.22" + shear + "}}}\n";
   };
   check_deflection(5.4293214784e-3, [&](int n, const char* bending) {
     return unit_deflection(twisted(n, bending), Vector3::UnitY()).y();
@@ -164,7 +164,17 @@ TEST_CASE("the twisted beam of MacNeal and Harder") {
   check_deflection(1.7496233389e-3, [&](int n, const char* bending) {
     return unit_deflection(twisted(n, bending), Vector3::UnitZ()).z();
   });
-  // The cross flexibility is symmetric, 1.7187438647e-3 to the digits of the reference without shear.
+  // Stiff in shear: the pre-twisted Bernoulli rod.
+  const std::string stiff = ", shear_factors: [1e8, 1e8]";
+  for (const int n : {1, 3}) {
+    CHECK_THAT(unit_deflection(twisted(n, "residual", stiff), Vector3::UnitY()).y(),
+               Catch::WithinRel(5.4258794721e-3, 1e-8));
+    CHECK_THAT(unit_deflection(twisted(n, "residual", stiff), Vector3::UnitZ()).z(),
+               Catch::WithinRel(1.7461813326e-3, 1e-8));
+    CHECK_THAT(std::abs(unit_deflection(twisted(n, "residual", stiff), Vector3::UnitZ()).y()),
+               Catch::WithinRel(1.7187438647e-3, 1e-8));
+  }
+  // The cross flexibility is symmetric.
   const double yz = unit_deflection(twisted(8, "residual"), Vector3::UnitY()).z();
   CHECK_THAT(yz, Catch::WithinRel(unit_deflection(twisted(8, "residual"), Vector3::UnitZ()).y(), 1e-9));
   CHECK_THAT(std::abs(yz), Catch::WithinRel(1.7187438647e-3, 1e-4));
