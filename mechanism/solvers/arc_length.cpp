@@ -91,9 +91,9 @@ class Path {
       trial_.factor = factor_ + arc_ * tangent_.slope;
       if (!correct(ArcCondition(step_, arc_), arc_)) continue;
       double length = arc_;
-      const Tangent before = tangent_;
       Tangent after = tangent_at(trial_);
-      const bool limit = !at_limit_ && before.slope * after.slope <= 0 && locate_limit(after, length);
+      const bool limit = going_ * after.slope <= 0;
+      if (limit && !locate_limit(after, length)) continue;
       const double gap = end_.gap(trial_.state, trial_.factor);
       if (gap_ * gap <= 0) {
         if (!meet_end(gap, length)) continue;
@@ -137,12 +137,14 @@ class Path {
     const double closing = (end_.gap(trial.state, trial.factor) - gap_) / part;
     double way = std::abs(gap_ / closing);  // in load factors
     if (!std::isfinite(way)) way = factor_ == 1 ? 1 : std::abs(1 - factor_);
-    const double sign = factor_ != 0 || path_.end.load_factor ? (closing * gap_ > 0 ? -1 : 1) : 1;
+    const bool towards_end = factor_ != 0 || path_.end.load_factor;
+    const double sign = towards_end && closing * gap_ > 0 ? -1 : 1;
     const double steps = path_.steps > 0 ? path_.steps : 20;
     first_arc_ = std::min(response * way / steps, longest_arc / 2);
     most_arc_ = path_.steps > 0 ? std::min(4 * first_arc_, longest_arc) : longest_arc;
     arc_ = first_arc_;
     tangent_ = {sign / response * b, sign / response};
+    going_ = sign;
   }
 
   bool correct(const PathCondition& condition, double arc) {
@@ -168,33 +170,35 @@ class Path {
     return {trial.delta / step_.length(trial.delta), 0};
   }
 
-  /// Between the base and the trial the slope of the load factor changes its sign: moves the trial to where it vanishes
-  /// (regula falsi after Illinois). @returns false where that fails; the trial is then as it was
+  /// Between the base and the trial the slope of the load factor changes its sign: moves the trial to where it
+  /// vanishes, or to the kink where it jumps (regula falsi after Illinois). @returns whether it was found
   bool locate_limit(Tangent& after, double& length) {
-    constexpr int most = 30;
-    constexpr double accurate = 1e-12;  // the load factor beside itself
+    constexpr int most = 60;
+    constexpr double accurate = 1e-12, kink = 1e-10;  // the load factor beside itself, the arc beside the step
     const PathTrial far = trial_;
-    double low = 0, high = length, slope_low = tangent_.slope, slope_high = after.slope;
+    const double size = std::max(std::abs(far.factor), std::abs(factor_)) + std::abs(tangent_.slope) * length;
+    // Behind a limit point the slope is nearly zero and says nothing.
+    double low = 0, high = length, slope_high = after.slope, slope_low = at_limit_ ? -slope_high : tangent_.slope;
     for (int k = 0, side = 0; k < most; ++k) {
       const double arc = (low * slope_high - high * slope_low) / (slope_high - slope_low);
       trial_.delta = arc / length * far.delta;
       trial_.factor = factor_ + arc / length * (far.factor - factor_);
-      if (!correct(ArcCondition(step_, arc), arc)) break;
+      if (!correct(ArcCondition(step_, arc), arc)) return false;
       const Tangent here = tangent_at(trial_);
       const double curvature = std::abs((slope_high - slope_low) / (high - low));
-      if (here.slope * here.slope <= 2 * curvature * accurate * std::max(std::abs(trial_.factor), std::abs(factor_))) {
+      if (here.slope * here.slope <= 2 * curvature * accurate * size || high - low < kink * length) {
         trial_.iterations += far.iterations;
         after = here;
         length = arc;
         return true;
       }
-      const bool rising = here.slope * tangent_.slope > 0;
-      (rising ? low : high) = arc;
-      (rising ? slope_low : slope_high) = here.slope;
-      if (side == (rising ? 1 : -1)) (rising ? slope_high : slope_low) /= 2;
-      side = rising ? 1 : -1;
+      const bool before = here.slope * going_ > 0;
+      (before ? low : high) = arc;
+      (before ? slope_low : slope_high) = here.slope;
+      if (side == (before ? 1 : -1)) (before ? slope_high : slope_low) /= 2;
+      side = before ? 1 : -1;
     }
-    trial_ = far;
+    why_ = fmt::format("the limit point near load factor {:.6g} was not found", trial_.factor);
     return false;
   }
 
@@ -224,14 +228,16 @@ class Path {
       check_set_aside(system_, loaded, trial_.state);
       system_.accept(trial_.state, loaded);
     } catch (const ComputationError& error) {
-      throw ComputationError(fmt::format("static path: the equilibrium at load factor {:.6g} is refused: {}",
-                                         trial_.factor, error.what()));
+      throw ComputationError(
+          fmt::format("static path: the equilibrium at load factor {:.6g} is refused: {}; largest residual: {}",
+                      trial_.factor, error.what(), step_.worst()));
     }
     state_ = trial_.state;
     factor_ = trial_.factor;
     gap_ = gap;
     tangent_ = after;
     at_limit_ = limit;
+    going_ = limit ? -going_ : after.slope < 0 ? -1 : 1;
     // A step that was cut at a limit point says nothing against the arc that led there.
     if (!limit) arc_ = length * std::clamp(std::sqrt(easy_iterations / std::max(1, trial_.iterations)), 0.5, 2.0);
     arc_ = std::min(arc_, most_arc_);
@@ -248,6 +254,7 @@ class Path {
   double gap_, whole_;
   double first_arc_ = 0, most_arc_ = 0, arc_ = 0;
   Tangent tangent_;
+  double going_ = 1;  ///< sign of the load factor's slope behind the last point
   bool at_limit_ = false;
   PathTrial trial_;
   std::string why_;

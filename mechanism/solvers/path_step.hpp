@@ -44,6 +44,7 @@ class PathStep {
   /// @param longest  of the increments: what goes farther has lost its way
   bool correct(const State& base, const PathCondition& condition, double longest, PathTrial& trial);
   const std::string& why() const { return why_; }
+  std::string worst() const { return convergence_.worst(); }  ///< residual of the last iteration
 
  private:
   bool iterate(const State& base, const PathCondition& condition, double longest, PathTrial& trial);

@@ -204,6 +204,27 @@ std::string arch(double scale) {
 
 }  // namespace
 
+TEST_CASE("a limit point at a kink, and limit points at load factor zero and far from the full load") {
+  // A law that rises to 5 N at an elongation of 0.1 and falls from there; unloaded at 0.2, where a stiffer branch
+  // begins.
+  const auto spring = [](double force) {
+    return fmt::format(
+        "nodes: {{m: {{position: [1, 0, 0], fixed: [y, z, rx, ry, rz]}}}}\nelements:\n  s: {{type: spring_damper, "
+        "nodes: "
+        "[ground, m], force: \"if(e < 0.1, 50*e, if(e < 0.2, 50*(0.2 - e), 200*(e - 0.2)))\", length: 1}}\n"
+        "loads: {{f: {{node: m, force: [{}, 0, 0]}}}}\n",
+        force);
+  };
+  for (const double force : {5.0, 1e-6, 1e6}) {
+    const ReadyModel model(spring(force));
+    const Followed path = follow(model, until(model, "m", Vector3::UnitX(), 0.25));
+    REQUIRE(path.limits.size() == 2);
+    CHECK_THAT(path.limits[0] * force, WithinAbs(5, 1e-6));
+    CHECK_THAT(path.limits[1] * force, WithinAbs(0, 1e-6));
+    CHECK_THAT(path.end.factor * force, WithinAbs(10, 1e-6));
+  }
+}
+
 TEST_CASE("a path does not depend on units") {
   std::vector<Followed> paths;
   std::vector<double> ends;
