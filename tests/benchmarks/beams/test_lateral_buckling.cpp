@@ -30,8 +30,7 @@ void check_load(double exact, const Load& load) {
 TEST_CASE("a cantilever strip buckles sideways under a dead load at its tip") {
   // P L^2/sqrt(EI_w GJ); 4.0126 for a strip that is rigid in its plane (S. Timoshenko, J. Gere, Theory of Elastic
   // Stability, art. 6.4), more where EI_w/EI_stiff = GJ/EI_stiff is not small.
-  for (const auto& [ratio, exact] :
-       {std::pair{1e-3, 4.017194831150}, {1e-2, 4.059627405541}, {0.05, 4.274845155223}, {0.1, 4.624632264476}})
+  for (const auto& [ratio, exact] : {std::pair{1e-3, 4.017194831150}, {1e-2, 4.059627405541}, {0.1, 4.624632264476}})
     check_load(exact, [ratio = ratio](int elements) {
       StaticModel strip(
           fmt::format("nodes: {{root: {{position: [0, 0, 0], fixed: true}}, tip: {{position: [1, 0, 0]}}}}\n"
@@ -60,65 +59,42 @@ TEST_CASE("a strip of aluminium with the torsion constant of its rectangle") {
 namespace {
 
 /// A frame of two legs of 240, section 30 x 0.6 in its plane, E = 71240, nu = 0.31. J. Argyris et al., Comput. Methods
-/// Appl. Mech. Eng. 17/18 (1979) 1. GJ is Saint-Venant's, or G h b^3/3 as in the publication.
-std::string leg(const std::string& name, const std::string& from, const std::string& to, int elements, bool published) {
-  return fmt::format("  {}: {{type: beam, nodes: [{}, {}], elements: {}, orientation: [0, 0, 1], section: {}}}\n", name,
-                     from, to, elements,
-                     published
-                         ? "{EA: 71240*18, GAy: 71240*15/2.62, GAz: 71240*15/2.62, GJ: 71240*30*0.6^3/3/2.62, EIy: "
-                           "71240*0.6*30^3/12, EIz: 71240*30*0.6^3/12}"
-                         : "{rectangle: [0.6, 30], young: 71240, poisson: 0.31}");
-}
-
-/// The first leg along y from the clamp, the second along x to the tip, which carries a unit force.
-StaticModel cantilever_frame(int elements, bool published, const char* force) {
-  return StaticModel(
-      "nodes: {root: {position: [0, 0, 0], fixed: true}, corner: {position: [0, 240, 0]}, tip: {position: [240, 240, "
-      "0]}}\nelements:\n" +
-      leg("first", "root", "corner", elements, published) + leg("second", "corner", "tip", elements, published) +
-      fmt::format("loads: {{p: {{node: tip, force: {}}}}}\n", force));
+/// Appl. Mech. Eng. 17/18 (1979) 1.
+std::string leg(const std::string& name, const std::string& from, const std::string& to, int elements) {
+  return fmt::format(
+      "  {}: {{type: beam, nodes: [{}, {}], elements: {}, orientation: [0, 0, 1], section: {{rectangle: [0.6, 30], "
+      "young: "
+      "71240, poisson: 0.31}}}}\n",
+      name, from, to, elements);
 }
 
 }  // namespace
 
 TEST_CASE("a cantilever right-angle frame buckles out of its plane") {
-  // The load at the tip is parallel to the first leg: away from the clamp, and towards it. Published 1.088 and 0.680.
-  struct Case {
-    bool published;
-    const char* force;
-    double exact;
-  };
-  for (const Case& c : {Case{false, "[0, 1, 0]", 1.0840875933}, Case{false, "[0, -1, 0]", 0.6789283208},
-                        Case{true, "[0, 1, 0]", 1.0875178408}, Case{true, "[0, -1, 0]", 0.6804273623}})
-    check_load(c.exact, [&](int elements) {
-      return cantilever_frame(elements, c.published, c.force).critical_load(0.5, 0.05, 1e-6, 1e-8);
+  // Published 1.088 and 0.680 with GJ = G h b^3/3; these with Saint-Venant's constant. The load at the tip is parallel
+  // to the first leg.
+  for (const auto& [direction, exact] : {std::pair{1, 1.0840875933}, {-1, 0.6789283208}})
+    check_load(exact, [direction = direction](int elements) {
+      StaticModel frame(
+          "nodes: {root: {position: [0, 0, 0], fixed: true}, corner: {position: [0, 240, 0]}, tip: {position: [240, "
+          "240, 0]}}\n"
+          "elements:\n" +
+          leg("first", "root", "corner", elements) + leg("second", "corner", "tip", elements) +
+          fmt::format("loads: {{p: {{node: tip, force: [0, {}, 0]}}}}\n", direction));
+      return frame.critical_load(0.5, 0.05, 1e-6, 1e-8);
     });
 }
 
-TEST_CASE("a cantilever right-angle frame that is loaded along its second leg") {
-  // Towards the corner and outwards; four digits of the reference, with G h b^3/3.
-  const auto load = [](const char* force, double low, double step) {
-    const auto with = [&](int elements) {
-      return cantilever_frame(elements, true, force).critical_load(low, step, 1e-6, 1e-8);
-    };
-    return (4 * with(16) - with(8)) / 3;
-  };
-  CHECK_THAT(load("[-1, 0, 0]", 0.5, 0.05), Catch::WithinAbs(0.6508, 1e-3));
-  CHECK_THAT(load("[1, 0, 0]", 3, 0.2), Catch::WithinAbs(3.979, 2e-2));
-}
-
 TEST_CASE("a hinged right-angle frame buckles under end moments of either sign") {
-  // Ends slide along x and turn about z; published 622.2.
-  for (const auto& [published, exact] : {std::pair{false, 618.2869}, {true, 622.2217}})
-    for (const int sign : {1, -1})
-      check_load(exact, [sign, published = published](int elements) {
-        StaticModel frame(fmt::format(
-            "nodes:\n  left: {{position: ['-120*sqrt(2)', 0, 0], fixed: [y, z, rx, ry]}}\n"
-            "  apex: {{position: [0, '120*sqrt(2)', 0], fixed: [x]}}\n"  // of what slides freely, one place is held
-            "  right: {{position: ['120*sqrt(2)', 0, 0], fixed: [y, z, rx, ry]}}\nelements:\n{}{}"
-            "loads: {{a: {{node: left, moment: [0, 0, {}]}}, b: {{node: right, moment: [0, 0, {}]}}}}\n",
-            leg("first", "left", "apex", elements, published), leg("second", "apex", "right", elements, published),
-            sign, -sign));
-        return frame.critical_load(600, 5, 1e-5, 1e-4);
-      });
+  // Ends slide along x and turn about z; published 622.2 with GJ = G h b^3/3.
+  for (const int sign : {1, -1})
+    check_load(618.2869, [sign](int elements) {
+      StaticModel frame(fmt::format(
+          "nodes:\n  left: {{position: ['-120*sqrt(2)', 0, 0], fixed: [y, z, rx, ry]}}\n"
+          "  apex: {{position: [0, '120*sqrt(2)', 0], fixed: [x]}}\n"  // of what slides freely, one place is held
+          "  right: {{position: ['120*sqrt(2)', 0, 0], fixed: [y, z, rx, ry]}}\nelements:\n{}{}"
+          "loads: {{a: {{node: left, moment: [0, 0, {}]}}, b: {{node: right, moment: [0, 0, {}]}}}}\n",
+          leg("first", "left", "apex", elements), leg("second", "apex", "right", elements), sign, -sign));
+      return frame.critical_load(600, 5, 1e-5, 1e-4);
+    });
 }
