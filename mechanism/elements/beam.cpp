@@ -57,7 +57,7 @@ void read_beam(const std::string& name, const YamlValue& entry, Model& model) {
   constexpr int most = 100000;
   if (count < 1) elements->fail(fmt::format("expected at least one element; found {}", count));
   if (count > most) elements->fail(fmt::format("a beam has at most {} elements; found {}", most, count));
-  const BeamBending law = bending && bending->word({"residual", "constant"}, "bending of a beam") == "constant"
+  const BeamBending law = bending && bending->word({"residual", "constant"}, "a kind of `bending`") == "constant"
                               ? BeamBending::constant
                               : BeamBending::residual;
   const double damping_time = damping ? damping->non_negative_number() : 0;
@@ -72,10 +72,11 @@ void read_beam(const std::string& name, const YamlValue& entry, Model& model) {
   for (int k = 0; k <= count; ++k) sections.push_back(line.frame(static_cast<double>(k) / count, R_start, total_twist));
   const double turn = std::hypot(line.angle(), total_twist) / count;
   if (turn > BeamElement::largest_turn)
-    entry.fail(fmt::format(
-        "with its arc and twist each of {} elements would turn by {:.0f} degrees, and none follows more than {:.0f}: "
-        "give more `elements`",
-        count, turn * degrees, BeamElement::largest_turn * degrees));
+    entry.fail(
+        fmt::format("with its arc and twist {} would turn by {:.0f} degrees, and none follows more than {:.0f}: give "
+                    "more `elements`",
+                    count == 1 ? "its one element" : fmt::format("each of {} elements", count), turn * degrees,
+                    BeamElement::largest_turn * degrees));
 
   const std::vector<int> nodes = make_nodes(name, entry, ends, sections, model);
   for (int k = 0; k < count; ++k) {

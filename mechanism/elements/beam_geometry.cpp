@@ -61,7 +61,13 @@ BeamLine arc_about(const YamlValue& value, const Vector3& start, const Vector3& 
   const Vector3 chord = end - start, middle = 0.5 * (start + end);
   const Vector3 centre = given - chord * (chord.dot(given - middle) / chord.squaredNorm());
   const Vector3 normal = (start - centre).cross(end - centre);
-  if (normal.norm() <= 1e-6 * r_a * r_a)
+  constexpr double flat = 1e-6;
+  if (normal.norm() <= flat * r_a * r_a && (start - centre).dot(end - centre) > 0)
+    value.fail(
+        fmt::format("about this centre, {:.3g} m away, the arc turns by less than {:.0e} rad: leave it out for a "
+                    "straight beam",
+                    r_a, flat));
+  if (normal.norm() <= flat * r_a * r_a)
     value.fail("a half circle about a centre lies in no definite plane: give a point on it by `arc_through` instead");
   const double angle = std::atan2(normal.norm(), (start - centre).dot(end - centre));
   return BeamLine::arc(start, centre, normal.normalized(), angle);

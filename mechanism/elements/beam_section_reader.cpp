@@ -53,6 +53,7 @@ VectorX read_constants(const YamlValue& value) {
     numbers[6 + k] = item.non_negative_number();
     // Without rotary inertia the section's rotation would have no mass at all.
     if (numbers[6] > 0 && numbers[6 + k] == 0) item.fail("a section with mass has mass moments > 0 about all its axes");
+    if (numbers[6] == 0 && numbers[6 + k] > 0) item.fail("a section without mass has no mass moments");
   }
   return numbers;
 }

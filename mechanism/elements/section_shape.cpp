@@ -157,12 +157,15 @@ Vector2 one_or_two(const YamlValue& value, const std::string& pair) {
 
 VectorX read_walls(const std::string& shape, const YamlValue& value) {
   VectorX d(6);
+  const bool flanged = shape == "i" || shape == "t";
+  value.check_keys(flanged ? std::vector<std::string>{"width", "height", "web", "flange"}
+                           : std::vector<std::string>{"width", "height", "thickness"},
+                   (shape == "i" || shape == "l" ? "an " : "a ") + shape + " section");
   const double height = value.at("height").positive_number();
   const auto check = [&](const char* key, bool fits, const char* why) {
     if (!fits) value.at(key).fail(why);
   };
   if (shape == "i") {
-    value.check_keys({"width", "height", "web", "flange"}, "an i section");
     const Vector2 width = one_or_two(value.at("width"), "[below, above]"),
                   flange = one_or_two(value.at("flange"), "[below, above]");
     const double web = value.at("web").positive_number();
@@ -172,7 +175,6 @@ VectorX read_walls(const std::string& shape, const YamlValue& value) {
     return d;
   }
   if (shape == "t") {
-    value.check_keys({"width", "height", "web", "flange"}, "a t section");
     const double width = value.at("width").positive_number(), web = value.at("web").positive_number(),
                  flange = value.at("flange").positive_number();
     d << width, height, web, flange, 0, 0;
@@ -180,7 +182,6 @@ VectorX read_walls(const std::string& shape, const YamlValue& value) {
     check("flange", d[3] < height, "the flange must leave room for a web within the height");
     return d.head<4>();
   }
-  value.check_keys({"width", "height", "thickness"}, shape == "l" ? "an l section" : "a box section");
   const Vector2 thickness = one_or_two(
       value.at("thickness"), shape == "l" ? "[leg along y, leg along z]" : "[walls across y, walls across z]");
   const double width = value.at("width").positive_number();

@@ -78,6 +78,7 @@ Solid read_solid(const YamlValue& solid) {
   keys.insert(keys.end(), names.begin(), names.end());
   solid.check_keys(keys, "a solid");
   const MassProperties unit = given->read(solid.at(given->name));
+  if (!solid.has("mass") && !solid.has("density")) solid.fail("a solid needs `density` or `mass`");
   if (solid.has("mass") && solid.has("density")) solid.at("mass").fail("give either `density` or `mass` of a solid");
   if (!(unit.mass > 0 && std::isfinite(unit.mass)))
     solid.at(given->name).fail("the volume is too large or too small for a number; lengths are in m");

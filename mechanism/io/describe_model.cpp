@@ -4,12 +4,12 @@
 #include <map>
 #include <set>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "mechanism/elements/beam_element.hpp"
 #include "mechanism/elements/rigid_body.hpp"
 #include "mechanism/joints/joint.hpp"
+#include "mechanism/solvers/massless.hpp"
 #include "mechanism/solvers/redundancy.hpp"
 
 namespace bielle::mechanism {
@@ -96,23 +96,24 @@ std::string describe_nodes(const Model& model, const System& system, const State
     const int place = system.pattern().find(row, column);
     return place < 0 ? 0.0 : values[static_cast<std::size_t>(place)];
   };
-  for (int k = 0; k < system.dofs(); ++k)
-    if (mass(k, k) == 0) text += fmt::format("  massless     {}\n", system.unknown_name(k));
+  std::map<std::string, int> inner;  // nodes inside of elements without mass, by the element
   for (int k = 0; k < static_cast<int>(model.nodes().size()); ++k) {
+    const Node& node = model.node(k);
     const NodeFreedom& freedom = system.kinematics().freedom(k);
-    if (!freedom.all_free) continue;
-    Matrix6 M;
-    for (int row = 0; row < 6; ++row)
-      for (int column = 0; column < 6; ++column) M(row, column) = mass(freedom.begin + row, freedom.begin + column);
-    if (M.diagonal().minCoeff() <= 0) continue;  // named above
-    // A mass on a line turns about it without inertia, in whatever axes that is written.
-    const Vector6 scale = M.diagonal().cwiseSqrt().cwiseInverse();
-    const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(scale.asDiagonal() * M * scale.asDiagonal());
-    if (eigen.eigenvalues()[0] > 1e-12) continue;
-    const Vector3 axis = (scale.asDiagonal() * eigen.eigenvectors().col(0)).tail<3>().normalized();
-    text += fmt::format("  massless     rotation of node '{}' about {} in its axes\n", model.node(k).name,
-                        format_vector(axis));
+    std::vector<int> without;
+    for (int i = freedom.begin; i < freedom.begin + freedom.count; ++i)
+      if (mass(i, i) == 0) without.push_back(i);
+    if (node.internal && !without.empty() && static_cast<int>(without.size()) == freedom.count)
+      ++inner[node.name.substr(0, node.name.rfind('.'))];
+    else if (without.size() == 6)
+      text += fmt::format("  massless     node '{}'\n", node.name);
+    else
+      for (const int i : without) text += fmt::format("  massless     {}\n", system.unknown_name(i));
+    if (const auto direction = massless_direction(system, values, k))
+      text += fmt::format("  massless     {}\n", massless_name(system, k, *direction));
   }
+  for (const auto& [element, count] : inner)
+    text += fmt::format("  massless     {} inner node{} of '{}'\n", count, count == 1 ? "" : "s", element);
   if (text.find("massless") != std::string::npos)
     text += "               what has no mass must be held (`fixed`), joined to something, or given inertia by a body\n";
   return text;

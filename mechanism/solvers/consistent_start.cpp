@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/solvers/massless.hpp"
 #include "mechanism/solvers/model_length.hpp"
 #include "mechanism/solvers/redundancy.hpp"
 
@@ -32,6 +33,42 @@ VectorX small_diagonal(const System& system, const LinearStep& linear, const Sta
     diagonal[i] = fraction * (own > 0 ? own : 1.0);
   }
   return diagonal;
+}
+
+[[noreturn]] void throw_massless(const std::string& what, const char* lack) {
+  throw ComputationError(fmt::format(
+      "{}: it has no mass, and nothing holds it; hold it (`fixed`), join it, or give it a body with {}", what, lack));
+}
+
+/// Refuses motions of nodes that nothing but a sum of rows shows to have neither mass nor anything that holds them.
+void check_massless_directions(const System& system, const State& state) {
+  // At rest and without loads: what turns with a node that is loaded seems to hold it.
+  State still = state;
+  system.set_rates(still, VectorX::Zero(system.dofs()), VectorX::Zero(system.dofs()));
+  Environment unloaded;
+  unloaded.load_factor = 0;
+  std::vector<double> mass, all;
+  system.tangent(still, unloaded, {0, 0, 1, 0, 0}, nullptr, mass);
+  system.tangent(still, unloaded, {1, 1, 1, 1, 1}, nullptr, all);
+  for (int node = 0; node < static_cast<int>(system.model().nodes().size()); ++node) {
+    const auto direction = massless_direction(system, mass, node);
+    if (!direction) continue;
+    const int begin = system.kinematics().freedom(node).begin;
+    double left = 0, size = 0;
+    for (int column = 0; column < system.size(); ++column) {
+      double sum = 0;
+      for (int k = 0; k < 6; ++k) {
+        const int place = system.pattern().find(begin + k, column);
+        if (place < 0) continue;
+        const double term = (*direction)[k] * all[static_cast<std::size_t>(place)];
+        sum += term;
+        size = std::max(size, std::abs(term));
+      }
+      left = std::max(left, std::abs(sum));
+    }
+    constexpr double rounding = 1e-12;
+    if (left <= rounding * size) throw_massless(massless_name(system, node, *direction), "inertia");
+  }
 }
 
 }  // namespace
@@ -67,10 +104,8 @@ VectorX factor_mass_saddle(const System& system, const Environment& environment,
   VectorX sums(system.size());
   linear.row_sums(VectorX::Ones(system.size()), sums);
   for (int i = 0; i < system.dofs(); ++i)
-    if (sums[i] == 0)
-      throw ComputationError(
-          fmt::format("{}: it has no mass, and nothing holds it; hold it (`fixed`), join it, or give it a body with {}",
-                      system.unknown_name(i), system.kind(i) == Kind::rotation ? "inertia" : "mass"));
+    if (sums[i] == 0) throw_massless(system.unknown_name(i), system.kind(i) == Kind::rotation ? "inertia" : "mass");
+  check_massless_directions(system, state);
   if (linear.try_factor(state, environment, weights, nullptr, &extra)) return extra;
   if (!linear.try_factor(state, environment, weights, nullptr, &everywhere)) linear.throw_singular(state.time);
   return everywhere;

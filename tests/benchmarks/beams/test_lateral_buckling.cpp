@@ -30,7 +30,8 @@ void check_load(double exact, const Load& load) {
 TEST_CASE("a cantilever strip buckles sideways under a dead load at its tip") {
   // P L^2/sqrt(EI_w GJ); 4.0126 for a strip that is rigid in its plane (S. Timoshenko, J. Gere, Theory of Elastic
   // Stability, art. 6.4), more where EI_w/EI_stiff = GJ/EI_stiff is not small.
-  for (const auto& [ratio, exact] : {std::pair{1e-3, 4.017194831150}, {1e-2, 4.059627405541}, {0.1, 4.624632264476}})
+  for (const auto& [ratio, exact] :
+       {std::pair{1e-3, 4.017194831150}, {1e-2, 4.059627405541}, {0.05, 4.274845155223}, {0.1, 4.624632264476}})
     check_load(exact, [ratio = ratio](int elements) {
       StaticModel strip(
           fmt::format("nodes: {{root: {{position: [0, 0, 0], fixed: true}}, tip: {{position: [1, 0, 0]}}}}\n"
@@ -83,6 +84,27 @@ TEST_CASE("a cantilever right-angle frame buckles out of its plane") {
           fmt::format("loads: {{p: {{node: tip, force: [0, {}, 0]}}}}\n", direction));
       return frame.critical_load(0.5, 0.05, 1e-6, 1e-8);
     });
+}
+
+TEST_CASE("a cantilever right-angle frame under a load along its second leg") {
+  // References of four digits, with GJ = G h b^3/3; the load acts towards the corner or away from it.
+  for (const auto& [direction, exact] : {std::pair{-1, 0.6508}, {1, 3.979}}) {
+    const auto load = [direction = direction](int elements) {
+      const auto thin = [&](const std::string& name, const std::string& ends) {
+        return fmt::format(
+            "  {}: {{type: beam, nodes: {}, elements: {}, orientation: [0, 0, 1], section: {{EA: 71240*18, GAy: "
+            "71240/2.62*15, GAz: 71240/2.62*15, GJ: 71240/2.62*2.16, EIy: 71240*1350, EIz: 71240*0.54}}}}\n",
+            name, ends, elements);
+      };
+      StaticModel frame(
+          "nodes: {root: {position: [0, 0, 0], fixed: true}, corner: {position: [0, 240, 0]}, tip: {position: [240, "
+          "240, 0]}}\nelements:\n" +
+          thin("first", "[root, corner]") + thin("second", "[corner, tip]") +
+          fmt::format("loads: {{p: {{node: tip, force: [{}, 0, 0]}}}}\n", direction));
+      return frame.critical_load(0.3, 0.1, 1e-6, 1e-6);
+    };
+    CHECK_THAT((4 * load(16) - load(8)) / 3, Catch::WithinRel(exact, 2e-4));
+  }
 }
 
 TEST_CASE("a hinged right-angle frame buckles under end moments of either sign") {

@@ -3,7 +3,10 @@
 // diag(0.234375, 0.46875, 0.234375) kg m^2 about the centre at (0, 1, 0), Omega(0) = (0, 150, -4.61538) rad/s.
 // Reference: Euler-Poinsot equations in quaternions, DOP853 with rtol 1e-13 (drift of the energy below 2e-10 of 5436
 // J). Orders of convergence: tests/order.
+#include <cmath>
+
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include "tests/support/run_model.hpp"
 #include "tests/support/second_order.hpp"
@@ -63,5 +66,24 @@ TEST_CASE("the heavy top follows the Euler-Poinsot equations for two seconds, ho
       return e;
     };
     check_second_order(errors, 1e-3, 2, 0.1, 0.1);
+  }
+}
+
+TEST_CASE("the heavy top precesses steadily at the two speeds that its equations say") {
+  // Axis at theta = 60 degrees from the vertical, 150 rad/s about it: with A = 15.234375 and C = 0.46875 kg m^2
+  // A P^2 cos(theta) - C 150 P + m g l = 0.
+  for (const double P : {3.206973701704, 6.023795529065}) {
+    const ReadyModel model(fmt::format(R"yaml(
+gravity: [0, 0, -9.81]
+nodes: {{tip: {{fixed: [x, y, z], rotation_vector: [pi/6, 0, 0], angular_velocity: [0, 150, "{:.13f}*sin(pi/3)"]}}}}
+elements:
+  top: {{type: rigid_body, node: tip, mass: 15, centre: [0, 1, 0], inertia: [0.234375, 0.46875, 0.234375]}}
+)yaml",
+                                       P));
+    const auto errors = [&](double h) -> VectorX {
+      const NodeState node = model.node(integrate(model, Scheme::generalized_alpha(0.9), h, 1), "tip");
+      return node.R.col(1) - Vector3(-std::sin(M_PI / 3) * std::sin(P), std::sin(M_PI / 3) * std::cos(P), 0.5);
+    };
+    check_second_order(errors, 5e-4, 2, 0.1, 0.1);
   }
 }

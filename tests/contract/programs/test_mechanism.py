@@ -135,15 +135,25 @@ class Mechanism(CommandTest):
         self.assertRegex(done.stdout, r"element 'arm' \(beam\): length [\d.]+ m, mass [\d.]+ kg, elements 3")
         self.assertIn("EA 7, GAy 6, GAz 5 N, GJ 4, EIy 3, EIz 2 N m^2", done.stdout)
         self.assertIn("unused       node 'lonely'", done.stdout)
-        self.assertIn("massless     rotation y of node 'lonely'", done.stdout)
+        self.assertIn("massless     node 'lonely'", done.stdout)
         self.assertIn("must be held (`fixed`)", done.stdout)
-        self.assertNotIn("massless     rotation y of node 'bob'", done.stdout)
+        self.assertNotRegex(done.stdout, "massless .*'bob'")
         self.write("rod.yaml", "nodes: {a: {position: [0, 0, 0]}}\nelements: {rod: {type: rigid_body, node: a, mass: 1, "
                    "inertia: [0, 1, 1], inertia_axes: {rotation_vector: [0, 0, pi/2]}, centre: [0.5, 0, 0]}}\n"
                    "analysis: [{type: dynamic, duration: 1, step: 0.1}]\n")
         done = self.run_program("rod.yaml", "--check")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("massless     rotation of node 'a' about", done.stdout)
+        done = self.run_program("rod.yaml")
+        self.assertEqual(done.returncode, 2)
+        self.assertRegex(done.stderr, r"rotation of node 'a' about \(0, 1, 0\) in its axes: it has no mass")
+        self.write("massless.yaml", "nodes: {a: {fixed: true}, b: {position: [1, 0, 0]}}\nelements: {beam: {type: beam, "
+                   "nodes: [a, b], section: {circle: 0.1, young: 1, shear: 1}}}\n")
+        done = self.run_program("massless.yaml", "--check")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("massless     node 'b'\n", done.stdout)
+        self.assertIn("massless     7 inner nodes of 'beam'\n", done.stdout)
+        self.assertEqual(done.stdout.count("massless"), 2 + done.stdout.count("massless.yaml"))
 
     def test_orientations_however_large(self):
         node = "nodes:\n  turned: {position: [1, 1, 1], %s, fixed: true}\n"

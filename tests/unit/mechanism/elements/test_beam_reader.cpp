@@ -121,6 +121,7 @@ TEST_CASE("a beam that cannot be built says why") {
   CHECK_THROWS_WITH(beam(section + ", damping: -1"), Contains("elements.shaft.damping"));
   CHECK_THROWS_WITH(beam(section + ", arc_centre: [0.5, 1, 0]"), Contains("not at one distance from the centre"));
   CHECK_THROWS_WITH(beam(section + ", arc_centre: [1, 0, 0]"), Contains("half circle") && Contains("`arc_through`"));
+  CHECK_THROWS_WITH(beam(section + ", arc_centre: [1, 1e8, 0]"), Contains("turns by less than 1e-06 rad"));
   CHECK_THROWS_WITH(beam(section + ", arc_through: [1, 0, 0]"), Contains("in one line"));
   CHECK_THROWS_WITH(beam(section + ", arc_centre: [1, 1, 0], arc_through: [1, 1, 0]"),
                     Contains("either `arc_centre` or `arc_through`"));
@@ -130,7 +131,7 @@ TEST_CASE("a beam that cannot be built says why") {
   CHECK_THROWS_WITH(beam(section + ", elements: 1e12"), Contains("elements.shaft.elements") && Contains("at most"));
   CHECK_THROWS_WITH(beam(section + ", elements: 1e6"), Contains("at most 100000 elements"));
   CHECK_THROWS_WITH(beam(section + ", elements: 1, arc_through: [1, -1e2, 0]"),
-                    Contains("each of 1 elements would turn by 3") && Contains("none follows more than 171"));
+                    Contains("its one element would turn by 3") && Contains("none follows more than 171"));
   CHECK_THROWS_WITH(beam(section + ", elements: 2, twist: 7"),
                     Contains("each of 2 elements would turn by 201 degrees"));
   CHECK_THROWS_WITH(beam("elements: 2"), Contains("section"));

@@ -165,6 +165,10 @@ TEST_CASE("a section that does not exist is refused with its key") {
   CHECK_THROWS_WITH(section("{EA: 1, GAy: 2, GAz: 3, GJ: 4, EIy: 5}"), Contains("EIz"));
   CHECK_THROWS_WITH(section("{EA: 1, GAy: 2, GAz: 3, GJ: 4, EIy: 5, EIz: 6, mass_per_length: 1, Jx: 1, Jy: 1, Jz: 0}"),
                     Contains("Jz") && Contains("mass moments > 0"));
+  CHECK_THROWS_WITH(section("{EA: 1, GAy: 2, GAz: 3, GJ: 4, EIy: 5, EIz: 6, mass_per_length: 0, Jx: 1, Jy: 1, Jz: 1}"),
+                    Contains("Jx") && Contains("without mass"));
+  CHECK_THROWS_WITH(section("{i: {width: 1, heigth: 1, web: 0.1, flange: 0.1}, young: 1, shear: 1}"),
+                    Contains("did you mean 'height'"));
   const std::string indefinite =
       "stiffness: [[1, 2, 0, 0, 0, 0], [2, 1, 0, 0, 0, 0], [0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0], [0, 0, 0, 0, 1, 0], "
       "[0, 0, 0, 0, 0, 1]]";

@@ -86,6 +86,28 @@ elements:
   CHECK_THROWS_WITH(make_consistent(system, file.model.environment, state), Catch::Contains("node '"));
 }
 
+TEST_CASE("the turn of a body on a line about this line is named, in whatever axes, unless something holds it") {
+  const auto start = [](const std::string& axes, const std::string& joints = "") {
+    const MechanismFile file = read_mechanism_text(
+        "nodes: {arm: {position: [1, 0, 0], rotation_vector: [0.2, 0.1, 0], angular_velocity: [0.1, 1, 0]}}\nelements: "
+        "{arm: {type: rigid_body, node: arm, mass: 1, centre: [0.3, 0.4, 0], inertia: [0, 1, 1], inertia_axes: "
+        "{axes: " +
+            axes + "}}}\n" + joints,
+        "line.yaml");
+    System system(file.model);
+    State state = system.start(0);
+    make_consistent(system, file.model.environment, state);
+  };
+  const std::string free = " in its axes: it has no mass, and nothing holds it";
+  // The line passes through the node, or beside it.
+  CHECK_THROWS_WITH(start("{x: [3, 4, 0], z: [0, 0, 1]}"),
+                    Catch::Contains("rotation of node 'arm' about (0.6, 0.8, 0)" + free));
+  CHECK_THROWS_WITH(start("{x: [0, 0, -1], y: [1, 0, 0]}"),
+                    Catch::Contains("rotation of node 'arm' about (0, 0, 1)" + free));
+  CHECK_NOTHROW(
+      start("{x: [3, 4, 0], z: [0, 0, 1]}", "joints: {pivot: {type: hinge, nodes: [ground, arm], axis: [0, 0, 1]}}\n"));
+}
+
 TEST_CASE("a massless node beside a stiff spring leaves the accelerations of the masses alone") {
   // The pin carries nothing and turns freely beside the body's oblique arm. Gravity alone acts: everything falls.
   const MechanismFile file = read_mechanism_text(R"yaml(
