@@ -24,7 +24,7 @@ using bielle::test::StaticModel;
 
 namespace {
 
-/// L = m = EI = 1; stretch, shear and rotary inertia matter for 1e-5 at the highest speed.
+/// L = m = EI = 1; stretch, shear and rotary inertia matter for less than 1e-6.
 struct RotatingBeam : StaticModel {
   Vector3 omega;
   RotatingBeam(int elements, double eta, double hub)
@@ -114,10 +114,12 @@ TEST_CASE("a rotating cantilever stiffens with its speed as it should") {
     const std::vector<double> across = RotatingBeam(16, row.eta, 0).frequencies(flap),
                               along = RotatingBeam(16, row.eta, 0).frequencies(lag);
     CAPTURE(row.eta, across[0], across[1], along[0], along[1]);
-    CHECK_THAT(across[0], Catch::WithinRel(row.mu1, 1e-4));
-    CHECK_THAT(across[1], Catch::WithinRel(row.mu2, 1e-3));
-    CHECK_THAT(along[0], Catch::WithinRel(std::sqrt(row.mu1 * row.mu1 - row.eta * row.eta), 1e-3));
-    CHECK_THAT(along[1], Catch::WithinRel(std::sqrt(row.mu2 * row.mu2 - row.eta * row.eta), 1e-3));
+    // 16 elements leave 2.5e-5 and 5.5e-5 at the highest speed, of fourth order; in the plane the first error grows
+    // six times where eta^2 is taken off.
+    CHECK_THAT(across[0], Catch::WithinRel(row.mu1, 3e-5));
+    CHECK_THAT(across[1], Catch::WithinRel(row.mu2, 7e-5));
+    CHECK_THAT(along[0], Catch::WithinRel(std::sqrt(row.mu1 * row.mu1 - row.eta * row.eta), 2e-4));
+    CHECK_THAT(along[1], Catch::WithinRel(std::sqrt(row.mu2 * row.mu2 - row.eta * row.eta), 7e-5));
   }
   CHECK_THAT(RotatingBeam(16, 12, 1).frequencies(flap)[0], Catch::WithinRel(19.7215419354, 2e-4));
 }

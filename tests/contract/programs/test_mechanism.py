@@ -153,7 +153,13 @@ class Mechanism(CommandTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("massless     node 'b'\n", done.stdout)
         self.assertIn("massless     7 inner nodes of 'beam'\n", done.stdout)
-        self.assertEqual(done.stdout.count("massless"), 2 + done.stdout.count("massless.yaml"))
+        self.assertNotIn("against one moment alone", done.stdout)
+        self.assertEqual(done.stdout.count("massless"), 2)
+        # Beside the node line: pi/4 0.1^4 E = 1.5708e-4 of bending, which EIz about the line exceeds by far.
+        self.write("massless.yaml", "nodes: {a: {fixed: true}, b: {position: [1, 0, 0]}}\nelements: {beam: {type: beam, "
+                   "nodes: [a, b], section: {circle: 0.1, young: 2, shear: 1, offset: [0.3, 0]}}}\n")
+        done = self.run_program("massless.yaml", "--check")
+        self.assertIn("against one moment alone: GJ 0.00015708, EIy 0.00015708, EIz 0.00015708 N m^2", done.stdout)
 
     def test_orientations_however_large(self):
         node = "nodes:\n  turned: {position: [1, 1, 1], %s, fixed: true}\n"
