@@ -294,7 +294,7 @@ TEST_CASE("a free beam conserves energy, momentum and angular momentum at any st
 nodes: {a: {position: [0.3, 0, 0], rotation_vector: [1, 0, 2]}, b: {position: [1, 1.5, 0.4], rotation_vector: [0, 0.4, 0]}}
 elements:
   arc:
-    {type: beam, nodes: [a, b], elements: 3, arc_through: [1, 0.2, 0.1], section: {rectangle: [0.3, 0.2], young: 50, poisson: 0.2, density: 30, offset: [0.1, -0.2]}}
+    {type: beam, nodes: [a, b], elements: 3, arc_through: [1, 0.2, 0.1], twist: 0.7, section: {rectangle: [0.3, 0.2], young: 50, poisson: 0.2, density: 30, offset: [0.1, -0.2]}}
 )");
   const DenseModel dense(*model);
   const int n = 6 * (dense.nodes() - 1);
