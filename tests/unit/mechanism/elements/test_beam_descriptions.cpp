@@ -88,7 +88,7 @@ std::string reversed_beam(int elements) {
 }
 
 /// What does not depend on the description: six eigenvalues of the beam as drawn and loaded, the tip under load, the
-/// energy, and the stress at the point of the elements `stressed` (from 0).
+/// energy, and the stretch and the stress at the point of the elements `stressed` (from 0).
 VectorX signature(const std::string& elements, const std::vector<std::size_t>& stressed,
                   const std::string& more_nodes = "") {
   StaticModel beam(nodes(more_nodes) + elements);
@@ -97,7 +97,7 @@ VectorX signature(const std::string& elements, const std::vector<std::size_t>& s
     const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixX> eigen(0.5 * (K + K.transpose()), M, Eigen::EigenvaluesOnly);
     return Vector6(eigen.eigenvalues().head<6>());
   };
-  VectorX all(17 + 2 * static_cast<Eigen::Index>(stressed.size()));
+  VectorX all(17 + 3 * static_cast<Eigen::Index>(stressed.size()));
   beam.dense.environment.load_factor = 0;
   all.head<6>() = eigenvalues();
   REQUIRE(beam.load(4, 1e-12) >= 0);
@@ -118,6 +118,7 @@ VectorX signature(const std::string& elements, const std::vector<std::size_t>& s
     slots.memories = 3;
     Eigen::Matrix<double, 16, 1> out;  // strain, resultants, stress, von_mises
     members[k]->write_output({beam.state, slots, beam.dense.environment}, out.data());
+    all[row++] = out[0];
     all[row++] = out[12];
     all[row++] = out[15];
   }

@@ -85,6 +85,15 @@ TEST_CASE("arcs by their centre or a third point pass where they should") {
   CHECK(error(long_way->node(3).frame.R.col(0), Vector3(1, 0, 0)) < 1e-14);
 }
 
+TEST_CASE("the centre of an arc may be rounded: the arc leads from node to node") {
+  const Vector3 start(0, 0, 0), end(1, 1, 0);
+  const BeamLine line =
+      read_beam_line(bielle::YamlValue::parse("arc_centre: [1.000004, 0, 0]", "arc.yaml"), start, end);
+  CHECK(error(line.point(0), start) < 1e-15);
+  CHECK(error(line.point(1), end) < 1e-15);
+  CHECK(error(line.point(0.5), Vector3(1 - std::cos(pi / 4), std::sin(pi / 4), 0)) < 4e-6);
+}
+
 TEST_CASE("twist turns the section about the axis, linearly from start to end") {
   const auto model = beam(section + ", elements: 4, twist: pi/2");
   CHECK(error(model->node(4).frame.R, exp_so3(Vector3(pi / 4, 0, 0))) < 1e-14);

@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
 
+#include "mechanism/elements/beam_element.hpp"
 #include "tests/support/static_model.hpp"
 
 using namespace bielle::mechanism;
@@ -63,9 +64,19 @@ TEST_CASE("a tapered bar has its mass, centre and inertia exactly") {
   };
   CHECK_THAT(move.dot(M * move), WithinRel(moment(0), 1e-13));
   CHECK_THAT(move.dot(M * turn), WithinRel(moment(1), 1e-13));
+  CHECK_THAT(dynamic_cast<const BeamElement&>(*model.model->members()[0].component).mass(),
+             WithinRel(moment(0), 1e-14));
   // Rotary inertia: rho pi r^4/4, a quartic.
   const double rotary = 100 * pi / 4 * 1e-4 * (std::pow(3.0, 5) - 1) / 5;
   CHECK_THAT(turn.dot(M * turn), WithinRel(moment(2) + rotary, 1e-13));
+}
+
+TEST_CASE("with constant strain a tapered element has the mean of its sections") {
+  // EA = 3 pi 0.01 (1 + x)^2 on the length 2: 13/3 of its start in the mean.
+  std::string yaml = beam(1, "[{circle: 0.1, young: 3, shear: 1}, {circle: 0.3, young: 3, shear: 1}]");
+  yaml.replace(yaml.find("elements: 1,"), 12, "elements: 1, bending: constant,");
+  const StaticModel model(yaml);
+  CHECK_THAT(model.stiffness()(0, 0), WithinRel(3 * pi * 0.01 * 13 / 3 / 2, 1e-14));
 }
 
 TEST_CASE("a conical bar held at both ends has the axial frequencies of a uniform one") {

@@ -147,3 +147,41 @@ TEST_CASE("carried nodes of a moved node have the rates of their positions") {
     CHECK(error(n.Omegadot, Omegadot) < 1e-10);
   }
 }
+
+TEST_CASE("a node with one free rotation turns about the inertial axis that is left") {
+  for (int axis = 0; axis < 3; ++axis) {
+    CAPTURE(axis);
+    Model model;
+    Node node = root_node(Hold::free);
+    for (const int other : {(axis + 1) % 3, (axis + 2) % 3})
+      node.freedom[static_cast<std::size_t>(3 + other)] = Freedom::fixed;
+    model.add_node(node);
+    const System system(model);
+    State state = system.start(0);
+    VectorX dq = VectorX::Zero(system.dofs());
+    dq[3] = 0.7;
+    system.displace(state, system.start(0), dq);
+    CHECK(error(state.nodes[1].R, exp_so3(0.7 * Vector3::Unit(axis)) * node.frame.R) < 1e-15);
+  }
+}
+
+TEST_CASE("the power of what moves a node is the rate of the energy of the bodies on it") {
+  Model model;
+  three_bodies(model, Hold::moved);
+  Node& root = model.node(3);
+  root.freedom[2] = Freedom::prescribed;
+  root.motion[2] = bielle::Expression("cos(t)", {"t"});
+  const System system(model);
+  REQUIRE(system.dofs() == 0);
+  const auto energy = [&](double t) {
+    State state = system.start(t);
+    system.set_rates(state, VectorX(), VectorX());
+    return system.energy(state, model.environment);
+  };
+  const double t0 = 0.6;
+  const double rate = derivative([&](double t) {
+    const Energy e = energy(t0 + t);
+    return e.kinetic + e.gravity;
+  });
+  CHECK_THAT(energy(t0).input, Catch::WithinRel(rate, 1e-9));
+}

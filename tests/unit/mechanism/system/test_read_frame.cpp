@@ -68,6 +68,7 @@ TEST_CASE("a matrix of a few digits is made orthonormal; one that is no rotation
   CHECK(error(R, exp_so3({0, 0, M_PI / 6})) < 1e-4);
   CHECK_THAT(refusal("matrix: [[1, 0, 0], [0, 2, 0], [0, 0, 1]]"),
              Contains("model.yaml:1: matrix") && Contains("length"));
+  CHECK_THAT(refusal("matrix: [[1, 0, 0], [0, 1, 0.0011], [0, 0, 1]]"), Contains("off by up to 0.0011"));
   CHECK_THAT(refusal("matrix: [[1, 0, 0], [0, 1, 0], [0, 0, -1]]"), Contains("left-handed"));
   CHECK_THAT(refusal("matrix: [[1, 0], [0, 1]]"), Contains("model.yaml:1: matrix"));
 }
