@@ -10,7 +10,7 @@
 #include "mechanism/elements/beam_element.hpp"
 #include "mechanism/elements/rigid_body.hpp"
 #include "mechanism/joints/joint.hpp"
-#include "mechanism/solvers/massless.hpp"
+#include "mechanism/solvers/massless_direction.hpp"
 #include "mechanism/solvers/redundancy.hpp"
 
 namespace bielle::mechanism {
