@@ -23,12 +23,13 @@ struct Checkpoint {
   std::vector<double> values;  ///< of the Archive
 };
 
-/// What a checkpoint belongs to: the names of nodes and components with their types. A run can go on only with the
-/// same.
+/// What a checkpoint belongs to, one thing per line: the format of its numbers, how many of each kind the state has,
+/// and gravity, parameters, nodes and components with the size of their forces in a probing state. A run can go on only
+/// with the same.
 std::string fingerprint(const Model& model);
 
 /// The last checkpoint of a results file.
-/// @throws InputError when the file holds none, or is of another model
+/// @throws InputError when the file holds none, or is of another model or another version of the program
 Checkpoint read_checkpoint(const std::string& results_path, const Model& model);
 
 /// Adds a checkpoint; all rows that it counts are in the file.

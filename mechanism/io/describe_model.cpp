@@ -32,6 +32,15 @@ std::string format_start(const StartReport& start) {
                         start.largest_displacement, start.largest_rotation);
   if (start.settled > 0)
     text += fmt::format("  static equilibrium moved node '{}' by {:.3g} m\n", start.settled_node, start.settled);
+  if (start.balanced > 1e-9)
+    text += fmt::format(
+        "  node '{}', which has no mass, stood out of the balance of its forces: it was moved there, by {:.3g} m\n",
+        start.balanced_node, start.balanced);
+  if (!start.unbalanced.empty())
+    text += fmt::format(
+        "  {}: it has no mass, and no place near by where its forces balance: the first steps tear it somewhere, with "
+        "velocities that mean nothing\n",
+        start.unbalanced);
   if (start.velocity_change > 1e-9)
     text += fmt::format("  start velocities were changed by up to {:.3g} m/s to satisfy joints and drives\n",
                         start.velocity_change);

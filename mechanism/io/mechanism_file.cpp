@@ -173,7 +173,7 @@ NewtonOptions read_newton(const YamlValue& analysis, bool dynamic) {
   if (options.iterations < 2) entry->at("iterations").fail("expected at least 2");
   if (entry->has("line_search")) options.line_search = entry->at("line_search").boolean();
   if (entry->has("tangent"))
-    options.reuse_tangent = entry->at("tangent").word({"reused", "renewed"}, "way with the tangent") == "reused";
+    options.reuse_tangent = entry->at("tangent").word({"reused", "renewed"}, "a way with the tangent") == "reused";
   return options;
 }
 
@@ -256,7 +256,7 @@ Analysis read_analysis(const YamlValue& entry, const Model& model) {
     analysis.scheme = read_scheme(entry, analysis.scheme_name);
     analysis.newton = read_newton(entry, true);
     analysis.equilibrium =
-        entry.has("start") && entry.at("start").word({"as_given", "equilibrium"}, "start") == "equilibrium";
+        entry.has("start") && entry.at("start").word({"as_given", "equilibrium"}, "a start") == "equilibrium";
     if (entry.has("constraints")) {
       const std::string form =
           entry.at("constraints").word({"corrected", "position", "stabilized"}, "a form of constraints");

@@ -303,13 +303,22 @@ class Run {
 
   void go_on(const Analysis& analysis, const Checkpoint& checkpoint, Motion& motion) {
     Archive archive(checkpoint.values);
-    exchange_books(archive, motion);
-    motion.end = motion.begin + analysis.duration;
-    motion.stepping = stepping_of(analysis, motion.begin);
-    loaded_ = {1, 1};
-    motion.integration.emplace(system_, environment_, analysis.scheme, archive, analysis.form, analysis.newton);
-    make_march(motion);
-    motion.march->exchange(archive);
+    bool whole = true;
+    try {
+      exchange_books(archive, motion);
+      motion.end = motion.begin + analysis.duration;
+      motion.stepping = stepping_of(analysis, motion.begin);
+      loaded_ = {1, 1};
+      motion.integration.emplace(system_, environment_, analysis.scheme, archive, analysis.form, analysis.newton);
+      make_march(motion);
+      motion.march->exchange(archive);
+    } catch (const std::out_of_range&) {
+      whole = false;
+    }
+    if (!whole || !archive.exhausted())
+      throw InputError(
+          "the last checkpoint holds other numbers than this program goes on from: it was written by another version, "
+          "or is damaged");
     motion.saved = true;
   }
 

@@ -139,6 +139,18 @@ void LowerPair::add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX
   acceleration.head<3>() += gap.acceleration(first, second);
 }
 
+std::string LowerPair::wrong_branch(const LocalState& state) const {
+  // Rows of alignment vanish for axes that are turned by half a turn as well.
+  const Matrix3 R_A = state.node(0).R * frames().on_first.R, R_B = state.node(1).R * frames().on_second.R;
+  const auto opposite = [&](int axis) { return R_A.col(axis).dot(R_B.col(axis)) < 0; };
+  for (const Row& row : rows_) {
+    if (row.is_translation) continue;
+    if (opposite(2)) return "its axes point in opposite directions";
+    if (row.second_axis == 1 && opposite(1)) return "its parts are turned by half a turn about its axis";
+  }
+  return {};
+}
+
 namespace {
 
 void read_lower_pair(const std::string& type, const std::string& words, const std::string& name, const YamlValue& entry,

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/solvers/massless.hpp"
 #include "mechanism/solvers/massless_direction.hpp"
 #include "mechanism/solvers/model_length.hpp"
 #include "mechanism/solvers/redundancy.hpp"
@@ -84,6 +85,11 @@ void StartReport::add(const StartReport& later) {
     settled = later.settled;
     settled_node = later.settled_node;
   }
+  if (later.balanced > balanced) {
+    balanced = later.balanced;
+    balanced_node = later.balanced_node;
+  }
+  if (!later.unbalanced.empty()) unbalanced = later.unbalanced;
 }
 
 VectorX factor_mass_saddle(const System& system, const Environment& environment, const State& state,
@@ -179,6 +185,9 @@ void assemble_positions(const System& system, const Environment& environment, St
     const State base = state;
     system.displace(state, base, dq);
   }
+  if (const std::string wrong = system.wrong_branch(state, environment); !wrong.empty())
+    throw ComputationError(
+        fmt::format("the mechanism is put together the wrong way round; {}: draw it nearer to where it starts", wrong));
   for (std::size_t i = 0; i < state.nodes.size(); ++i) {
     const double distance = (state.nodes[i].x - start.nodes[i].x).norm();
     if (distance > report.largest_displacement) {
@@ -243,6 +252,7 @@ StartReport make_consistent(const System& system, const Environment& environment
   check_set_aside(system, environment, state);
   make_velocities_consistent(system, environment, state, report);
   make_accelerations_consistent(system, environment, state);
+  balance_massless(system, environment, state, report);
   return report;
 }
 

@@ -30,6 +30,9 @@ struct StartReport {
   double velocity_change = 0;       ///< largest change of a nodal velocity [m/s]
   double settled = 0;               ///< largest displacement of a node by static equilibrium, if asked for [m]
   std::string settled_node;         ///< that node's name
+  double balanced = 0;              ///< largest displacement of a node without mass, to where its forces balance [m]
+  std::string balanced_node;        ///< that node's name
+  std::string unbalanced;           ///< an unknown without mass whose forces could not be balanced; empty: none
   void add(const StartReport& later);
 };
 
@@ -42,12 +45,11 @@ void make_velocities_consistent(const System& system, const Environment& environ
                                 StartReport& report);
 
 /// Accelerations, multipliers and first-order rates in equilibrium with the state's positions and velocities. What has
-/// neither mass nor constraint (a node between two springs) has no acceleration of its own: it gets zero, and the
-/// first step brings it to where its forces vanish.
+/// neither mass nor constraint (a node between two springs) has no acceleration of its own: it gets zero.
 /// @throws ComputationError naming an unknown without mass
 void make_accelerations_consistent(const System& system, const Environment& environment, State& state);
 
-/// All three, in that order.
+/// All three, in that order; with them, directions without mass are balanced (massless.hpp).
 StartReport make_consistent(const System& system, const Environment& environment, State& state);
 
 }  // namespace bielle::mechanism

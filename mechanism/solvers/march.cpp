@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/solvers/redundancy.hpp"
 #include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
@@ -107,7 +108,13 @@ void March::exchange(Archive& archive) {
     before_ = whole;
     log_ = {};
   }
-  if (norm_) norm_->exchange(archive);
+  // Fixed steps may go on where adaptive ones ended, and the other way round.
+  bool adaptive = norm_.has_value();
+  archive(adaptive);
+  if (adaptive) {
+    ErrorNorm unused(integration_.system(), integration_.environment(), integration_.state());
+    (norm_ ? *norm_ : unused).exchange(archive);
+  }
   stops_->advance(integration_.state().time);
 }
 
@@ -122,8 +129,11 @@ void March::refuse_by_newton(double h, const StepReport& report) {
   ++log_.refused_by_newton;
   log_.hardest = report.refusal;
   size_ = h / 2;
-  if (size_ < smallest_)
-    throw ComputationError(fmt::format("{}; steps down to {:.3g} s have been tried", report.refusal, h));
+  if (size_ >= smallest_) return;
+  const std::string singular =
+      describe_singularity(integration_.system(), integration_.environment(), integration_.state());
+  throw ComputationError(fmt::format("{}; steps down to {:.3g} s have been tried{}{}", report.refusal, h,
+                                     singular.empty() ? "" : "; ", singular));
 }
 
 void March::refuse_by_error(double h, double error) {

@@ -6,6 +6,7 @@
 
 #include <Eigen/SparseCore>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "mechanism/math/rank.hpp"
 #include "mechanism/solvers/model_length.hpp"
@@ -37,7 +38,8 @@ double longest_arm(const System& system, const std::vector<double>& values, doub
 
 }  // namespace
 
-std::vector<int> find_redundant(const System& system, const Environment& environment, const State& state) {
+std::vector<int> find_redundant(const System& system, const Environment& environment, const State& state,
+                                double least) {
   if (system.multipliers() == 0) return {};
   std::vector<double> values;
   system.tangent(state, environment, TangentWeights{0, 0, 0, 0, 1, true}, nullptr, values);
@@ -62,8 +64,23 @@ std::vector<int> find_redundant(const System& system, const Environment& environ
   Eigen::SparseMatrix<double> transposed(first, system.multipliers());
   transposed.setFromTriplets(entries.begin(), entries.end());
   // Far above rounding (of positions beside the arms), far below what a loop that is nearly planar leaves.
-  const double tolerance = std::max(1e-9, 1e3 * std::numeric_limits<double>::epsilon() * positions / length);
+  const double tolerance = std::max({1e-9, least, 1e3 * std::numeric_limits<double>::epsilon() * positions / length});
   return dependent_columns(transposed, tolerance);
+}
+
+std::string describe_singularity(const System& system, const Environment& environment, const State& state) {
+  constexpr double near = 0.02;
+  std::vector<int> repeating = find_redundant(system, environment, state, near);
+  const std::vector<int>& known = system.set_aside();
+  // Which of several dependent rows comes last may differ from the start; more of them is news.
+  if (repeating.size() <= known.size()) return {};
+  const auto was_known = [&](int multiplier) { return std::binary_search(known.begin(), known.end(), multiplier); };
+  repeating.erase(std::remove_if(repeating.begin(), repeating.end(), was_known), repeating.end());
+  const std::vector<std::string> names = name_constraints(system, repeating);
+  return fmt::format(
+      "the mechanism is at or near a singular position there (links in line, a dead centre): {} nearly repeat{} what "
+      "other constraints hold, and the motion may branch or jam",
+      fmt::join(names, "; "), repeating.size() == 1 ? "s" : "");
 }
 
 std::vector<std::string> name_constraints(const System& system, const std::vector<int>& multipliers) {

@@ -14,7 +14,13 @@
 namespace bielle::mechanism {
 
 /// Multipliers whose constraint depends on earlier ones at this state, ascending.
-std::vector<int> find_redundant(const System& system, const Environment& environment, const State& state);
+/// @param least  how far from dependent counts as such: 0 for rounding; sines of angles between constraints [-]
+std::vector<int> find_redundant(const System& system, const Environment& environment, const State& state,
+                                double least = 0);
+
+/// What to say of a position in which a step fails, if constraints nearly repeat others there that did not at the
+/// start; or nothing.
+std::string describe_singularity(const System& system, const Environment& environment, const State& state);
 
 /// The constraints of ascending multipliers in the user's terms, one text per joint: "x, y, rz of joint 'crank'".
 std::vector<std::string> name_constraints(const System& system, const std::vector<int>& multipliers);

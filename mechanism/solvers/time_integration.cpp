@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/solvers/massless.hpp"
 #include "mechanism/solvers/redundancy.hpp"
 
 namespace bielle::mechanism {
@@ -158,6 +159,7 @@ void TimeIntegration::restart(double h) {
   StartReport unused;
   make_velocities_consistent(system_, environment_, state_, unused);
   make_accelerations_consistent(system_, environment_, state_);
+  balance_massless(system_, environment_, state_, unused);
   take_rates();
   start(h);
   state_.time = time;

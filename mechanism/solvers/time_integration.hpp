@@ -147,11 +147,11 @@ class TimeIntegration {
   int floor_age_ = 1 << 20;                     ///< steps since the rounding floor was measured
   std::unique_ptr<StabilisedStep> stabilised_;  ///< of that form only
   ConstraintForm form_;
-  double turn_ = 0;       ///< of constraints in the last accepted step [rad]
-  bool turning_ = false;  ///< fast enough for velocities to be corrected, now or before
-  std::unique_ptr<LinearStep> saddle_;          ///< [M B^T; B 0], once needed
-  VectorX eta_, mu_;                            ///< of the attempt: see there
-  VectorX last_dq_;                             ///< of the last accepted step
+  double turn_ = 0;                     ///< of constraints in the last accepted step [rad]
+  bool turning_ = false;                ///< fast enough for velocities to be corrected, now or before
+  std::unique_ptr<LinearStep> saddle_;  ///< [M B^T; B 0], once needed
+  VectorX eta_, mu_;                    ///< of the attempt: see there
+  VectorX last_dq_;                     ///< of the last accepted step
 };
 
 }  // namespace bielle::mechanism

@@ -18,6 +18,8 @@ class Archive {
   bool restoring() const { return restoring_; }
   const std::vector<double>& values() const { return values_; }
 
+  bool exhausted() const { return next_ == values_.size(); }  ///< when restoring: all has been asked for
+
   /// @throws std::out_of_range when there are fewer numbers than asked for
   void operator()(double& value) {
     if (restoring_)

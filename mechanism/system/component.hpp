@@ -112,6 +112,10 @@ class Component {
   virtual void add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
                                     Eigen::Ref<VectorX> acceleration) const;
 
+  /// What is wrong with an assembled position although its constraint rows vanish (axes that point in opposite
+  /// directions): a clause, or nothing.
+  virtual std::string wrong_branch(const LocalState& /*state*/) const { return {}; }
+
   virtual void add_energy(const LocalState& /*state*/, Energy& /*energy*/) const {}
 
   /// The quantities that the component can record, and their values one after the other in the same order.

@@ -253,6 +253,17 @@ std::string System::equation_units(int equation) const {
   return scalar_units_[static_cast<std::size_t>(equation - kinematics_.unknowns())] == "N" ? "m" : "rad";
 }
 
+std::string System::wrong_branch(const State& state, const Environment& environment) const {
+  for (std::size_t m = 0; m < slots_.size(); ++m) {
+    if (slots_[m].multipliers == 0) continue;
+    const Member& member = model_.members()[m];
+    if (const std::string what = member.component->wrong_branch(LocalState(state, slots_[m], environment));
+        !what.empty())
+      return fmt::format("{}: {}", describe(member), what);
+  }
+  return {};
+}
+
 State System::start(double time) const {
   State state;
   state.time = time;

@@ -56,6 +56,9 @@ class System {
   std::string unknown_name(int unknown) const;    ///< "rotation y of node 'pin'", "mode 3 of element 'rod'"
   std::string equation_name(int equation) const;  ///< "moment y at node 'pin'", "constraint x of joint 'main'"
   std::string equation_units(int equation) const;
+  /// The first component whose position is on a wrong branch, with what is wrong: "joint 'main': its axes point in
+  /// opposite directions"; or nothing.
+  std::string wrong_branch(const State& state, const Environment& environment) const;
 
   /// Takes redundant constraints out of the equations: their multipliers stay zero. Components none of whose rows are
   /// among them may choose the axes of their rows from here on. Call before solvers are made.

@@ -275,7 +275,10 @@ TEST_CASE("what cannot be continued is refused, and the file stays as it was") {
   };
   std::string other = pendulum("step: 1e-2", 0.1, "every: 1");
   other.replace(other.find("shoulder"), 8, "hip");
-  CHECK_THAT(refusal(other, results), Catch::Contains("another model"));
+  CHECK_THAT(refusal(other, results), Catch::Contains("another model: hinge 'hip' differs"));
+  other = pendulum("step: 1e-2", 0.1, "every: 1");
+  other.replace(other.find("mass: 2"), 7, "mass: 3");
+  CHECK_THAT(refusal(other, results), Catch::Contains("another model: rigid_body 'upper' differs"));
   CHECK_THAT(refusal(pendulum("step: 1e-2", 0.1, "every: 1"), folder / "none.h5"), Catch::Contains("none.h5"));
   CHECK(Hdf5File::open(results).read_integer_attribute("/", "complete") == 1);
 }

@@ -44,7 +44,8 @@ nodes: {loose: {position: [1, 0, 0]}}
 elements: {m: {type: point_mass, node: ground, mass: 1}}
 )yaml");
   CHECK_THAT(message_of<ComputationError>([&] {
-               TimeIntegration(model.system, model.environment(), Scheme::generalized_alpha(0.8), model.system.start(0));
+               TimeIntegration(model.system, model.environment(), Scheme::generalized_alpha(0.8),
+                               model.system.start(0));
              }),
              Contains("node 'loose'") && Contains("no mass"));
 }

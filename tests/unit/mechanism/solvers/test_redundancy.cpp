@@ -1,10 +1,13 @@
 #include <catch2/catch.hpp>
 
 #include "mechanism/io/mechanism_file.hpp"
+#include "mechanism/solvers/march.hpp"
 #include "mechanism/solvers/redundancy.hpp"
-#include "mechanism/solvers/time_integration.hpp"
+#include "tests/support/messages.hpp"
+#include "tests/support/run_model.hpp"
 
 using namespace bielle::mechanism;
+using bielle::test::ReadyModel;
 
 namespace {
 
@@ -107,4 +110,46 @@ joints: {weld: {type: rigid, nodes: [ground, a]}}
   TimeIntegration integration(system, file.model.environment, Scheme::generalized_alpha(0.8), start);
   integration.start(0.01);
   CHECK_NOTHROW(integration.step(0.01));
+}
+
+TEST_CASE("a step that fails near a dead centre names the constraints that repeat others there") {
+  // A slider-crank whose slider is pulled beyond its reach.
+  const ReadyModel model(R"yaml(
+nodes:
+  crank: {position: [0.25, 0.2, 0]}
+  rod: {position: [0.75, 0.2, 0]}
+  slider: {position: [1.0, 0, 0]}
+elements:
+  crank: {type: rigid_body, node: crank, mass: 1, inertia: [0.01, 0.02, 0.02]}
+  rod: {type: rigid_body, node: rod, mass: 1, inertia: [0.01, 0.02, 0.02]}
+  slider: {type: rigid_body, node: slider, mass: 1, inertia: [0.01, 0.02, 0.02]}
+joints:
+  main: {type: hinge, nodes: [ground, crank], position: [0, 0, 0], axis: [0, 0, 1]}
+  pin: {type: hinge, nodes: [crank, rod], position: [0.5, 0.4, 0], axis: [0, 0, 1]}
+  wrist: {type: hinge, nodes: [rod, slider], position: [1, 0, 0], axis: [0, 0, 1]}
+  guide: {type: prismatic, nodes: [ground, slider], position: [1, 0, 0], axis: [1, 0, 0]}
+drives: {push: {joint: guide, displacement: "t"}}
+)yaml");
+  TimeIntegration integration(model.system, model.environment(), Scheme::generalized_alpha(0.8), model.system.start(0));
+  StepOptions options;
+  options.size = 5e-3;
+  March march(integration, 0, 1, options);
+  const std::string message = bielle::test::message_of<bielle::ComputationError>([&] {
+    while (!march.done()) march.advance();
+  });
+  CHECK_THAT(message, Catch::Contains("singular position") && Catch::Contains("drive 'push'"));
+  CHECK(integration.state().time == Approx(2 * std::hypot(0.5, 0.4) - 1).margin(5e-3));
+}
+
+TEST_CASE("a joint that is assembled the wrong way round is refused, although its constraints hold") {
+  const ReadyModel model(R"yaml(
+nodes: {m: {position: [1, 0, 0]}}
+elements: {m: {type: rigid_body, node: m, mass: 1, inertia: [1, 1, 1]}}
+joints: {main: {type: hinge, nodes: [ground, m], position: [0, 0, 0], axis: [0, 0, 1]}}
+)yaml");
+  State state = model.system.start(0);
+  state.nodes.back().R = exp_so3(Vector3(3.14159265358979324, 0, 0));
+  StartReport report;
+  CHECK_THROWS_WITH(assemble_positions(model.system, model.environment(), state, report),
+                    Catch::Contains("joint 'main': its axes point in opposite directions"));
 }
