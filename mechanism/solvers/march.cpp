@@ -82,11 +82,13 @@ class March::Stops {
 };
 
 March::March(TimeIntegration& integration, double begin, double end, StepOptions options)
-    : integration_(integration), end_(end), options_(std::move(options)) {
+    : integration_(integration),
+      end_(end),
+      options_(std::move(options)),
+      norm_(integration.system(), integration.environment(), integration.state()) {
   const bool adaptive = options_.tolerance > 0;
   stops_ = std::make_unique<Stops>(begin, end, options_);
   stops_->advance(integration.state().time);
-  if (adaptive) norm_.emplace(integration.system(), integration.environment(), integration.state());
   size_ = adaptive ? std::min(options_.size, options_.largest) : stops_->step_size();
   smallest_ = adaptive ? 1e-10 * (end - begin) : size_ / 1024;
   const std::vector<double>& kinks = options_.break_points;
@@ -108,13 +110,7 @@ void March::exchange(Archive& archive) {
     before_ = whole;
     log_ = {};
   }
-  // Fixed steps may go on where adaptive ones ended, and the other way round.
-  bool adaptive = norm_.has_value();
-  archive(adaptive);
-  if (adaptive) {
-    ErrorNorm unused(integration_.system(), integration_.environment(), integration_.state());
-    (norm_ ? *norm_ : unused).exchange(archive);
-  }
+  norm_.exchange(archive);  // with fixed steps as well: adaptive ones may go on where they ended
   stops_->advance(integration_.state().time);
 }
 
@@ -147,6 +143,7 @@ void March::refuse_by_error(double h, double error) {
 
 MarchStep March::advance() {
   constexpr int most = 2;
+  const bool adaptive = options_.tolerance > 0;
   begin_step();
   int too_large = 0;  // errors, one after the other
   while (true) {
@@ -173,7 +170,7 @@ MarchStep March::advance() {
       refuse_by_newton(h, report);
       continue;
     }
-    const double error = norm_ ? (*norm_)(integration_) / options_.tolerance : 0;
+    const double error = adaptive ? norm_(integration_) / options_.tolerance : 0;
     if (error > 1) {
       tell(Attempt::Outcome::refused_by_error, error);
       ++too_large;
@@ -192,14 +189,14 @@ MarchStep March::advance() {
       log_.smallest = log_.smallest > 0 ? std::min(log_.smallest, h) : h;
       log_.largest = std::max(log_.largest, h);
     }
-    if (norm_)
+    if (adaptive)
       size_ = std::max(proposed_size(h, error, options_.largest), last ? size_ : 0);
     else
       size_ = std::min(2 * size_, stops_->step_size());
     const bool on_grid = last && stops_->on_grid();
     if (kink) pending_ = Pending::restart;
     if (last) stops_->advance(stops_->time());
-    return {report, error, norm_.has_value() || on_grid};
+    return {report, error, adaptive || on_grid};
   }
 }
 

@@ -9,7 +9,6 @@
 #include <functional>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -87,7 +86,7 @@ class March {
   double end_;
   StepOptions options_;
   std::unique_ptr<Stops> stops_;
-  std::optional<ErrorNorm> norm_;  ///< adaptive steps only
+  ErrorNorm norm_;
   Pending pending_ = Pending::start;
   double size_ = 0, smallest_ = 0;
   MarchLog log_, before_;  ///< before_: of the runs that this one goes on from

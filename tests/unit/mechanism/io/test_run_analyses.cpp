@@ -266,6 +266,18 @@ TEST_CASE("a finished motion goes on in its own file when its duration has grown
   for (std::size_t k = 0; k < x.size(); ++k) CHECK(y[k] == Approx(x[k]).margin(1e-9));
 }
 
+TEST_CASE("a motion may go on with other steps than it began with") {
+  const test::TemporaryFolder folder;
+  for (const auto& [first, then] :
+       {std::pair("step: 1e-3", "step: 1e-3, tolerance: 1e-6"), std::pair("step: 1e-3, tolerance: 1e-6", "step: 1e-3"),
+        std::pair("step: 1e-3", "step: 5e-4, rho: 0.6")}) {
+    const std::string results = folder / "results.h5";
+    run(pendulum(first, 0.2, "every: 5"), results);
+    run(pendulum(then, 0.3, "every: 5"), results, results);
+    CHECK(Hdf5File::open(results).read("/time").back() == Approx(0.5));
+  }
+}
+
 TEST_CASE("what cannot be continued is refused, and the file stays as it was") {
   const test::TemporaryFolder folder;
   const std::string results = folder / "results.h5";
