@@ -108,15 +108,14 @@ std::string TimeIntegration::caution() const {
   constexpr double none = 1e-6;
   if (form_ != ConstraintForm::corrected && turn_ > std::max(most, none))
     return fmt::format(
-        "{}; with this scheme and form of constraints, errors of joint forces may grow from {:.2g} rad on: smaller "
-        "steps, "
-        "or `constraints: corrected` (the default), avoid that",
+        "{}; with this scheme and form of constraints, errors of joint forces may grow from {:.2g} rad on: take "
+        "smaller steps, or `constraints: corrected` (the default)",
         turns, most);
   const double lag = -scheme_.position_error() * turn_ * turn_;
   if (lag > 0.01)
     return fmt::format(
-        "{}; such steps are stable, but positions fall behind by about {:.1g} of each turn: take smaller "
-        "ones, or give a `tolerance`",
+        "{}; such steps are stable, but positions fall behind by about {:.1g} of each turn: take smaller ones, or give "
+        "a `tolerance`",
         turns, lag);
   return {};
 }
