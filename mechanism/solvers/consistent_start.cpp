@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "mechanism/solvers/massless.hpp"
+#include "mechanism/solvers/massless_balance.hpp"
 #include "mechanism/solvers/massless_direction.hpp"
 #include "mechanism/solvers/model_length.hpp"
 #include "mechanism/solvers/redundancy.hpp"

@@ -49,7 +49,7 @@ void make_velocities_consistent(const System& system, const Environment& environ
 /// @throws ComputationError naming an unknown without mass
 void make_accelerations_consistent(const System& system, const Environment& environment, State& state);
 
-/// All three, in that order; with them, directions without mass are balanced (massless.hpp).
+/// All three, in that order; with them, directions without mass are balanced (massless_balance.hpp).
 StartReport make_consistent(const System& system, const Environment& environment, State& state);
 
 }  // namespace bielle::mechanism

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "mechanism/solvers/massless.hpp"
+#include "mechanism/solvers/massless_balance.hpp"
 #include "mechanism/solvers/redundancy.hpp"
 
 namespace bielle::mechanism {

@@ -1,7 +1,7 @@
 // Directions without mass at the start of a motion and behind jumps of forces.
 #include <catch2/catch.hpp>
 
-#include "mechanism/solvers/massless.hpp"
+#include "mechanism/solvers/massless_balance.hpp"
 #include "tests/support/run_model.hpp"
 
 using namespace bielle::mechanism;

@@ -1,4 +1,4 @@
-#include "mechanism/solvers/massless.hpp"
+#include "mechanism/solvers/massless_balance.hpp"
 
 #include <algorithm>
 #include <cmath>
