@@ -69,15 +69,15 @@ std::string describe_elements(const Model& model) {
   const auto section = [](const char* where, const BeamElement& element) {
     const Matrix6& C = element.section();
     const bool coupled = !C.isDiagonal(1e-12);
-    std::string text = fmt::format(
+    const std::string line = fmt::format(
         "    section in the middle of {} element: EA {:.6g}, GAy {:.6g}, GAz {:.6g} N, GJ {:.6g}, EIy {:.6g}, EIz "
         "{:.6g} N "
         "m^2{}\n",
         where, C(0, 0), C(1, 1), C(2, 2), C(3, 3), C(4, 4), C(5, 5),
         coupled ? " about the node line, and coupling terms" : "");
-    if (!coupled) return text;
+    if (!coupled) return line;
     const Vector6 alone = C.inverse().diagonal().cwiseInverse();
-    return text + fmt::format("      against one moment alone: GJ {:.6g}, EIy {:.6g}, EIz {:.6g} N m^2\n", alone[3],
+    return line + fmt::format("      against one moment alone: GJ {:.6g}, EIy {:.6g}, EIz {:.6g} N m^2\n", alone[3],
                               alone[4], alone[5]);
   };
   for (const auto& [name, elements] : beams) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -272,10 +273,31 @@ Analysis read_analysis(const YamlValue& entry, const Model& model) {
   return analysis;
 }
 
+/// `only: {nodes: [pin], joints: []}`: of the sections that are named, nothing else is recorded.
+void read_only(const YamlValue& only, Model& model) {
+  const std::vector<std::string> sections = {"nodes", "joints", "elements"};
+  only.check_keys(sections, "`only`");
+  for (const auto& [section, list] : only.entries()) {
+    std::vector<std::string> available;
+    if (section == "nodes") {
+      for (const Node& node : model.nodes())
+        if (!node.internal && node.name != "ground") available.push_back(node.name);
+    } else {
+      available = model.names_in(section);
+    }
+    std::set<std::string> wanted;
+    for (const YamlValue& item : list.items())
+      if (!wanted.insert(item.word(available, "one of the " + section)).second) item.fail("is named twice");
+    for (const std::string& name : available)
+      if (!wanted.contains(name)) model.leave_out(section + "/" + name);
+  }
+}
+
 /// `fields: {rod: [displacement, von_mises]}`: what elements record beside their own outputs.
 void read_fields(const YamlValue& fields, Model& model) {
   fields.check_keys(model.names_in("elements"), "`fields`, which names elements");
   for (const auto& [element, names] : fields.entries()) {
+    if (!model.records("elements/" + element)) names.fail(fmt::format("`only` leaves out '{}'", element));
     Component& component = *model.components_in("elements/" + element).front();
     const std::vector<std::string> available = component.optional_fields();
     if (available.empty())
@@ -308,7 +330,7 @@ std::vector<double> read_times(const YamlValue& entry, double end) {
 }
 
 OutputOptions read_output(const YamlValue& entry, double end, Model& model) {
-  entry.check_keys({"every", "times", "fields", "checkpoint", "log"}, "`output`");
+  entry.check_keys({"every", "times", "only", "fields", "checkpoint", "log"}, "`output`");
   OutputOptions output;
   if (entry.has("times")) {
     if (entry.has("every")) entry.at("every").fail("either `every` or `times`, not both");
@@ -321,6 +343,7 @@ OutputOptions read_output(const YamlValue& entry, double end, Model& model) {
     if (output.checkpoint < 1) entry.at("checkpoint").fail("expected at least 1 step");
   }
   if (entry.has("log")) output.log = entry.at("log").boolean();
+  if (const auto only = entry.find("only")) read_only(*only, model);
   if (const auto fields = entry.find("fields")) read_fields(*fields, model);
   return output;
 }

@@ -74,6 +74,7 @@ void ResultsRows::add_nodes() {
     const Node& node = model_.node(k);
     if (node.internal) continue;
     const std::string group = "nodes/" + node.name;
+    if (!model_.records(group)) continue;
     NodePlace place{k, 0, 0, nodes_.size(), true};
     place.position = add_column(group + "/position", {3}, "m", "inertial");
     place.rotation = add_column(group + "/rotation", {4}, "-", "unit quaternion w x y z: node axes -> inertial axes");
@@ -87,6 +88,7 @@ void ResultsRows::add_nodes() {
 
 void ResultsRows::add_chains() {
   for (const Chain& chain : model_.chains()) {
+    if (!model_.records(chain.group)) continue;
     const std::size_t count = chain.nodes.size();
     const std::size_t positions = add_column(chain.group + "/position", {count, 3}, "m", "inertial");
     const std::size_t rotations =
@@ -101,7 +103,7 @@ void ResultsRows::add_members() {
   std::size_t largest = 0;
   for (std::size_t first = 0; first < placed.size(); ++first) {
     const Member& member = model_.members()[first];
-    if (placed[first] || member.group.empty()) continue;
+    if (placed[first] || member.group.empty() || !model_.records(member.group)) continue;
     // A component alone, or all the stacked ones of its group.
     std::vector<std::size_t> alike_members = {first};
     const std::vector<OutputField> fields = member.component->output_fields();

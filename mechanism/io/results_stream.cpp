@@ -69,6 +69,15 @@ void ResultsStream::resume(const std::string& group, std::size_t recorded) {
     if (!file_.has(dataset))
       throw InputError(fmt::format("{}: '{}' is not in it: a run goes on with the outputs that it began with",
                                    file_.path(), dataset));
+  for (const std::string section : {"nodes", "joints", "elements"}) {
+    if (!file_.has(group_ + "/" + section)) continue;
+    for (const std::string& name : file_.names_in(group_ + "/" + section))
+      if (!model_.records(section + "/" + name))
+        throw InputError(
+            fmt::format("{}: holds '{}/{}', which `only` leaves out now: a run goes on with the outputs that "
+                        "it began with",
+                        file_.path(), section, name));
+  }
   created_ = true;
   link_from_root();
 }

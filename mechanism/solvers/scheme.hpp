@@ -24,10 +24,10 @@ struct Scheme {
   double delta() const { return alpha_m - alpha_f; }  ///< A_n = a(t_n + delta h) + O(h^2)
   /// Local error of q: C_q h^3 da/dt = C_q h^2 (A_{n+1} - A_n), exact minus computed.
   double position_error() const { return -(1 + 3 * delta() * delta()) / 12; }
-  /// Local error of v (and of first-order unknowns): C_v h^3 d2a/dt2, exact minus computed.
   /// Turn per step of the direction of a constraint of index 3 up to which errors of its multiplier fade (for the
   /// pendulum whose mass stands in a point, the worst case; measured as 0.154 with rho = 0.8) [rad]
   double most_turn() const;
+  /// Local error of v (and of first-order unknowns): C_v h^3 d2a/dt2, exact minus computed.
   double velocity_error() const { return 1.0 / 6 - delta() * (alpha_m - 0.5) - gamma * (0.5 + delta()); }
 };
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -71,6 +72,10 @@ class Model {
   /// The components recorded in a group ("elements/shaft").
   std::vector<Component*> components_in(const std::string& group);
 
+  /// Takes a results group ("nodes/pin", "joints/main", "elements/shaft") out of what is recorded.
+  void leave_out(const std::string& group) { left_out_.insert(group); }
+  bool records(const std::string& group) const { return !left_out_.contains(group); }
+
   Environment environment;  ///< gravity with load factor 1
   std::string title;
   Parameters parameters;  ///< of the input file, overrides included
@@ -80,6 +85,7 @@ class Model {
   std::map<std::string, int> node_index_;
   std::vector<Member> members_;
   std::vector<Chain> chains_;
+  std::set<std::string> left_out_;
 };
 
 /// Reads one entry of a section of the mechanism file (`name: {type: ..., ...}`) into the model. Each component type

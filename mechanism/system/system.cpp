@@ -279,8 +279,7 @@ State System::start(double time) const {
 }
 
 void System::displace(State& state, const State& base, const Eigen::Ref<const VectorX>& dq) const {
-  kinematics_.displace(state.nodes, base.nodes, dq.head(kinematics_.unknowns()), state.time,
-                       state.motion_factor);
+  kinematics_.displace(state.nodes, base.nodes, dq.head(kinematics_.unknowns()), state.time, state.motion_factor);
   state.amplitude = base.amplitude + dq.tail(amplitudes_);
 }
 

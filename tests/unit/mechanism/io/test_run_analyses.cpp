@@ -310,3 +310,32 @@ TEST_CASE("results take the place of results only") {
   run(text, results);
   run(text, results);
 }
+
+TEST_CASE("what `only` does not name is not recorded, and the rest is as without it") {
+  const test::TemporaryFolder folder;
+  const std::string steps = "step: 1e-3", whole = folder / "whole.h5", part = folder / "part.h5";
+  run(pendulum(steps, 0.1, "every: 10"), whole);
+  run(pendulum(steps, 0.1, "every: 10, only: {nodes: [lower], joints: []}"), part);
+  const Hdf5File a = Hdf5File::open(whole), b = Hdf5File::open(part);
+  CHECK(b.names_in("/nodes") == std::vector<std::string>{"lower"});
+  CHECK_FALSE(b.has("/joints"));
+  for (const std::string group : {"/analysis_2/nodes/lower", "/analysis_2/elements", "/analysis_2/energy"})
+    check_same_results(a, b, group);
+
+  for (const std::string other : {"every: 10", "every: 10, only: {nodes: [upper, lower], joints: []}",
+                                  "every: 10, only: {nodes: [lower], joints: [], elements: [upper]}"}) {
+    INFO(other);
+    CHECK_THROWS_WITH(run(pendulum(steps, 0.2, other), folder / "rest.h5", part),
+                      Catch::Contains("goes on with the outputs that it began with"));
+  }
+}
+
+TEST_CASE("slips in `only` are told") {
+  const auto message = [](const std::string& only) {
+    return test::message_of<InputError>([&] { read_mechanism_text(pendulum("step: 1e-3", 1, only), "p.yaml"); });
+  };
+  CHECK_THAT(message("only: {nodes: [lowr]}"), Catch::Contains("'lowr'") && Catch::Contains("did you mean 'lower'"));
+  CHECK_THAT(message("only: {nods: [lower]}"), Catch::Contains("did you mean 'nodes'"));
+  CHECK_THAT(message("only: {joints: [elbow, elbow]}"), Catch::Contains("is named twice"));
+  CHECK_THAT(message("only: {elements: [upper]}, fields: {lower: [stress]}"), Catch::Contains("leaves out 'lower'"));
+}
