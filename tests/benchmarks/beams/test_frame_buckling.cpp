@@ -1,63 +1,81 @@
-// Buckling of right-angle frames out of their plane with the torsion constant of the publication.
+// Buckling of right-angle frames out of their plane.
 //
 // J. Argyris et al., Comput. Methods Appl. Mech. Eng. 17/18 (1979) 1: two legs of 240, section 30 x 0.6 in the plane, E
-// = 71240, nu = 0.31, GJ = G h b^3/3; published 1.088, 0.680 and 622.2. References: critical loads of the geometrically
-// exact rod by shooting (1e-8), with the bending before buckling. (With Saint-Venant's constant:
-// test_lateral_buckling.cpp.)
-#include <cmath>
-
+// = 71240, nu = 0.31; published 1.088, 0.680 and 622.2 with GJ = G h b^3/3. References: critical loads of the
+// geometrically exact rod by shooting (1e-8), with the bending before buckling, for that constant and Saint-Venant's.
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "tests/benchmarks/beams/critical_load.hpp"
 #include "tests/support/static_model.hpp"
 
+using bielle::test::check_load;
 using bielle::test::StaticModel;
 
 namespace {
 
-std::string leg(const std::string& name, const std::string& from, const std::string& to, int elements) {
-  return fmt::format(
-      "  {}: {{type: beam, nodes: [{}, {}], elements: {}, orientation: [0, 0, 1], section: {{EA: 71240*18, GAy: "
-      "71240*15/2.62, GAz: 71240*15/2.62, GJ: 71240*30*0.6^3/3/2.62, EIy: 71240*0.6*30^3/12, EIz: "
-      "71240*30*0.6^3/12}}}}\n",
-      name, from, to, elements);
+constexpr const char* saint_venant = "{rectangle: [0.6, 30], young: 71240, poisson: 0.31}";
+constexpr const char* thin =
+    "{EA: 71240*18, GAy: 71240*15/2.62, GAz: 71240*15/2.62, GJ: 71240*30*0.6^3/3/2.62, EIy: 71240*0.6*30^3/12, EIz: "
+    "71240*30*0.6^3/12}";
+
+std::string leg(const std::string& ends, int elements, const std::string& section) {
+  return fmt::format("{{type: beam, nodes: {}, elements: {}, orientation: [0, 0, 1], section: {}}}\n", ends, elements,
+                     section);
 }
 
-/// Loads for three meshes approach the reference with the square of the element length.
-template <class Load>
-void check_load(double exact, const Load& load) {
-  std::vector<double> errors;
-  for (const int elements : {4, 8, 16}) errors.push_back(load(elements) / exact - 1);
-  CAPTURE(exact, errors);
-  CHECK_THAT(std::log2(errors[1] / errors[2]), Catch::WithinAbs(2, 0.1));
-  CHECK(std::abs(4 * errors[2] - errors[1]) / 3 < 1e-4);
+/// Clamped at the root; a force in the plane at the tip.
+double cantilever_load(int elements, const std::string& section, int x, int y, double begin, double step,
+                       double tolerance) {
+  StaticModel frame(
+      "nodes: {root: {position: [0, 0, 0], fixed: true}, corner: {position: [0, 240, 0]}, tip: {position: [240, 240, "
+      "0]}}\nelements:\n  first: " +
+      leg("[root, corner]", elements, section) + "  second: " + leg("[corner, tip]", elements, section) +
+      fmt::format("loads: {{p: {{node: tip, force: [{}, {}, 0]}}}}\n", x, y));
+  return frame.critical_load(begin, step, 1e-6, tolerance);
+}
+
+/// End moments of either sign; the ends slide along x and turn about z.
+double hinged_load(int elements, const std::string& section, int sign) {
+  StaticModel frame(
+      "nodes:\n  left: {position: ['-120*sqrt(2)', 0, 0], fixed: [y, z, rx, ry]}\n"
+      "  apex: {position: [0, '120*sqrt(2)', 0], fixed: [x]}\n"  // of what slides freely, one place is held
+      "  right: {position: ['120*sqrt(2)', 0, 0], fixed: [y, z, rx, ry]}\nelements:\n  first: " +
+      leg("[left, apex]", elements, section) + "  second: " + leg("[apex, right]", elements, section) +
+      fmt::format("loads: {{a: {{node: left, moment: [0, 0, {}]}}, b: {{node: right, moment: [0, 0, {}]}}}}\n", sign,
+                  -sign));
+  return frame.critical_load(600, 5, 1e-5, 1e-4);
 }
 
 }  // namespace
 
-TEST_CASE("a cantilever right-angle frame with the published torsion constant") {
+TEST_CASE("a cantilever right-angle frame buckles out of its plane") {
   // The load at the tip is parallel to the first leg: away from the clamp, and towards it.
-  for (const auto& [direction, exact] : {std::pair{1, 1.0875178408}, {-1, 0.6804273623}})
-    check_load(exact, [direction = direction](int elements) {
-      StaticModel frame(
-          "nodes: {root: {position: [0, 0, 0], fixed: true}, corner: {position: [0, 240, 0]}, tip: {position: [240, "
-          "240, 0]}}\nelements:\n" +
-          leg("first", "root", "corner", elements) + leg("second", "corner", "tip", elements) +
-          fmt::format("loads: {{p: {{node: tip, force: [0, {}, 0]}}}}\n", direction));
-      return frame.critical_load(0.5, 0.05, 1e-6, 1e-8);
-    });
+  const struct {
+    const char* section;
+    int direction;
+    double exact;
+  } cases[] = {{saint_venant, 1, 1.0840875933},
+               {saint_venant, -1, 0.6789283208},
+               {thin, 1, 1.0875178408},
+               {thin, -1, 0.6804273623}};
+  for (const auto& c : cases)
+    check_load(c.exact,
+               [&](int elements) { return cantilever_load(elements, c.section, 0, c.direction, 0.5, 0.05, 1e-8); });
 }
 
-TEST_CASE("a hinged right-angle frame with the published torsion constant") {
-  // End moments of either sign; the ends slide along x and turn about z.
-  for (const int sign : {1, -1})
-    check_load(622.2217, [sign](int elements) {
-      StaticModel frame(fmt::format(
-          "nodes:\n  left: {{position: ['-120*sqrt(2)', 0, 0], fixed: [y, z, rx, ry]}}\n"
-          "  apex: {{position: [0, '120*sqrt(2)', 0], fixed: [x]}}\n"  // of what slides freely, one place is held
-          "  right: {{position: ['120*sqrt(2)', 0, 0], fixed: [y, z, rx, ry]}}\nelements:\n{}{}"
-          "loads: {{a: {{node: left, moment: [0, 0, {}]}}, b: {{node: right, moment: [0, 0, {}]}}}}\n",
-          leg("first", "left", "apex", elements), leg("second", "apex", "right", elements), sign, -sign));
-      return frame.critical_load(600, 5, 1e-5, 1e-4);
-    });
+TEST_CASE("a cantilever right-angle frame under a load along its second leg") {
+  // References of four digits; the load acts towards the corner or away from it.
+  for (const auto& [direction, exact] : {std::pair{-1, 0.6508}, {1, 3.979}}) {
+    const auto load = [direction = direction](int elements) {
+      return cantilever_load(elements, thin, direction, 0, 0.3, 0.1, 1e-6);
+    };
+    CHECK_THAT((4 * load(16) - load(8)) / 3, Catch::WithinRel(exact, 2e-4));
+  }
+}
+
+TEST_CASE("a hinged right-angle frame buckles under end moments of either sign") {
+  for (const auto& [section, exact] : {std::pair{saint_venant, 618.2869}, {thin, 622.2217}})
+    for (const int sign : {1, -1})
+      check_load(exact, [&, section = section](int elements) { return hinged_load(elements, section, sign); });
 }
