@@ -2,38 +2,14 @@
 #pragma once
 
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "mechanism/solvers/arc_length.hpp"
-#include "mechanism/solvers/march.hpp"
+#include "mechanism/io/analysis.hpp"
+#include "mechanism/io/output_options.hpp"
 #include "mechanism/system/model.hpp"
 
 namespace bielle::mechanism {
-
-/// One entry of `analysis`.
-struct Analysis {
-  enum class Type { assembly, statics, dynamics } type;
-  std::string name;                 ///< as in the file: "dynamic"
-  int steps = 1;                    ///< statics; 0: chosen by the program
-  std::optional<PathOptions> path;  ///< statics that follow a path
-  double duration = 0;              ///< [s] dynamics
-  StepOptions stepping;             ///< without break points
-  Scheme scheme{};                  ///< dynamics
-  ConstraintForm form = ConstraintForm::corrected;
-  NewtonOptions newton;      ///< statics and dynamics
-  bool equilibrium = false;  ///< dynamics: positions of static equilibrium first
-  std::string scheme_name;   ///< for the summary
-};
-
-struct OutputOptions {
-  int every = 1;  ///< steps between records; the first and the last are always recorded
-  /// [s], ascending: if any, dynamic analyses record their start and these times in place of steps.
-  std::vector<double> times;
-  bool log = false;    ///< a table of all attempted steps beside the results
-  int checkpoint = 0;  ///< steps between points that a run can go on from; 0: at the end of dynamic analyses only
-};
 
 struct MechanismFile {
   Model model;

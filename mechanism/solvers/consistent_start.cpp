@@ -111,7 +111,6 @@ VectorX factor_mass_saddle(const System& system, const Environment& environment,
   linear.row_sums(VectorX::Ones(system.size()), sums);
   for (int i = 0; i < system.dofs(); ++i)
     if (sums[i] == 0) throw_massless(system.unknown_name(i), system.kind(i) == Kind::rotation ? "inertia" : "mass");
-  check_massless_directions(system, state);
   if (linear.try_factor(state, environment, weights, nullptr, &extra)) return extra;
   if (!linear.try_factor(state, environment, weights, nullptr, &everywhere)) linear.throw_singular(state.time);
   return everywhere;
@@ -250,6 +249,7 @@ StartReport make_consistent(const System& system, const Environment& environment
   StartReport report;
   assemble_positions(system, environment, state, report);
   check_set_aside(system, environment, state);
+  check_massless_directions(system, state);
   make_velocities_consistent(system, environment, state, report);
   make_accelerations_consistent(system, environment, state);
   balance_massless(system, environment, state, report);
