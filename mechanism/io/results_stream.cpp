@@ -97,9 +97,9 @@ void ResultsStream::record(const State& state, const std::vector<Slots>& slots, 
                 [&] { return failure_ || filling_.instants.empty() || filling_.count < filling_.instants.size(); });
   check();
   if (filling_.instants.empty()) make_room(state);
-  slots_ = &slots;
   Instant& instant = filling_.instants[filling_.count++];
   instant.state = state;
+  instant.slots = &slots;
   instant.environment = environment;
   instant.step = step;
   ++recorded_;
@@ -172,7 +172,7 @@ void ResultsStream::make_row(const Instant& instant) {
     block_.times.resize(pieces_in(block_bytes, row_bytes(), most_block_rows));
     block_.values.resize(block_.times.size() * rows_.size());
   }
-  rows_.fill(instant.state, *slots_, instant.environment, instant.step,
+  rows_.fill(instant.state, *instant.slots, instant.environment, instant.step,
              block_.values.data() + block_.rows * rows_.size());
   block_.times[block_.rows++] = instant.step.time.value_or(instant.state.time);
 }

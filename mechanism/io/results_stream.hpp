@@ -50,6 +50,7 @@ class ResultsStream {
   /// What a row is made of.
   struct Instant {
     State state;
+    const std::vector<Slots>* slots = nullptr;
     Environment environment;
     StepRecord step;
   };
@@ -79,7 +80,6 @@ class ResultsStream {
   Hdf5File file_;
   std::string group_;  ///< of the running analysis
   std::size_t expected_rows_ = 0, recorded_ = 0;
-  const std::vector<Slots>* slots_ = nullptr;
   std::vector<std::string> datasets_;  ///< of the columns
   std::string time_dataset_;
   bool created_ = false, linked_ = false;
