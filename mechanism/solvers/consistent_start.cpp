@@ -50,10 +50,10 @@ void check_massless_directions(const System& system, const State& state) {
   unloaded.load_factor = 0;
   std::vector<double> mass, all;
   system.tangent(still, unloaded, {0, 0, 1, 0, 0}, nullptr, mass);
-  system.tangent(still, unloaded, {1, 1, 1, 1, 1}, nullptr, all);
   for (int node = 0; node < static_cast<int>(system.model().nodes().size()); ++node) {
     const auto direction = massless_direction(system, mass, node);
     if (!direction) continue;
+    if (all.empty()) system.tangent(still, unloaded, {1, 1, 1, 1, 1}, nullptr, all);
     const int begin = system.kinematics().freedom(node).begin;
     double left = 0, size = 0;
     for (int column = 0; column < system.size(); ++column) {

@@ -71,12 +71,6 @@ void multiply_columns(Eigen::Map<MatrixX>& A, Eigen::Index first, const Matrix3&
   }
 }
 
-/// sum += c C + m M
-void add_both(double c, const double* __restrict C, double m, const double* __restrict M, int count,
-              double* __restrict sum) {
-  for (int k = 0; k < count; ++k) sum[k] += c * C[k] + m * M[k];
-}
-
 }  // namespace
 
 void System::node_forces(const State& state, const Environment& environment, VectorX& forces, Eigen::Ref<VectorX> r,
@@ -253,16 +247,12 @@ void System::add_reduced(const Placement& placement, const LocalState& local, co
         multiply_columns(K, 6 * static_cast<Eigen::Index>(k) + 3,
                          work.step_tangent[static_cast<std::size_t>(slots.nodes[k])]);
       }
-    if (slots.first_orders == 0 && wants_C && wants_M && !weights.velocity_level) {
-      add_both(weights.damping, work.C.data(), weights.mass, work.M.data(), n * n, work.K.data());
-    } else {
-      if (wants_C || weights.velocity_level) {
-        K.leftCols(first_order) += weights.damping * C.leftCols(first_order);
-        K.middleCols(first_order, slots.first_orders) +=
-            weights.first_order * C.middleCols(first_order, slots.first_orders);
-      }
-      if (wants_M && !weights.velocity_level) K += weights.mass * M;
+    if (wants_C || weights.velocity_level) {
+      K.leftCols(first_order) += weights.damping * C.leftCols(first_order);
+      K.middleCols(first_order, slots.first_orders) +=
+          weights.first_order * C.middleCols(first_order, slots.first_orders);
     }
+    if (wants_M && !weights.velocity_level) K += weights.mass * M;
     scatter(placement.targets, K.data(), values);
     return;
   }

@@ -2,7 +2,11 @@
 // 0.46875, 0.234375) kg m^2 about the centre at (0, 1, 0), spinning at (0, 150, -4.61538) rad/s.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "mechanism/math/so3.hpp"
+#include "mechanism/system/state.hpp"
 
 namespace bielle::test {
 
@@ -57,6 +61,17 @@ class EulerPoinsot {
   }
   Matrix3 R_ = Matrix3::Identity();
   Vector3 Omega_{0, 150, -4.61538};
+};
+
+/// Largest errors of a computed top over the steps that were noted: of the centre's position, of all velocities, of the
+/// multipliers (whose axes stay parallel to the inertial ones: the negative of the pivot's force on the top).
+struct TopErrors {
+  double x = 0, v = 0, lambda = 0;
+  void note(const mechanism::NodeState& top, const mechanism::VectorX& multiplier, const EulerPoinsot& reference) {
+    x = std::max(x, (top.x - reference.centre()).norm());
+    v = std::max(v, std::hypot((top.v - reference.velocity()).norm(), (top.Omega - reference.Omega()).norm()));
+    lambda = std::max(lambda, (-multiplier - reference.force()).norm());
+  }
 };
 
 }  // namespace bielle::test

@@ -11,8 +11,7 @@ using bielle::test::ReadyModel;
 
 namespace {
 
-struct Errors {
-  double x = 0, lambda = 0;
+struct Errors : bielle::test::TopErrors {
   double rate = 0;  ///< largest velocity of the pivot's point
 };
 
@@ -24,8 +23,7 @@ Errors top_errors(double h, double end) {
   const auto record = [&](const State& state) {
     if (state.time > 0) reference.advance(h, 20);
     const NodeState& top = model.node(state, "top");
-    errors.x = std::max(errors.x, (top.x - reference.centre()).norm());
-    errors.lambda = std::max(errors.lambda, (-state.multiplier - reference.force()).norm());
+    errors.note(top, state.multiplier, reference);
     errors.rate = std::max(errors.rate, (top.v - top.R * top.Omega.cross(Vector3(0, 1, 0))).norm());
   };
   integrate(model, Scheme::generalized_alpha(0.8), h, end, record, ConstraintForm::stabilised);

@@ -8,20 +8,17 @@
 using namespace bielle::mechanism;
 using bielle::test::EulerPoinsot;
 using bielle::test::ReadyModel;
+using bielle::test::TopErrors;
 
 namespace {
 
-struct Errors {
-  double x = 0, lambda = 0;
-};
-
 /// Largest errors in the 0.1 s after the step changed from h to `factor` h at t = 0.1 s.
-Errors errors_after_change(double h, double factor, double rho, ConstraintForm form) {
+TopErrors errors_after_change(double h, double factor, double rho, ConstraintForm form) {
   const ReadyModel model(bielle::test::heavy_top);
   TimeIntegration integration(model.system, model.environment(), Scheme::generalized_alpha(rho), model.system.start(0),
                               form);
   EulerPoinsot reference;
-  Errors errors;
+  TopErrors errors;
   integration.start(h);
   for (int k = 0; k < std::lround(0.1 / h); ++k) {
     integration.step(h);
@@ -31,8 +28,7 @@ Errors errors_after_change(double h, double factor, double rho, ConstraintForm f
   for (int k = 0; k < std::lround(0.1 / (factor * h)); ++k) {
     integration.step(factor * h);
     reference.advance(factor * h, 20);
-    errors.lambda = std::max(errors.lambda, (-integration.state().multiplier - reference.force()).norm());
-    errors.x = std::max(errors.x, (model.node(integration.state(), "top").x - reference.centre()).norm());
+    errors.note(model.node(integration.state(), "top"), integration.state().multiplier, reference);
   }
   return errors;
 }
@@ -45,10 +41,10 @@ TEST_CASE("positions and multipliers stay second order in the transient after th
     for (const double factor : {0.5, 2.0}) {
       // Not below 3e-5: there rounding of positions, times m/(beta h^2), is seen in the multipliers.
       double h = 1e-3;
-      Errors coarse = errors_after_change(h, factor, rho, form);
+      TopErrors coarse = errors_after_change(h, factor, rho, form);
       for (int halving = 0; halving < 4; ++halving) {
         h /= 2;
-        const Errors fine = errors_after_change(h, factor, rho, form);
+        const TopErrors fine = errors_after_change(h, factor, rho, form);
         INFO("rho " << rho << ", factor " << factor << ", h = " << h << ": lambda " << coarse.lambda << " -> "
                     << fine.lambda);
         CHECK(std::log2(coarse.x / fine.x) == Approx(2).margin(0.1));

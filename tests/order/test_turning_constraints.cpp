@@ -12,6 +12,7 @@ using bielle::test::EulerPoinsot;
 using bielle::test::integrate;
 using bielle::test::ReadyModel;
 using bielle::test::RotatingMass;
+using bielle::test::TopErrors;
 
 namespace {
 
@@ -109,29 +110,22 @@ TEST_CASE("with corrected velocities a rotor goes on where the plain form fails,
 TEST_CASE("corrected velocities keep order 2 in positions, velocities and multipliers over four halvings") {
   // The heavy top with rho = 0.99: its constraint turns by more than half of the 0.007 rad that the plain form bears in
   // all of these steps.
-  struct Errors {
-    double x = 0, v = 0, lambda = 0;
-  };
   const auto largest_errors = [](double h) {
     const ReadyModel model(bielle::test::heavy_top);
     EulerPoinsot reference;
-    Errors errors;
+    TopErrors errors;
     const auto record = [&](const State& state) {
       if (state.time > 0) reference.advance(h, 20);
-      const NodeState& top = model.node(state, "top");
-      errors.x = std::max(errors.x, (top.x - reference.centre()).norm());
-      errors.v =
-          std::max(errors.v, std::hypot((top.v - reference.velocity()).norm(), (top.Omega - reference.Omega()).norm()));
-      errors.lambda = std::max(errors.lambda, (-state.multiplier - reference.force()).norm());
+      errors.note(model.node(state, "top"), state.multiplier, reference);
     };
     integrate(model, Scheme::generalized_alpha(0.99), h, 0.1, record, ConstraintForm::corrected);
     return errors;
   };
   double h = 5e-4;
-  Errors coarse = largest_errors(h);
+  TopErrors coarse = largest_errors(h);
   for (int halving = 0; halving < 4; ++halving) {
     h /= 2;
-    const Errors fine = largest_errors(h);
+    const TopErrors fine = largest_errors(h);
     INFO("h = " << h << ": x " << coarse.x << " -> " << fine.x << ", lambda " << coarse.lambda << " -> "
                 << fine.lambda);
     CHECK(std::log2(coarse.x / fine.x) == Approx(2).margin(0.1));
