@@ -26,11 +26,13 @@ Measure Joint::calc_coordinate(std::size_t index, const NodeState& first, const 
                                 frames_.on_second.x);
 }
 
-Joint::ValueAndRate Joint::value_and_rate(std::size_t index, const LocalState& state) const {
+MeasureRate Joint::value_and_rate(std::size_t index, const LocalState& state) const {
   const NodeState &first = state.node(0), &second = state.node(1);
-  const Measure m = calc_coordinate(index, first, second);
-  const double rate = m.rate(pair_rate(first, second));
-  if (coordinates_[index].kind != JointCoordinate::Kind::angle) return {m.value, rate};
+  const Frame &A = frames_.on_first, &B = frames_.on_second;
+  const JointCoordinate& coordinate = coordinates_[index];
+  if (coordinate.kind != JointCoordinate::Kind::angle)
+    return measure_position_rate(first, second, A.R.col(coordinate.axis), A.x, B.x);
+  const auto [value, rate] = measure_angle_rate(first, second, A.R, B.R);
   const auto memory = state.memory();
   const auto at = 2 * static_cast<Eigen::Index>(index);
   const double time_before = memory[memory.size() - 1];
@@ -38,7 +40,7 @@ Joint::ValueAndRate Joint::value_and_rate(std::size_t index, const LocalState& s
   const double expected = std::isnan(time_before)
                               ? state.motion_factor() * memory[at]
                               : memory[at] + 0.5 * (memory[at + 1] + rate) * (state.time() - time_before);
-  return {unwrap_angle(m.value, expected), rate};
+  return {unwrap_angle(value, expected), rate};
 }
 
 void Joint::write_coordinates(const LocalState& state, double* values, double* rates) const {

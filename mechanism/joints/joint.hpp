@@ -51,13 +51,10 @@ class Joint : public Component {
   void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
 
  private:
-  struct ValueAndRate {
-    double value, rate;
-  };
   /// A displacement or angle; angles are unwrapped beside what the joint's memory and the rates let expect, so that a
   /// step may turn by more than half a turn. Memory: [value, rate of each coordinate | time], of the last accepted
   /// step.
-  ValueAndRate value_and_rate(std::size_t index, const LocalState& state) const;
+  MeasureRate value_and_rate(std::size_t index, const LocalState& state) const;
   /// All coordinates, also rotation vectors, and their rates.
   void write_coordinates(const LocalState& state, double* values, double* rates) const;
   JointFrames frames_;

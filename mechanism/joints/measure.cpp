@@ -157,6 +157,22 @@ Measure measure_angle(const NodeState& first, const NodeState& second, const Mat
   return m;
 }
 
+MeasureRate measure_position_rate(const NodeState& first, const NodeState& second, const Vector3& e_hat,
+                                  const Vector3& c_1, const Vector3& c_2) {
+  const Vector3 s = first.R.transpose() * (second.x + second.R * c_2 - first.x);
+  const Vector3 s_rate =
+      first.R.transpose() * (second.v + second.R * second.Omega.cross(c_2) - first.v) - first.Omega.cross(s);
+  return {e_hat.dot(s - c_1), e_hat.dot(s_rate)};
+}
+
+MeasureRate measure_angle_rate(const NodeState& first, const NodeState& second, const Matrix3& A, const Matrix3& B) {
+  const Vector3 b = first.R.transpose() * (second.R * B.col(0));
+  const Vector3 relative = first.R.transpose() * (second.R * second.Omega) - first.Omega;
+  const Vector3 b_rate = relative.cross(b);
+  const double s = A.col(1).dot(b), c = A.col(0).dot(b);
+  return {std::atan2(s, c), (c * A.col(1).dot(b_rate) - s * A.col(0).dot(b_rate)) / (s * s + c * c)};
+}
+
 double unwrap_angle(double angle, double previous) {
   return angle + 2 * M_PI * std::round((previous - angle) / (2 * M_PI));
 }

@@ -95,6 +95,14 @@ Measure measure_alignment(const NodeState& first, const NodeState& second, const
 /// their common z axis. @param A,B  axes in the components of their nodes
 Measure measure_angle(const NodeState& first, const NodeState& second, const Matrix3& A, const Matrix3& B);
 
+/// A measure with its rate alone: for what is recorded and remembered at every step.
+struct MeasureRate {
+  double value = 0, rate = 0;
+};
+MeasureRate measure_position_rate(const NodeState& first, const NodeState& second, const Vector3& e_hat,
+                                  const Vector3& c_1, const Vector3& c_2);
+MeasureRate measure_angle_rate(const NodeState& first, const NodeState& second, const Matrix3& A, const Matrix3& B);
+
 /// `angle` plus the whole turns that bring it nearest to `previous`.
 double unwrap_angle(double angle, double previous);
 

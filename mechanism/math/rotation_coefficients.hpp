@@ -28,6 +28,9 @@ inline constexpr double series_angle = 3.0;
 /// Rotations within a time step mostly are smaller.
 inline constexpr double short_series_angle = 0.5;
 
+/// And below which four are enough: the fifth is less than 2e-16 of the first.
+inline constexpr double shortest_series_angle = 0.05;
+
 namespace coefficient_series {
 
 /// sum_k c_k x^k of the first `terms` terms
@@ -119,6 +122,10 @@ struct ExpCoefficients {
   explicit ExpCoefficients(double phi_squared) {
     namespace series = coefficient_series;
     const double x = phi_squared;
+    if (x < shortest_series_angle * shortest_series_angle) {
+      sum_series<4>(x);
+      return;
+    }
     if (x < short_series_angle * short_series_angle) {
       sum_series<7>(x);
       return;

@@ -6,26 +6,6 @@
 
 namespace bielle::mechanism {
 
-namespace {
-
-/// 1 + p psi~ + q psi~ psi~, entry by entry: the inner loops are full of these.
-Matrix3 quadratic_in_skew(const Vector3& psi, double p, double q) {
-  const double x = psi[0], y = psi[1], z = psi[2];
-  const double xy = q * x * y, xz = q * x * z, yz = q * y * z, xx = q * x * x, yy = q * y * y, zz = q * z * z;
-  Matrix3 A;
-  A << 1 - (yy + zz), xy - p * z, xz + p * y,  //
-      xy + p * z, 1 - (xx + zz), yz - p * x,   //
-      xz - p * y, yz + p * x, 1 - (xx + yy);
-  return A;
-}
-
-}  // namespace
-
-Matrix3 exp_so3(const Vector3& psi) {
-  const ExpCoefficients c(psi.squaredNorm());
-  return quadratic_in_skew(psi, c.a1, c.a2);
-}
-
 Eigen::Vector4d quaternion_of(const Matrix3& R) {
   // Spurrier: divide by the largest of the four components.
   Eigen::Vector4d q;
@@ -62,11 +42,6 @@ Vector3 log_quaternion(const Eigen::Vector4d& q) {
   const double sine = e.norm();
   if (sine < 1e-8) return 2 * e;  // 2 asin(s)/s = 2 + s^2/3: exact to rounding here
   return (2 * std::atan2(sine, q[0]) / sine) * e;
-}
-
-Matrix3 tangent(const Vector3& psi) {
-  const ExpCoefficients c(psi.squaredNorm());
-  return quadratic_in_skew(psi, -c.a2, c.a3);
 }
 
 Matrix3 tangent_inverse(const Vector3& psi) {

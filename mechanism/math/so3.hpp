@@ -25,13 +25,32 @@ inline Vector3 skew_vector(const Matrix3& A) {
   return 0.5 * Vector3(A(2, 1) - A(1, 2), A(0, 2) - A(2, 0), A(1, 0) - A(0, 1));
 }
 
-Matrix3 exp_so3(const Vector3& psi);
+/// 1 + p psi~ + q psi~ psi~, entry by entry: the inner loops are full of these.
+inline Matrix3 quadratic_in_skew(const Vector3& psi, double p, double q) {
+  const double x = psi[0], y = psi[1], z = psi[2];
+  const double xy = q * x * y, xz = q * x * z, yz = q * y * z, xx = q * x * x, yy = q * y * y, zz = q * z * z;
+  Matrix3 A;
+  A << 1 - (yy + zz), xy - p * z, xz + p * y,  //
+      xy + p * z, 1 - (xx + zz), yz - p * x,   //
+      xz - p * y, yz + p * x, 1 - (xx + yy);
+  return A;
+}
+
+inline Matrix3 exp_so3(const Vector3& psi) {
+  const ExpCoefficients c(psi.squaredNorm());
+  return quadratic_in_skew(psi, c.a1, c.a2);
+}
 
 /// Rotation vector of R, 0 <= |psi| <= pi, through the unit quaternion (Spurrier); at pi the sign of the axis is
 /// arbitrary.
 Vector3 log_so3(const Matrix3& R);
 
-Matrix3 tangent(const Vector3& psi);          ///< T(psi)
+/// T(psi)
+inline Matrix3 tangent(const Vector3& psi) {
+  const ExpCoefficients c(psi.squaredNorm());
+  return quadratic_in_skew(psi, -c.a2, c.a3);
+}
+
 Matrix3 tangent_inverse(const Vector3& psi);  ///< T^-1(psi); singular at |psi| = 2 pi
 
 /// DT(psi)[u]: derivative of T(psi) along u, a matrix.

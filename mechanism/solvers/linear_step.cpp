@@ -9,25 +9,28 @@ namespace bielle::mechanism {
 LinearStep::LinearStep(const System& system) : system_(system), factors_(system.pattern()) {
   const SparsePattern& pattern = system.pattern();
   for (int column = 0; column < pattern.size(); ++column) diagonal_.push_back(pattern.find(column, column));
+  for (std::size_t k = 0; k < diagonal_by_kind_.size(); ++k)
+    for (int i = 0; i < system.dofs(); ++i)
+      if (const int place = diagonal_[static_cast<std::size_t>(i)]; place >= 0 && system.kind(i) == scaling_kinds[k])
+        diagonal_by_kind_[k].push_back(place);
   scales_.setOnes(pattern.size());
 }
 
 void LinearStep::assemble(const State& state, const Environment& environment, const TangentWeights& weights,
                           const VectorX* dq, const VectorX* extra) {
   system_.tangent(state, environment, weights, dq, values_);
-  std::array<double, kind_count> sum{}, count{};
-  for (int i = 0; i < system_.dofs(); ++i) {
-    const int place = diagonal_[static_cast<std::size_t>(i)];
-    if (place < 0) continue;
-    if (extra) values_[static_cast<std::size_t>(place)] += (*extra)[i];
-    const auto kind = static_cast<std::size_t>(system_.kind(i));
-    sum[kind] += std::abs(values_[static_cast<std::size_t>(place)]);
-    count[kind] += 1;
-  }
-  // Of translations; of a system that only turns, of its rotations.
+  if (extra)
+    for (int i = 0; i < system_.dofs(); ++i)
+      if (const int place = diagonal_[static_cast<std::size_t>(i)]; place >= 0)
+        values_[static_cast<std::size_t>(place)] += (*extra)[i];
   scale_ = 1;
-  for (const Kind kind : {Kind::amplitude, Kind::rotation, Kind::translation})
-    if (const auto k = static_cast<std::size_t>(kind); sum[k] > 0) scale_ = sum[k] / count[k];
+  for (const std::vector<int>& places : diagonal_by_kind_) {
+    double sum = 0;
+    for (const int place : places) sum += std::abs(values_[static_cast<std::size_t>(place)]);
+    if (!(sum > 0)) continue;
+    scale_ = sum / static_cast<double>(places.size());
+    break;
+  }
   scales_.tail(system_.multipliers()).setConstant(scale_);
 }
 

@@ -1,6 +1,7 @@
 // One linear solve of Newton's method: scaled tangent, factorisation, and what to say when it is singular.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "mechanism/system/system.hpp"
@@ -44,6 +45,9 @@ class LinearStep {
   SparseLU factors_;
   std::vector<double> values_;
   std::vector<int> diagonal_;  ///< places of the diagonal among the values, -1 where absent
+  /// The scale is of translations; of a system that only turns, of its rotations; and so on.
+  static constexpr std::array scaling_kinds{Kind::translation, Kind::rotation, Kind::amplitude};
+  std::array<std::vector<int>, scaling_kinds.size()> diagonal_by_kind_;  ///< their places that exist
   VectorX scales_;             ///< 1 for dofs and first-order unknowns, k for multipliers
   double scale_ = 1;
 };

@@ -6,9 +6,9 @@
 namespace bielle::mechanism {
 
 double model_length(const State& state) {
-  double length = 0;
-  for (const NodeState& node : state.nodes) length = std::max(length, node.x.norm());
-  return length > 0 ? length : 1;
+  double squared = 0;
+  for (const NodeState& node : state.nodes) squared = std::max(squared, node.x.squaredNorm());
+  return squared > 0 ? std::sqrt(squared) : 1;
 }
 
 double model_extent(const State& state) {

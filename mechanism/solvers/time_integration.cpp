@@ -197,6 +197,7 @@ void TimeIntegration::predict(double h, double end) {
 
 void TimeIntegration::move(double part) {
   const int n = system_.dofs(), y = system_.first_orders(), m = system_.multipliers();
+  const double rate_factor = rate_factor_, acceleration_factor = acceleration_factor_;
   const double *__restrict delta = delta_.data(), *__restrict predicted_dq = predicted_dq_.data(),
                            *__restrict predicted_v = predicted_v_.data(), *__restrict a = a_.data();
   double *__restrict u = u_.data(), *__restrict dq = dq_.data(), *__restrict v_new = v_new_.data(),
@@ -204,8 +205,8 @@ void TimeIntegration::move(double part) {
   for (int i = 0; i < n; ++i) {  // in one pass: eight vectors do not fit the nearest cache
     u[i] += part * delta[i];
     dq[i] = predicted_dq[i] + u[i];
-    v_new[i] = predicted_v[i] + rate_factor_ * u[i];
-    a_new[i] = a[i] + acceleration_factor_ * u[i];
+    v_new[i] = predicted_v[i] + rate_factor * u[i];
+    a_new[i] = a[i] + acceleration_factor * u[i];
   }
   u_y_ += part * delta_.segment(n, y);
   next_.multiplier += part * delta_.segment(n + y, m);
@@ -219,8 +220,7 @@ void TimeIntegration::move(double part) {
 }
 
 void TimeIntegration::evaluate() {
-  system_.displace(next_, state_, dq_);
-  system_.set_rates(next_, v_new_, a_new_);
+  system_.move(next_, state_, dq_, v_new_, a_new_);
   system_.residual(next_, environment_, r_.head(system_.size()), &scale_);
   if (stabilised_) stabilised_->add_residual(next_, environment_, eta_, mu_, r_);
 }
@@ -279,8 +279,7 @@ void TimeIntegration::solve() {
 void TimeIntegration::polish() {
   solve();
   move(1);
-  system_.displace(next_, state_, dq_);
-  system_.set_rates(next_, v_new_, a_new_);
+  system_.move(next_, state_, dq_, v_new_, a_new_);
 }
 
 /// An iteration of Newton's method.

@@ -16,6 +16,7 @@
 // costs a factorisation of [M B^T; B 0]: it begins with the first step in which a constraint turns by half the limit,
 // and goes on from there. (Not now and then: where A holds an error that alternates, a single correction stirs it up.)
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -63,19 +64,21 @@ void TimeIntegration::perturb_velocity(const VectorX& j, double factor) {
 
 double TimeIntegration::turn_of_constraints() const {
   // Directions of constraints turn with their nodes, or with the line from one node to the other.
-  const double rounding = 1e-6 * model_length(next_);
-  double rate = 0;
+  const double length = model_length(next_), rounding = 1e-12 * length * length;
+  double rate = 0;  // squared
   for (const Slots& slots : system_.slots()) {
     if (slots.multipliers == 0) continue;
-    for (std::size_t k = 0; k < slots.nodes.size(); ++k) {
+    const NodeState& first = next_.nodes[static_cast<std::size_t>(slots.nodes[0])];
+    rate = std::max(rate, first.Omega.squaredNorm());
+    for (std::size_t k = 1; k < slots.nodes.size(); ++k) {
       const NodeState& node = next_.nodes[static_cast<std::size_t>(slots.nodes[k])];
-      const NodeState& first = next_.nodes[static_cast<std::size_t>(slots.nodes[0])];
-      rate = std::max(rate, node.Omega.norm());
+      rate = std::max(rate, node.Omega.squaredNorm());
       const Vector3 line = node.x - first.x;
-      if (line.norm() > rounding) rate = std::max(rate, line.cross(node.v - first.v).norm() / line.squaredNorm());
+      const double distance = line.squaredNorm(), turn = line.cross(node.v - first.v).squaredNorm();
+      if (distance > rounding && turn > rate * distance * distance) rate = turn / (distance * distance);
     }
   }
-  return rate * attempted_;
+  return std::sqrt(rate) * attempted_;
 }
 
 void TimeIntegration::correct_velocity() {

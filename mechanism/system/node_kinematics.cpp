@@ -80,6 +80,12 @@ NodeKinematics::NodeKinematics(const Model& model) {
     if (std::find(node.freedom.begin(), node.freedom.end(), Freedom::prescribed) != node.freedom.end())
       prescribed_.push_back({i, node.frame, node.freedom, node.motion, count_rotations(node, Freedom::prescribed) > 0});
   }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (freedom_[i].all_free)
+      all_free_.push_back({i, freedom_[i].begin});
+    else
+      held_.push_back(i);
+  }
 }
 
 const Carry* NodeKinematics::carry(int node) const {
@@ -120,41 +126,64 @@ void NodeKinematics::start(std::vector<NodeState>& nodes, double time) const {
   set_rates(nodes, v, a, time);
 }
 
+namespace {
+
+void displace_node(NodeState& node, const NodeState& base, const double* dz) {
+  node.x = base.x + Eigen::Map<const Vector3>(dz);
+  node.R.noalias() = base.R * exp_so3(Eigen::Map<const Vector3>(dz + 3));
+}
+
+void set_node_rates(NodeState& node, const double* rate, const double* acceleration) {
+  node.v = Eigen::Map<const Vector3>(rate);
+  node.Omega = Eigen::Map<const Vector3>(rate + 3);
+  node.a = Eigen::Map<const Vector3>(acceleration);
+  node.Omegadot = Eigen::Map<const Vector3>(acceleration + 3);
+}
+
+}  // namespace
+
 void NodeKinematics::displace(std::vector<NodeState>& nodes, const std::vector<NodeState>& base,
                               const Eigen::Ref<const VectorX>& dp, double time, double motion_factor) const {
-  for (std::size_t i = 0; i < freedom_.size(); ++i) {
+  for (const auto [i, begin] : all_free_) displace_node(nodes[i], base[i], dp.data() + begin);
+  displace_held(nodes, base, dp, time, motion_factor);
+}
+
+void NodeKinematics::set_rates(std::vector<NodeState>& nodes, const Eigen::Ref<const VectorX>& v,
+                               const Eigen::Ref<const VectorX>& a, double time) const {
+  for (const auto [i, begin] : all_free_) set_node_rates(nodes[i], v.data() + begin, a.data() + begin);
+  set_held_rates(nodes, v, a, time);
+}
+
+void NodeKinematics::move(std::vector<NodeState>& nodes, const std::vector<NodeState>& base,
+                          const Eigen::Ref<const VectorX>& dp, const Eigen::Ref<const VectorX>& v,
+                          const Eigen::Ref<const VectorX>& a, double time, double motion_factor) const {
+  for (const auto [i, begin] : all_free_) {
+    displace_node(nodes[i], base[i], dp.data() + begin);
+    set_node_rates(nodes[i], v.data() + begin, a.data() + begin);
+  }
+  displace_held(nodes, base, dp, time, motion_factor);
+  set_held_rates(nodes, v, a, time);
+}
+
+void NodeKinematics::displace_held(std::vector<NodeState>& nodes, const std::vector<NodeState>& base,
+                                   const Eigen::Ref<const VectorX>& dp, double time, double motion_factor) const {
+  for (const std::size_t i : held_) {
     const NodeFreedom& f = freedom_[i];
     if (f.count == 0) continue;
-    Vector6 dz;
-    if (f.all_free)
-      dz = dp.segment<6>(f.begin);
-    else
-      dz.noalias() = f.G.leftCols(f.count) * dp.segment(f.begin, f.count);
-    nodes[i].x = base[i].x + dz.head<3>();
-    nodes[i].R.noalias() = base[i].R * exp_so3(dz.tail<3>());
+    const Vector6 dz = f.G.leftCols(f.count) * dp.segment(f.begin, f.count);
+    displace_node(nodes[i], base[i], dz.data());
   }
   prescribe_positions(nodes, time, motion_factor);
   follow_carriers(nodes);
 }
 
-void NodeKinematics::set_rates(std::vector<NodeState>& nodes, const Eigen::Ref<const VectorX>& v,
-                               const Eigen::Ref<const VectorX>& a, double time) const {
-  for (std::size_t i = 0; i < freedom_.size(); ++i) {
+void NodeKinematics::set_held_rates(std::vector<NodeState>& nodes, const Eigen::Ref<const VectorX>& v,
+                                    const Eigen::Ref<const VectorX>& a, double time) const {
+  for (const std::size_t i : held_) {
     const NodeFreedom& f = freedom_[i];
-    NodeState& node = nodes[i];
-    if (f.all_free) {
-      node.v = v.segment<3>(f.begin);
-      node.Omega = v.segment<3>(f.begin + 3);
-      node.a = a.segment<3>(f.begin);
-      node.Omegadot = a.segment<3>(f.begin + 3);
-      continue;
-    }
     const Vector6 rate = f.G.leftCols(f.count) * v.segment(f.begin, f.count);
     const Vector6 acceleration = f.G.leftCols(f.count) * a.segment(f.begin, f.count);
-    node.v = rate.head<3>();
-    node.Omega = rate.tail<3>();
-    node.a = acceleration.head<3>();
-    node.Omegadot = acceleration.tail<3>();
+    set_node_rates(nodes[i], rate.data(), acceleration.data());
   }
   for (const Prescribed& p : prescribed_) {
     NodeState& node = nodes[static_cast<std::size_t>(p.node)];

@@ -53,6 +53,10 @@ class NodeKinematics {
   /// Rates of all nodes from the independent ones. @param v,a (unknowns)
   void set_rates(std::vector<NodeState>& nodes, const Eigen::Ref<const VectorX>& v, const Eigen::Ref<const VectorX>& a,
                  double time) const;
+  /// Both in one pass.
+  void move(std::vector<NodeState>& nodes, const std::vector<NodeState>& base, const Eigen::Ref<const VectorX>& dp,
+            const Eigen::Ref<const VectorX>& v, const Eigen::Ref<const VectorX>& a, double time,
+            double motion_factor) const;
   /// Independent rates of the free directions (inverse of set_rates on them).
   void get_rates(const std::vector<NodeState>& nodes, Eigen::Ref<VectorX> v, Eigen::Ref<VectorX> a) const;
 
@@ -63,6 +67,15 @@ class NodeKinematics {
   double support_power(const std::vector<NodeState>& nodes, const Eigen::Ref<const VectorX>& forces) const;
 
  private:
+  /// A node that is free in all directions, and its first unknown: most nodes are, and the loops over them are short.
+  struct FreeNode {
+    std::size_t node;
+    Eigen::Index begin;
+  };
+  void displace_held(std::vector<NodeState>& nodes, const std::vector<NodeState>& base,
+                     const Eigen::Ref<const VectorX>& dp, double time, double motion_factor) const;
+  void set_held_rates(std::vector<NodeState>& nodes, const Eigen::Ref<const VectorX>& v,
+                      const Eigen::Ref<const VectorX>& a, double time) const;
   void prescribe_positions(std::vector<NodeState>& nodes, double time, double motion_factor) const;
   void follow_carriers(std::vector<NodeState>& nodes) const;
 
@@ -76,6 +89,8 @@ class NodeKinematics {
   };
   int unknowns_ = 0;
   std::vector<NodeFreedom> freedom_;
+  std::vector<FreeNode> all_free_;
+  std::vector<std::size_t> held_;  ///< the others
   std::vector<Carry> carries_;
   std::vector<int> carry_of_node_;  ///< index into carries_, or -1
   std::vector<Prescribed> prescribed_;

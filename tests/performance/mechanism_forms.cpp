@@ -150,6 +150,6 @@ drives: {motor: {joint: main, angle: "150*t"}}
 int main() {
   measure({"heavy top, 0.5 s (150 rad/s; its precession turns the pivot's directions)", heavy_top, 0.5, 4e-3});
   measure({"rotor without gravity, 10 revolutions per second, 1 s", rotor, 1, 8e-3});
-  measure({"chain of 10 links, falling for 1 s", chain(10), 1, 8e-3});
+  measure({"chain of 10 links, falling for 1 s", chain(10, spherical), 1, 8e-3});
   measure({"flexible slider-crank, 150 rad/s, 0.02 s", slider_crank, 0.02, 2e-5});
 }
