@@ -24,7 +24,7 @@ RigidBody::RigidBody(std::string type, std::string name, int node, const MassPro
 
 void RigidBody::declare(Declaration& declaration) const {
   declaration.nodes = {node_};
-  declaration.stiffness = declaration.damping = declaration.mass = true;
+  declaration.stiffness = declaration.damping = declaration.mass = declaration.in_blocks = true;
 }
 
 void RigidBody::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
@@ -40,28 +40,26 @@ void RigidBody::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) con
 //   M = [ m I        -m R c~ ]   C = [ 0  -m R (Omega~ c~ + (Omega~ c)~) ]   K = [ 0  -m R (Omegadot~ c + Omega~ Omega~ c)~ ]
 //       [ m c~ R^T    J      ]       [ 0  Omega~ J - (J Omega)~          ]       [ 0  m c~ (R^T (xddot - g))~             ]
 // clang-format on
-void RigidBody::add_tangent(const LocalState& state, LocalTangent& tangent) const {
+void RigidBody::add_blocks(const LocalState& state, BlockTangent& tangent) const {
   const NodeState& n = state.node(0);
-  const Matrix3 c = skew(c_);
   const bool centred = c_.isZero(0);  // nothing couples translation and rotation
   if (tangent.wants_M) {
-    tangent.M.diagonal().head<3>().array() += m_;
-    tangent.M.block<3, 3>(3, 3) += J_;
-    if (!centred) {
-      const Matrix3 coupling = m_ * n.R * c;
-      tangent.M.block<3, 3>(0, 3) -= coupling;
-      tangent.M.block<3, 3>(3, 0) -= coupling.transpose();
-    }
+    tangent.M.add_identity(0, 0, m_);
+    tangent.M.add(3, 3, J_);
   }
-  if (tangent.wants_C) {
-    const Matrix3 W = skew(n.Omega);
-    tangent.C.block<3, 3>(3, 3) += W * J_ - skew(J_ * n.Omega);
-    if (!centred) tangent.C.block<3, 3>(0, 3) -= m_ * n.R * (W * c + skew(n.Omega.cross(c_)));
+  if (tangent.wants_C) tangent.C.add(3, 3, skew(n.Omega) * J_ - skew(J_ * n.Omega));
+  if (centred) return;
+  const Matrix3 c = skew(c_);
+  if (tangent.wants_M) {
+    const Matrix3 coupling = m_ * n.R * c;
+    tangent.M.add(0, 3, -coupling);
+    tangent.M.add(3, 0, -coupling.transpose());
   }
-  if (tangent.wants_K && !centred) {
+  if (tangent.wants_C) tangent.C.add(0, 3, -m_ * n.R * (skew(n.Omega) * c + skew(n.Omega.cross(c_))));
+  if (tangent.wants_K) {
     const Vector3 convected = n.Omegadot.cross(c_) + n.Omega.cross(n.Omega.cross(c_));
-    tangent.K.block<3, 3>(0, 3) -= m_ * n.R * skew(convected);
-    tangent.K.block<3, 3>(3, 3) += m_ * c * skew(n.R.transpose() * (n.a - state.environment().gravity));
+    tangent.K.add(0, 3, -m_ * n.R * skew(convected));
+    tangent.K.add(3, 3, m_ * c * skew(n.R.transpose() * (n.a - state.environment().gravity)));
   }
 }
 

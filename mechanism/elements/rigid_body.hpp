@@ -28,7 +28,7 @@ class RigidBody : public Component {
 
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
-  void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
+  void add_blocks(const LocalState& state, BlockTangent& tangent) const override;
   void add_pattern(const Slots& slots, LocalPattern& pattern) const override;
   void add_energy(const LocalState& state, Energy& energy) const override;
   /// `centre` of mass (3) [m], `momentum` (3) [N s], `angular_momentum` (3) [N m s] about the inertial origin:

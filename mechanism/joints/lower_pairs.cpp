@@ -23,24 +23,26 @@ Measure LowerPair::calc_row(const Row& row, const NodeState& first, const NodeSt
                             : measure_alignment(first, second, A.R.col(row.first_axis), B.R.col(row.second_axis));
 }
 
-AxisPair LowerPair::axes(const Row& row, const NodeState& first, const NodeState& second) const {
-  return {first, second, frames().on_first.R.col(row.first_axis), frames().on_second.R.col(row.second_axis)};
+AxisPair LowerPair::axes(const Row& row, const Matrix3& R_12) const {
+  return {R_12, frames().on_first.R.col(row.first_axis), frames().on_second.R.col(row.second_axis)};
 }
 
 void LowerPair::declare(Declaration& declaration) const {
   Joint::declare(declaration);
-  declaration.stiffness = true;
+  declaration.stiffness = declaration.in_blocks = true;
   for (const Row& row : rows_) declaration.multipliers.push_back({row.name, row.is_translation ? "N" : "N m"});
 }
 
 void LowerPair::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
   const auto lambda = state.multiplier();
   const NodeState &first = state.node(0), &second = state.node(1);
+  const Matrix3 R_12 = first.R.transpose() * second.R;
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     if (rows_[k].is_translation) continue;
     const auto row = static_cast<Eigen::Index>(k);
-    const AxisPair pair = axes(rows_[k], first, second);
-    r.head<12>() += lambda[row] * pair.gradient();
+    const AxisPair pair = axes(rows_[k], R_12);
+    r.segment<3>(3) += lambda[row] * pair.first_gradient();
+    r.segment<3>(9) += lambda[row] * pair.second_gradient();
     r[12 + row] += pair.value();
   }
   if (inertial(state)) {
@@ -49,7 +51,7 @@ void LowerPair::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) con
     gap.add_forces(lambda.head<3>(), r);
     return;
   }
-  const PointPair points(first, second, frames().on_second.x);
+  const PointPair points(first, second, R_12, frames().on_second.x);
   Vector3 force = Vector3::Zero();  // of the locked translations, first node's axes
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     if (!rows_[k].is_translation) continue;
@@ -61,37 +63,54 @@ void LowerPair::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) con
   r.head<12>() += points.gradient(force);
 }
 
-void LowerPair::add_tangent(const LocalState& state, LocalTangent& tangent) const {
+void LowerPair::add_blocks(const LocalState& state, BlockTangent& tangent) const {
   if (!tangent.wants_K) return;
   const auto lambda = state.multiplier();
   const NodeState &first = state.node(0), &second = state.node(1);
-  const auto add_gradient = [&](Eigen::Index row, const Vector12& gradient) {
-    tangent.K.block<12, 1>(0, 12 + row) += gradient;
-    tangent.K.block<1, 12>(12 + row, 0) += gradient.transpose();
+  const Matrix3 R_12 = first.R.transpose() * second.R;
+  BlockMatrix& K = tangent.K;
+  const auto add_gradient = [&](std::size_t row, int column, const Vector3& gradient) {
+    const int constraint = 12 + static_cast<int>(row);
+    K.add_column(column, constraint, gradient);
+    K.add_row(constraint, column, gradient);
   };
+  PairHessian second_derivatives;  // of all rows, each times its multiplier
+  bool couples = false;            // the nodes' rotations
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     if (rows_[k].is_translation) continue;
-    const auto row = static_cast<Eigen::Index>(k);
-    const AxisPair pair = axes(rows_[k], first, second);
-    pair.add_second(lambda[row], tangent.K);
-    add_gradient(row, pair.gradient());
+    const AxisPair pair = axes(rows_[k], R_12);
+    pair.add_second(lambda[static_cast<Eigen::Index>(k)], second_derivatives);
+    add_gradient(k, 3, pair.first_gradient());
+    add_gradient(k, 9, pair.second_gradient());
+    couples = true;
   }
   if (inertial(state)) {
     const PointGap gap(first, second, frames().on_first.x, frames().on_second.x);
-    gap.add_gradients(12, tangent.K);
-    gap.add_second(lambda.head<3>(), tangent.K);
-    return;
+    gap.add_gradients(12, K);
+    gap.add_second(lambda.head<3>(), second_derivatives);
+  } else {
+    const PointPair points(first, second, R_12, frames().on_second.x);
+    Vector3 force = Vector3::Zero();
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+      if (!rows_[k].is_translation) continue;
+      const Vector3 e_hat = frames().on_first.R.col(rows_[k].first_axis);
+      force += lambda[static_cast<Eigen::Index>(k)] * e_hat;
+      const Vector12 gradient = points.gradient(e_hat);
+      for (const int column : {0, 3, 6, 9}) add_gradient(k, column, gradient.segment<3>(column));
+    }
+    points.add_second(force, second_derivatives);
+    const Matrix3& X = second_derivatives.X;
+    K.add(0, 3, X);
+    K.add(3, 0, X.transpose());
+    K.add(3, 6, -X.transpose());
+    K.add(6, 3, -X);
+    couples = true;
   }
-  const PointPair points(first, second, frames().on_second.x);
-  Vector3 force = Vector3::Zero();
-  for (std::size_t k = 0; k < rows_.size(); ++k) {
-    if (!rows_[k].is_translation) continue;
-    const auto row = static_cast<Eigen::Index>(k);
-    const Vector3 e_hat = frames().on_first.R.col(rows_[k].first_axis);
-    force += lambda[row] * e_hat;
-    add_gradient(row, points.gradient(e_hat));
-  }
-  points.add_second(force, tangent.K);
+  K.add(3, 3, second_derivatives.P);
+  K.add(9, 9, second_derivatives.W);
+  if (!couples) return;
+  K.add(3, 9, second_derivatives.Q);
+  K.add(9, 3, second_derivatives.Q.transpose());
 }
 
 void LowerPair::add_pattern(const Slots& slots, LocalPattern& pattern) const {

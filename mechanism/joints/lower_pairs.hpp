@@ -33,7 +33,7 @@ class LowerPair final : public Joint {
 
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
-  void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
+  void add_blocks(const LocalState& state, BlockTangent& tangent) const override;
   void add_pattern(const Slots& slots, LocalPattern& pattern) const override;
   std::string wrong_branch(const LocalState& state) const override;
   void add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
@@ -50,7 +50,8 @@ class LowerPair final : public Joint {
   /// Whether the locked translations are rows in inertial axes.
   bool inertial(const LocalState& state) const { return inertial(state.slots()); }
   bool inertial(const Slots& slots) const { return locks_point_ && !slots.carried_axes; }
-  AxisPair axes(const Row& row, const NodeState& first, const NodeState& second) const;
+  /// @param R_12  must outlive the pair
+  AxisPair axes(const Row& row, const Matrix3& R_12) const;
   std::vector<Row> rows_;
   bool locks_point_;  ///< all three translations, which come first
 };

@@ -15,11 +15,21 @@ Matrix3 skew_product(const Vector3& a, const Vector3& b) {
 
 }  // namespace
 
-PointPair::PointPair(const NodeState& first, const NodeState& second, const Vector3& c_2)
+Matrix12 PairHessian::dense() const {
+  Matrix12 S;
+  const Matrix3 none = Matrix3::Zero();
+  S << none, X, none, none,                       //
+      X.transpose(), P, -X.transpose(), Q,        //
+      none, -X, none, none,                       //
+      none, Q.transpose(), none, W;
+  return S;
+}
+
+PointPair::PointPair(const NodeState& first, const NodeState& second, const Matrix3& R_12, const Vector3& c_2)
     : c_2_(c_2),
       s_(first.R.transpose() * (second.x + second.R * c_2 - first.x)),
       R_1_(first.R),
-      R_12_(first.R.transpose() * second.R) {}
+      R_12_(R_12) {}
 
 //        dx_1        dTheta_1         dx_2        dTheta_2
 // g = [ -e           e^ x s           e           c_2 x e_2 ]      e_2 = R_2^T e
@@ -34,18 +44,12 @@ Vector12 PointPair::gradient(const Vector3& e_hat) const {
   return g;
 }
 
-void PointPair::add_second(const Vector3& e_hat, Eigen::Ref<MatrixX> S) const {
+void PointPair::add_second(const Vector3& e_hat, PairHessian& S) const {
   const Matrix3 e_skew = skew(e_hat);
-  const Matrix3 turned = R_1_ * e_skew;
-  const Matrix3 mixed = e_skew * (R_12_ * skew(c_2_));
-  S.block<3, 3>(0, 3) += turned;
-  S.block<3, 3>(3, 0) += turned.transpose();  // -e^~ R_1^T
-  S.block<3, 3>(3, 3) += skew_product(e_hat, s_);
-  S.block<3, 3>(3, 6) -= turned.transpose();
-  S.block<3, 3>(3, 9) -= mixed;
-  S.block<3, 3>(6, 3) -= turned;
-  S.block<3, 3>(9, 3) -= mixed.transpose();
-  S.block<3, 3>(9, 9) += skew_product(c_2_, R_12_.transpose() * e_hat);
+  S.X += R_1_ * e_skew;
+  S.P += skew_product(e_hat, s_);
+  S.Q -= e_skew * (R_12_ * skew(c_2_));
+  S.W += skew_product(c_2_, R_12_.transpose() * e_hat);
 }
 
 PointGap::PointGap(const NodeState& first, const NodeState& second, const Vector3& c_1, const Vector3& c_2)
@@ -79,66 +83,49 @@ void PointGap::add_forces(const Vector3& force, Eigen::Ref<VectorX> r) const {
   r.segment<3>(9) += c_2_.cross(R_2_.transpose() * force);
 }
 
-void PointGap::add_gradients(Eigen::Index row, Eigen::Ref<MatrixX> S) const {
+void PointGap::add_gradients(int row, BlockMatrix& S) const {
   const Matrix3 turn_1 = R_1_ * skew(c_1_), turn_2 = -R_2_ * skew(c_2_);
-  for (Eigen::Index k = 0; k < 3; ++k) {
-    const std::pair<Eigen::Index, double> signs[] = {{k, -1.0}, {6 + k, 1.0}};
-    for (const auto& [at, sign] : signs) {
-      S(row + k, at) += sign;
-      S(at, row + k) += sign;
-    }
-  }
-  S.block<3, 3>(row, 3) += turn_1;
-  S.block<3, 3>(3, row) += turn_1.transpose();
-  S.block<3, 3>(row, 9) += turn_2;
-  S.block<3, 3>(9, row) += turn_2.transpose();
+  S.add_identity(row, 0, -1);
+  S.add_identity(0, row, -1);
+  S.add_identity(row, 6, 1);
+  S.add_identity(6, row, 1);
+  S.add(row, 3, turn_1);
+  S.add(3, row, turn_1.transpose());
+  S.add(row, 9, turn_2);
+  S.add(9, row, turn_2.transpose());
 }
 
-void PointGap::add_second(const Vector3& force, Eigen::Ref<MatrixX> S) const {
-  S.block<3, 3>(3, 3) -= skew_product(c_1_, R_1_.transpose() * force);
-  S.block<3, 3>(9, 9) += skew_product(c_2_, R_2_.transpose() * force);
-}
-
-AxisPair::AxisPair(const NodeState& first, const NodeState& second, const Vector3& a_hat, const Vector3& b_hat)
-    : a_hat_(a_hat), b_hat_(b_hat), R_12_(first.R.transpose() * second.R) {
-  b_1_ = R_12_ * b_hat;
-  a_2_ = R_12_.transpose() * a_hat;
+void PointGap::add_second(const Vector3& force, PairHessian& S) const {
+  S.P -= skew_product(c_1_, R_1_.transpose() * force);
+  S.W += skew_product(c_2_, R_2_.transpose() * force);
 }
 
 //      dTheta_1            dTheta_2
 // g = [ a^ x b_1           b^ x a_2 ]
 // S = [ a^~ b_1~          -a^~ R_12 b^~
 //      -b^~ R_12^T a^~     b^~ a_2~ ]
-Vector12 AxisPair::gradient() const {
-  Vector12 g;
-  g << Vector3::Zero(), a_hat_.cross(b_1_), Vector3::Zero(), b_hat_.cross(a_2_);
-  return g;
-}
-
-void AxisPair::add_second(double factor, Eigen::Ref<MatrixX> S) const {
-  const Matrix3 mixed = factor * (skew(a_hat_) * (R_12_ * skew(b_hat_)));
-  S.block<3, 3>(3, 3) += factor * skew_product(a_hat_, b_1_);
-  S.block<3, 3>(3, 9) -= mixed;
-  S.block<3, 3>(9, 3) -= mixed.transpose();
-  S.block<3, 3>(9, 9) += factor * skew_product(b_hat_, a_2_);
+void AxisPair::add_second(double factor, PairHessian& S) const {
+  S.P += factor * skew_product(a_hat_, b_1_);
+  S.Q -= factor * (skew(a_hat_) * (R_12_ * skew(b_hat_)));
+  S.W += factor * skew_product(b_hat_, a_2_);
 }
 
 Measure measure_position(const NodeState& first, const NodeState& second, const Vector3& e_hat, const Vector3& c_1,
                          const Vector3& c_2) {
-  const PointPair pair(first, second, c_2);
-  Measure m;
-  m.value = pair.value(e_hat, c_1);
-  m.gradient = pair.gradient(e_hat);
-  pair.add_second(e_hat, m.second);
-  return m;
+  const PointPair pair(first, second, first.R.transpose() * second.R, c_2);
+  PairHessian S;
+  pair.add_second(e_hat, S);
+  return {pair.value(e_hat, c_1), pair.gradient(e_hat), S.dense()};
 }
 
 Measure measure_alignment(const NodeState& first, const NodeState& second, const Vector3& a_hat, const Vector3& b_hat) {
-  const AxisPair pair(first, second, a_hat, b_hat);
-  Measure m;
-  m.value = pair.value();
-  m.gradient = pair.gradient();
-  pair.add_second(1, m.second);
+  const Matrix3 R_12 = first.R.transpose() * second.R;
+  const AxisPair pair(R_12, a_hat, b_hat);
+  PairHessian S;
+  pair.add_second(1, S);
+  Measure m{pair.value(), Vector12::Zero(), S.dense()};
+  m.gradient.segment<3>(3) = pair.first_gradient();
+  m.gradient.segment<3>(9) = pair.second_gradient();
   return m;
 }
 

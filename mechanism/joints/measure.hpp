@@ -6,6 +6,7 @@
 #pragma once
 
 #include "mechanism/math/se3.hpp"
+#include "mechanism/system/block_matrix.hpp"
 #include "mechanism/system/state.hpp"
 
 namespace bielle::mechanism {
@@ -25,6 +26,16 @@ inline Vector12 pair_acceleration(const NodeState& first, const NodeState& secon
   return a;
 }
 
+/// Second derivatives of measures: the blocks of S that differ from zero.
+///     [ 0    X    0    0  ]
+/// S = [ X^T  P   -X^T  Q  ]
+///     [ 0   -X    0    0  ]
+///     [ 0    Q^T  0    W  ]
+struct PairHessian {
+  Matrix3 X = Matrix3::Zero(), P = Matrix3::Zero(), Q = Matrix3::Zero(), W = Matrix3::Zero();
+  Matrix12 dense() const;
+};
+
 struct Measure {
   double value = 0;
   Vector12 gradient = Vector12::Zero();
@@ -38,11 +49,11 @@ struct Measure {
 /// factor, are added up as one.
 class PointPair {
  public:
-  PointPair(const NodeState& first, const NodeState& second, const Vector3& c_2);
+  /// @param R_12  R_1^T R_2
+  PointPair(const NodeState& first, const NodeState& second, const Matrix3& R_12, const Vector3& c_2);
   double value(const Vector3& e_hat, const Vector3& c_1) const { return e_hat.dot(s_ - c_1); }
   Vector12 gradient(const Vector3& e_hat) const;
-  /// S into the first twelve rows and columns of a matrix.
-  void add_second(const Vector3& e_hat, Eigen::Ref<MatrixX> S) const;
+  void add_second(const Vector3& e_hat, PairHessian& S) const;
 
  private:
   Vector3 c_2_, s_;  ///< s = R_1^T (p_2 - x_1)
@@ -60,9 +71,9 @@ class PointGap {
   /// g^T f of an inertial force f on node 2 into the first twelve rows of a vector.
   void add_forces(const Vector3& force, Eigen::Ref<VectorX> r) const;
   /// g into three rows of a matrix from `row` on, g^T into its columns.
-  void add_gradients(Eigen::Index row, Eigen::Ref<MatrixX> S) const;
-  /// d(g^T f) into the first twelve rows and columns of a matrix.
-  void add_second(const Vector3& force, Eigen::Ref<MatrixX> S) const;
+  void add_gradients(int row, BlockMatrix& S) const;
+  /// d(g^T f)
+  void add_second(const Vector3& force, PairHessian& S) const;
 
  private:
   const Vector3 &c_1_, &c_2_;
@@ -73,15 +84,18 @@ class PointGap {
 /// Alignment a . b of axes a = R_1 a^ carried by node 1 and b = R_2 b^ carried by node 2.
 class AxisPair {
  public:
-  AxisPair(const NodeState& first, const NodeState& second, const Vector3& a_hat, const Vector3& b_hat);
+  /// @param R_12  R_1^T R_2, which several pairs of the same nodes share; must outlive them
+  AxisPair(const Matrix3& R_12, const Vector3& a_hat, const Vector3& b_hat)
+      : a_hat_(a_hat), b_hat_(b_hat), b_1_(R_12 * b_hat), a_2_(R_12.transpose() * a_hat), R_12_(R_12) {}
   double value() const { return a_hat_.dot(b_1_); }
-  Vector12 gradient() const;
-  /// `factor` S into the first twelve rows and columns of a matrix.
-  void add_second(double factor, Eigen::Ref<MatrixX> S) const;
+  /// The gradient is zero but for its parts along dTheta_1 and dTheta_2.
+  Vector3 first_gradient() const { return a_hat_.cross(b_1_); }
+  Vector3 second_gradient() const { return b_hat_.cross(a_2_); }
+  void add_second(double factor, PairHessian& S) const;
 
  private:
   Vector3 a_hat_, b_hat_, b_1_, a_2_;  ///< b_1 = R_12 b^, a_2 = R_12^T a^
-  Matrix3 R_12_;
+  const Matrix3& R_12_;
 };
 
 /// The position measure of one axis, with its derivatives.

@@ -66,8 +66,17 @@ bool Convergence::reached(const Eigen::Ref<const VectorX>& r, const ResidualScal
   return worst_ratio_ <= 1;
 }
 
-void Convergence::measure_by(const ResidualScale& scale) {
+bool Convergence::out_of_reach(double size, const ResidualScale& scale) const {
   const std::array<double, kind_count> allowed = tolerances(scale);
+  double growth = 1;  // of the tolerances since
+  for (std::size_t k = 0; k < kind_count; ++k)
+    if (allowed[k] > measured_by_[k] * growth) growth = allowed[k] / measured_by_[k];
+  constexpr double rounding = 1e-9;
+  return size > growth * (1 + rounding);
+}
+
+void Convergence::measure_by(const ResidualScale& scale) {
+  const std::array<double, kind_count> allowed = measured_by_ = tolerances(scale);
   measure_.resize(system_.size());
   for (int i = 0; i < system_.size(); ++i) {
     const double most = allowed[static_cast<std::size_t>(system_.kind(i))] + floor_[i];

@@ -32,6 +32,9 @@ class Convergence {
   void measure_rounding(const LinearStep& linear, const State& state);
   /// @param r  residual (size) with its scale
   bool reached(const Eigen::Ref<const VectorX>& r, const ResidualScale& scale);
+  /// Whether a residual of the given size (by `size_of`) is certain not to be small enough at this scale: to be asked
+  /// first, it costs nothing.
+  bool out_of_reach(double size, const ResidualScale& scale) const;
   /// Fixes what `size_of` measures by: the tolerances at this residual's scale.
   void measure_by(const ResidualScale& scale);
   /// Largest residual over the tolerances that `measure_by` fixed: comparable from iterate to iterate, whatever forces
@@ -51,6 +54,7 @@ class Convergence {
   const System& system_;
   NewtonOptions options_;
   VectorX floor_, unknown_scale_, measure_;
+  std::array<double, kind_count> measured_by_{};  ///< tolerances in `measure_`, rounding left out
   double scale_ = 1;
   int worst_ = -1;
   double worst_residual_ = 0, worst_ratio_ = 0;

@@ -11,7 +11,7 @@
 namespace bielle::mechanism {
 namespace {
 
-constexpr int floor_lasts = 16;  // steps
+constexpr int floor_lasts = 64;  // steps
 
 /// Turn of a node in one step beyond which T(Dq) is not to be trusted: it is singular at a full turn [rad].
 constexpr double most_turn = 0.9 * 2 * 3.14159265358979324;
@@ -75,6 +75,7 @@ void TimeIntegration::allocate() {
   u_y_.setZero(system_.first_orders());
   const int size = stabilised_ ? stabilised_->size() : system_.size();
   r_.setZero(size);
+  r_evaluated_.setZero(size);
   delta_.setZero(size);
 }
 
@@ -86,6 +87,7 @@ void TimeIntegration::exchange(Archive& archive) {
   archive(h_);
   linear_.choose_pivots_anew();
   if (stabilised_) stabilised_->choose_pivots_anew();
+  if (saddle_) saddle_->choose_pivots_anew();
   factored_for_ = 0;
   floor_age_ = floor_lasts;
 }
@@ -165,9 +167,9 @@ void TimeIntegration::restart(double h) {
   state_.time = time;
 }
 
-VectorX TimeIntegration::algorithmic_acceleration() const {
+void TimeIntegration::calc_algorithmic_acceleration(VectorX& A) const {
   const auto& [alpha_m, alpha_f, gamma, beta] = scheme_;
-  return ((1 - alpha_f) * a_new_ + alpha_f * a_ - alpha_m * A_) / (1 - alpha_m);
+  A = ((1 - alpha_f) * a_new_ + alpha_f * a_ - alpha_m * A_) / (1 - alpha_m);
 }
 
 VectorX TimeIntegration::algorithmic_rate() const {
@@ -183,9 +185,9 @@ void TimeIntegration::predict(double h, double end) {
   // The accelerations stay.
   if (stabilised_) stabilised_->begin(state_, environment_);
   a_new_ = a_;
-  const VectorX A = algorithmic_acceleration();
-  predicted_dq_ = h * v_ + h * h * ((0.5 - beta) * A_ + beta * A);
-  predicted_v_ = v_ + h * ((1 - gamma) * A_ + gamma * A);
+  calc_algorithmic_acceleration(A_new_);
+  predicted_dq_ = h * v_ + h * h * ((0.5 - beta) * A_ + beta * A_new_);
+  predicted_v_ = v_ + h * ((1 - gamma) * A_ + gamma * A_new_);
   next_.time = end;
   next_.multiplier = state_.multiplier;
   next_.memory = state_.memory;
@@ -221,8 +223,11 @@ void TimeIntegration::move(double part) {
 
 void TimeIntegration::evaluate() {
   system_.move(next_, state_, dq_, v_new_, a_new_);
-  system_.residual(next_, environment_, r_.head(system_.size()), &scale_);
-  if (stabilised_) stabilised_->add_residual(next_, environment_, eta_, mu_, r_);
+  ResidualScale scale;
+  system_.residual(next_, environment_, r_evaluated_.head(system_.size()), &scale);
+  if (stabilised_) stabilised_->add_residual(next_, environment_, eta_, mu_, r_evaluated_);
+  r_.swap(r_evaluated_);
+  scale_ = scale;
 }
 
 double TimeIntegration::size_of_residual() const { return convergence_.size_of(r_.head(system_.size())); }
@@ -294,7 +299,7 @@ void TimeIntegration::improve(StepReport& report) {
   }
   solve();
   ++report.iterations;
-  const double before = size_;
+  const double before = size_before_ = size_;
   move(1);
   try {
     evaluate();
@@ -318,10 +323,12 @@ void TimeIntegration::improve(StepReport& report) {
 
 bool TimeIntegration::reached(const StepReport& report) {
   if (report.iterations == 0) return false;
+  // Where nothing more is gained, what is left may be rounding.
+  const bool stalled = report.iterations >= 3 && !(size_ < 0.5 * size_before_);
+  if (!stabilised_ && !stalled && convergence_.out_of_reach(size_, scale_)) return false;
   if (within_tolerance()) return true;
   // The forces may have grown since their rounding was measured.
-  constexpr int late = 3;
-  if (report.iterations < late || floor_age_ == 0) return false;
+  if (!stalled || floor_age_ == 0) return false;
   convergence_.measure_rounding(linear_, next_);
   floor_age_ = 0;
   return within_tolerance();
@@ -342,6 +349,7 @@ bool TimeIntegration::within_tolerance() {
 
 /// T(Dq) is singular where a node makes a full turn in one step, and the rotation is that of none.
 void TimeIntegration::check_turns() const {
+  if (dq_.lpNorm<Eigen::Infinity>() < most_turn / 2) return;  // as nearly always
   for (std::size_t i = 0; i < next_.nodes.size(); ++i) {
     const NodeFreedom& f = system_.kinematics().freedom(static_cast<int>(i));
     if (f.rotations != 3) continue;
@@ -381,8 +389,10 @@ StepReport TimeIntegration::attempt(double h, double end, bool kink) {
     // A component refuses what it was asked for, or the equations are singular. Nearer to the last state that may not
     // be so.
     report.refusal = error.what();
-    if (report.iterations > 1)
+    if (report.iterations > 1) {
+      within_tolerance();
       report.refusal += "; before the iteration went there the largest residual was: " + convergence_.worst();
+    }
     factored_for_ = 0;
   }
   return report;
@@ -390,16 +400,17 @@ StepReport TimeIntegration::attempt(double h, double end, bool kink) {
 
 void TimeIntegration::accept() {
   check_set_aside(system_, environment_, next_);
-  const VectorX A = algorithmic_acceleration(), Y = algorithmic_rate();
-  j_ = (A - A_) / attempted_;
+  const VectorX Y = algorithmic_rate();
+  calc_algorithmic_acceleration(A_new_);
+  j_ = (A_new_ - A_) / attempted_;
   Y_rate_ = (Y - Y_) / attempted_;
   Y_rate_known_ = true;
-  A_ = A;
+  A_.swap(A_new_);
   Y_ = Y;
   watch_turns();
-  v_ = v_new_;
-  a_ = a_new_;
-  last_dq_ = dq_;
+  v_.swap(v_new_);
+  a_.swap(a_new_);
+  last_dq_.swap(dq_);
   h_ = attempted_;
   system_.accept(next_, environment_);
   next_.time = end_;
@@ -446,7 +457,9 @@ State TimeIntegration::interpolated(double time) const {
 
 VectorX TimeIntegration::position_error() const {
   const double h = attempted_;
-  VectorX error = scheme_.position_error() * h * h * (algorithmic_acceleration() - A_);
+  VectorX error(system_.dofs());
+  calc_algorithmic_acceleration(error);
+  error = scheme_.position_error() * h * h * (error - A_);
   for (std::size_t i = 0; i < next_.nodes.size(); ++i) {
     const NodeFreedom& f = system_.kinematics().freedom(static_cast<int>(i));
     if (f.rotations == 3)

@@ -118,8 +118,8 @@ class TimeIntegration {
   bool reached(const StepReport& report);
   bool within_tolerance();
   void check_turns() const;
-  VectorX algorithmic_acceleration() const;  ///< A_{n+1} of the attempt
-  VectorX algorithmic_rate() const;          ///< Y_{n+1}
+  void calc_algorithmic_acceleration(VectorX& A) const;  ///< A_{n+1} of the attempt
+  VectorX algorithmic_rate() const;                      ///< Y_{n+1}
 
   const System& system_;
   Environment environment_;
@@ -133,6 +133,7 @@ class TimeIntegration {
   double h_ = 0;          ///< the step size that v_ and A_ belong to
   double attempted_ = 0;  ///< size of the last attempt
   VectorX v_, a_, A_;     ///< of the dofs at the last accepted time
+  VectorX A_new_;         ///< of the attempt
   VectorX j_;             ///< rate of A over the last accepted step
   VectorX Y_;             ///< algorithmic rates of the first-order unknowns
   VectorX Y_rate_;        ///< and their rate over the last accepted step
@@ -140,9 +141,10 @@ class TimeIntegration {
   // The attempt: what was predicted, what Newton's method added, and both together.
   VectorX predicted_dq_, predicted_v_, predicted_y_, predicted_y_rate_, u_, u_y_, dq_, v_new_, a_new_;
   VectorX r_, delta_;
+  VectorX r_evaluated_;  ///< an evaluation that fails leaves r_ as it was
   ResidualScale scale_;
   double rate_factor_ = 0, acceleration_factor_ = 0, first_order_factor_ = 0;  ///< gamma', beta', and of y
-  double size_ = 0;                             ///< of the residual, see Convergence::size_of
+  double size_ = 0, size_before_ = 0;           ///< of the residual, now and an iteration before: Convergence::size_of
   double factored_for_ = 0;                     ///< the step size that the factors belong to; 0: none that serve
   int floor_age_ = 1 << 20;                     ///< steps since the rounding floor was measured
   std::unique_ptr<StabilisedStep> stabilised_;  ///< of that form only

@@ -5,6 +5,8 @@
 //     dr = (K A + C V + M W_z) G T dp + (C A + M W_v) G dv + M A G da,     rows (A G)^T,
 // plus the turning of the arm at fixed force, c~ (R^T f)~ on the carrier's rotations.
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "mechanism/system/system.hpp"
 
@@ -75,40 +77,50 @@ void multiply_columns(Eigen::Map<MatrixX>& A, Eigen::Index first, int begin, int
 
 void System::node_forces(const State& state, const Environment& environment, VectorX& forces, Eigen::Ref<VectorX> r,
                          ResidualScale* scale) const {
-  thread_local VectorX local;
-  local.resize(largest_local_);
+  thread_local VectorX local;  // zero but while a component's part is in it
+  if (local.size() < largest_local_) local.setZero(largest_local_);
   forces.setZero(6 * static_cast<Eigen::Index>(state.nodes.size()));
   const int amplitude_row = kinematics_.unknowns(), first_order_row = dofs(), multiplier_row = dofs() + first_orders_;
-  Vector3 largest_force = Vector3::Zero(), largest_moment = Vector3::Zero();  // of any component, by direction
+  // Of any component; of nodes by direction.
+  Vector3 largest_force = Vector3::Zero(), largest_moment = Vector3::Zero();
+  double largest_of_amplitude = 0, largest_of_first_order = 0, largest_of_constraint = 0;
   for (std::size_t m = 0; m < slots_.size(); ++m) {
     const Slots& slots = slots_[m];
-    auto part = local.head(slots.size());
-    part.setZero();
-    model_.members()[m].component->add_residual(LocalState(state, slots, environment), part);
-    const double* node_part = local.data();
+    try {
+      model_.members()[m].component->add_residual(LocalState(state, slots, environment), local.head(slots.size()));
+    } catch (...) {
+      local.setZero();
+      throw;
+    }
+    double* node_part = local.data();
     for (const int node : slots.nodes) {
       // In threes, as components write them: what a load finds in two pieces has to wait until both are stored.
-      const Eigen::Map<const Vector3> force(node_part), moment(node_part + 3);
+      const Vector3 force = Eigen::Map<const Vector3>(node_part), moment = Eigen::Map<const Vector3>(node_part + 3);
+      std::fill_n(node_part, 6, 0.0);
       forces.segment<3>(6 * node) += force;
       forces.segment<3>(6 * node + 3) += moment;
       largest_force = largest_force.cwiseMax(force.cwiseAbs());
       largest_moment = largest_moment.cwiseMax(moment.cwiseAbs());
       node_part += 6;
     }
-    const auto scalars = [&](int local_row, int count, int global_row, Kind kind) {
+    const auto scalars = [&](int local_row, int count, int global_row, double& largest) {
       for (int k = 0; k < count; ++k) {
-        const double value = local[local_row + k];
+        const double value = std::exchange(local[local_row + k], 0);
         r[global_row + k] += value;
-        if (scale) (*scale)[kind] = std::max((*scale)[kind], std::abs(value));
+        largest = std::max(largest, std::abs(value));
       }
     };
-    scalars(slots.amplitude_row(), slots.amplitudes, amplitude_row + slots.amplitude_begin, Kind::amplitude);
-    scalars(slots.first_order_row(), slots.first_orders, first_order_row + slots.first_order_begin, Kind::first_order);
-    scalars(slots.multiplier_row(), slots.multipliers, multiplier_row + slots.multiplier_begin, Kind::multiplier);
+    scalars(slots.amplitude_row(), slots.amplitudes, amplitude_row + slots.amplitude_begin, largest_of_amplitude);
+    scalars(slots.first_order_row(), slots.first_orders, first_order_row + slots.first_order_begin,
+            largest_of_first_order);
+    scalars(slots.multiplier_row(), slots.multipliers, multiplier_row + slots.multiplier_begin, largest_of_constraint);
   }
   if (scale) {
     (*scale)[Kind::translation] = largest_force.maxCoeff();
     (*scale)[Kind::rotation] = largest_moment.maxCoeff();
+    (*scale)[Kind::amplitude] = largest_of_amplitude;
+    (*scale)[Kind::first_order] = largest_of_first_order;
+    (*scale)[Kind::multiplier] = largest_of_constraint;
   }
   kinematics_.carry_forces(state.nodes, forces);
 }
@@ -119,13 +131,7 @@ void System::residual(const State& state, const Environment& environment, Eigen:
   r.setZero();
   if (scale) *scale = {};
   node_forces(state, environment, forces, r, scale);
-  for (int i = 0; i < static_cast<int>(state.nodes.size()); ++i) {
-    const NodeFreedom& f = kinematics_.freedom(i);
-    if (f.all_free)
-      r.segment<6>(f.begin) = forces.segment<6>(6 * i);
-    else if (f.count > 0)
-      r.segment(f.begin, f.count).noalias() = f.G.leftCols(f.count).transpose() * forces.segment<6>(6 * i);
-  }
+  kinematics_.reduce_forces(forces, r.head(kinematics_.unknowns()));
   for (const int multiplier : set_aside_) r[dofs() + first_orders_ + multiplier] = state.multiplier[multiplier];
 }
 
@@ -219,6 +225,21 @@ void System::velocity_rows(const Placement& placement, const LocalState& local, 
     }
   }
   lambda = local.multiplier();
+}
+
+void System::add_in_place(const Placement& placement, const LocalState& local, const TangentWeights& weights,
+                          const Component& component, const Matrix3* turns, std::vector<double>& values) const {
+  const auto into = [&](double weight, double constraint, const Matrix3* turned) {
+    return BlockMatrix(placement.places, values.data(), weight, constraint, turned);
+  };
+  BlockTangent tangent{into(weights.stiffness, weights.constraint, turns),
+                       into(weights.damping, weights.damping, nullptr),
+                       into(weights.mass, weights.mass, nullptr),
+                       placement.stiffness && (weights.stiffness != 0 ||
+                                               (weights.constraint != 0 && local.slots().multipliers > 0)),
+                       placement.damping && weights.damping != 0,
+                       placement.mass && weights.mass != 0};
+  if (tangent.wants_K || tangent.wants_C || tangent.wants_M) component.add_blocks(local, tangent);
 }
 
 void System::add_reduced(const Placement& placement, const LocalState& local, const TangentWeights& weights,
@@ -340,15 +361,18 @@ void System::tangent(const State& state, const Environment& environment, const T
   if (weights.velocity_level) work->probe = state;
   if (dq) {
     work->step_tangent.resize(state.nodes.size());
-    for (std::size_t i = 0; i < state.nodes.size(); ++i)
-      if (const NodeFreedom& f = kinematics_.freedom(static_cast<int>(i)); f.all_free)
-        work->step_tangent[i] = mechanism::tangent(dq->segment<3>(f.begin + 3));
+    for (const auto [node, begin] : kinematics_.all_free())
+      work->step_tangent[node] = mechanism::tangent(dq->segment<3>(begin + 3));
   }
   for (std::size_t m = 0; m < slots_.size(); ++m) {
     const Placement& placement = placements_[m];
     if (placement.targets.empty()) continue;
-    add_reduced(placement, LocalState(state, slots_[m], environment), weights, *model_.members()[m].component, dq,
-                *work, values);
+    const LocalState local(state, slots_[m], environment);
+    const Component& component = *model_.members()[m].component;
+    if (placement.in_blocks && !weights.velocity_level)
+      add_in_place(placement, local, weights, component, dq ? work->step_tangent.data() : nullptr, values);
+    else
+      add_reduced(placement, local, weights, component, dq, *work, values);
   }
   for (const int place : set_aside_entries_) values[static_cast<std::size_t>(place)] = 0;
   for (const int place : set_aside_diagonal_) values[static_cast<std::size_t>(place)] = 1;

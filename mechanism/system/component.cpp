@@ -4,6 +4,16 @@
 
 namespace bielle::mechanism {
 
+void Component::add_tangent(const LocalState& state, LocalTangent& tangent) const {
+  BlockTangent blocks{BlockMatrix(tangent.K), BlockMatrix(tangent.C), BlockMatrix(tangent.M),
+                      tangent.wants_K,        tangent.wants_C,        tangent.wants_M};
+  add_blocks(state, blocks);
+}
+
+void Component::add_blocks(const LocalState& /*state*/, BlockTangent& /*tangent*/) const {
+  throw std::logic_error("component type '" + type_ + "' gives no derivatives");
+}
+
 void Component::add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX>, Eigen::Ref<VectorX>) const {
   if (state.slots().multipliers > 0)
     throw std::logic_error("component type '" + type_ + "' has constraints but gives no rates of them");

@@ -232,6 +232,14 @@ void NodeKinematics::carry_forces(const std::vector<NodeState>& nodes, Eigen::Re
   }
 }
 
+void NodeKinematics::reduce_forces(const Eigen::Ref<const VectorX>& forces, Eigen::Ref<VectorX> r) const {
+  for (const auto [i, begin] : all_free_) r.segment<6>(begin) = forces.segment<6>(6 * static_cast<Eigen::Index>(i));
+  for (const std::size_t i : held_)
+    if (const NodeFreedom& f = freedom_[i]; f.count > 0)
+      r.segment(f.begin, f.count).noalias() =
+          f.G.leftCols(f.count).transpose() * forces.segment<6>(6 * static_cast<Eigen::Index>(i));
+}
+
 double NodeKinematics::support_power(const std::vector<NodeState>& nodes,
                                      const Eigen::Ref<const VectorX>& forces) const {
   double power = 0;

@@ -40,6 +40,12 @@ class NodeKinematics {
 
   int unknowns() const { return unknowns_; }
   const NodeFreedom& freedom(int node) const { return freedom_[static_cast<std::size_t>(node)]; }
+  /// A node that is free in all directions, and its first unknown: most nodes are, and the loops over them are short.
+  struct FreeNode {
+    std::size_t node;
+    Eigen::Index begin;
+  };
+  const std::vector<FreeNode>& all_free() const { return all_free_; }
   /// The carry of a node, or nullptr.
   const Carry* carry(int node) const;
   bool any_prescribed() const { return !prescribed_.empty(); }
@@ -63,15 +69,12 @@ class NodeKinematics {
   /// Node forces [force (inertial); moment (node axes)] of carried nodes moved to their carriers. @param forces (6
   /// nodes)
   void carry_forces(const std::vector<NodeState>& nodes, Eigen::Ref<VectorX> forces) const;
+  /// Forces along the independent increments: G^T f of each node. @param forces (6 nodes) @param r (unknowns)
+  void reduce_forces(const Eigen::Ref<const VectorX>& forces, Eigen::Ref<VectorX> r) const;
   /// Power [W] that supports put in: forces of held directions times their prescribed velocities.
   double support_power(const std::vector<NodeState>& nodes, const Eigen::Ref<const VectorX>& forces) const;
 
  private:
-  /// A node that is free in all directions, and its first unknown: most nodes are, and the loops over them are short.
-  struct FreeNode {
-    std::size_t node;
-    Eigen::Index begin;
-  };
   void displace_held(std::vector<NodeState>& nodes, const std::vector<NodeState>& base,
                      const Eigen::Ref<const VectorX>& dp, double time, double motion_factor) const;
   void set_held_rates(std::vector<NodeState>& nodes, const Eigen::Ref<const VectorX>& v,

@@ -99,6 +99,8 @@ void System::place(const std::vector<Declaration>& declarations) {
       const NodeFreedom& f = kinematics_.freedom(carry ? carry->carrier : node);
       if (carry || !(f.all_free || f.count == 0)) placement.plain = false;
     }
+    placement.in_blocks =
+        declarations[m].in_blocks && placement.plain && placement.nonholonomic.empty() && slots.first_orders == 0;
     for (const int node : slots.nodes) {
       const Carry* carry = kinematics_.carry(node);
       const NodeFreedom& f = kinematics_.freedom(carry ? carry->carrier : node);
@@ -152,6 +154,19 @@ std::vector<System::TurnedRows> System::rows_turned(std::size_t member, const Lo
   return result;
 }
 
+BlockPlaces System::block_places(const Slots& slots, const std::vector<Target>& targets) const {
+  BlockPlaces places;
+  places.size = slots.size();
+  places.multiplier_row = slots.multiplier_row();
+  const auto size = static_cast<std::size_t>(places.size);
+  places.place.assign(size * size, -1);
+  for (const auto [entry, place] : targets) places.place[static_cast<std::size_t>(entry)] = place;
+  places.turned_node.assign(size, -1);
+  for (std::size_t k = 0; k < slots.nodes.size(); ++k)
+    if (kinematics_.freedom(slots.nodes[k]).all_free) places.turned_node[6 * k + 3] = slots.nodes[k];
+  return places;
+}
+
 void System::build_pattern() {
   // A constraint does not depend on multipliers: that block stays out of the pattern, but for those set aside.
   const int first_multiplier = dofs() + first_orders_;
@@ -182,6 +197,7 @@ void System::build_pattern() {
     });
     placements_[member].targets = in_triples(targets);
     if (placements_[member].plain) placements_[member].turned = rows_turned(member, reduced_pattern(member));
+    if (placements_[member].in_blocks) placements_[member].places = block_places(slots_[member], targets);
   }
 }
 

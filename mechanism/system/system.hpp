@@ -122,6 +122,8 @@ class System {
     std::vector<int> reduced_begin;  ///< first reduced row of each node
     bool stiffness = false, damping = false, mass = false;
     std::vector<int> nonholonomic;  ///< local rows
+    bool in_blocks = false;         ///< blocks go straight to their places
+    BlockPlaces places;             ///< of those
   };
   struct Workspace;
   template <bool with_C, bool with_M>
@@ -132,10 +134,13 @@ class System {
   void place(const std::vector<Declaration>& declarations);
   LocalPattern reduced_pattern(std::size_t member) const;
   static Targets in_triples(const std::vector<Target>& targets);
+  BlockPlaces block_places(const Slots& slots, const std::vector<Target>& targets) const;
   std::vector<TurnedRows> rows_turned(std::size_t member, const LocalPattern& pattern) const;
   void build_pattern();
   void node_forces(const State& state, const Environment& environment, VectorX& forces, Eigen::Ref<VectorX> r,
                    ResidualScale* scale) const;
+  void add_in_place(const Placement& placement, const LocalState& local, const TangentWeights& weights,
+                    const Component& component, const Matrix3* turns, std::vector<double>& values) const;
   void add_reduced(const Placement& placement, const LocalState& local, const TangentWeights& weights,
                    const Component& component, const VectorX* dq, Workspace& work, std::vector<double>& values) const;
 

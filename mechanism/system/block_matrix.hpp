@@ -1,0 +1,85 @@
+// A local matrix that is written block by block, on its own or straight into the sparse matrix of the whole.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "mechanism/math/types.hpp"
+
+namespace bielle::mechanism {
+
+/// Where a component's local entries stand among the values of a sparse matrix.
+struct BlockPlaces {
+  int size = 0;            ///< of the local matrix
+  int multiplier_row = 0;  ///< first local row of constraints
+  std::vector<int> place;  ///< (size x size), by columns; -1 where an entry is dropped
+  /// Of each local column that begins the three rotations of a free node, that node; else -1.
+  std::vector<int> turned_node;
+};
+
+class BlockMatrix {
+ public:
+  /// Blocks are added to a dense matrix, as they are.
+  explicit BlockMatrix(Eigen::Ref<MatrixX> dense) : values_(dense.data()), stride_(dense.outerStride()) {}
+  /// Blocks are weighted and added to the values of a sparse matrix: rows and columns of constraints by `constraint`,
+  /// the others by `weight`; columns of rotations are multiplied by the T of their node before.
+  /// @param turns  T of each node, or nullptr: they stay
+  BlockMatrix(const BlockPlaces& places, double* values, double weight, double constraint, const Matrix3* turns)
+      : values_(values), places_(&places), weight_(weight), constraint_(constraint), turns_(turns) {}
+
+  /// Adds a block of one or three rows and columns: directions of a node, or of constraints. Three columns begin where a
+  /// node's displacements or rotations do; a single column is none of a rotation. All of the block's entries belong to
+  /// the component's pattern, or none.
+  template <int rows, int columns>
+  void add(int row, int column, const Eigen::Matrix<double, rows, columns, rows == 1 && columns != 1>& block) {
+    static_assert((rows == 1 || rows == 3) && (columns == 1 || columns == 3));
+    if (!places_) {
+      for (int c = 0; c < columns; ++c)
+        for (int r = 0; r < rows; ++r) values_[row + r + (column + c) * stride_] += block(r, c);
+      return;
+    }
+    const double weight = weight_of(row, column);
+    if constexpr (columns == 3)
+      if (const int node = turns_ ? places_->turned_node[static_cast<std::size_t>(column)] : -1; node >= 0) {
+        put<rows, columns>(row, column, weight * (block * turns_[node]).eval());
+        return;
+      }
+    put<rows, columns>(row, column, weight * block);
+  }
+  void add(int row, int column, const Matrix3& block) { add<3, 3>(row, column, block); }
+  void add_row(int row, int column, const Vector3& entries) { add<1, 3>(row, column, entries.transpose()); }
+  void add_column(int row, int column, const Vector3& entries) { add<3, 1>(row, column, entries); }
+  /// `value` times the identity. @param column  where displacements or constraints begin: no rotations
+  void add_identity(int row, int column, double value) {
+    const double weighted = places_ ? weight_of(row, column) * value : value;
+    for (int k = 0; k < 3; ++k) add_entry(row + k, column + k, weighted);
+  }
+
+ private:
+  double weight_of(int row, int column) const {
+    return row >= places_->multiplier_row || column >= places_->multiplier_row ? constraint_ : weight_;
+  }
+  void add_entry(int row, int column, double value) {
+    if (!places_) {
+      values_[row + column * stride_] += value;
+      return;
+    }
+    if (const int place = places_->place[static_cast<std::size_t>(row + column * places_->size)]; place >= 0)
+      values_[place] += value;
+  }
+  template <int rows, int columns>
+  void put(int row, int column, const Eigen::Matrix<double, rows, columns, rows == 1 && columns != 1>& block) {
+    const int* place = places_->place.data() + row + column * places_->size;
+    if (*place < 0) return;
+    for (int c = 0; c < columns; ++c, place += places_->size)
+      for (int r = 0; r < rows; ++r) values_[place[r]] += block(r, c);
+  }
+
+  double* values_;
+  Eigen::Index stride_ = 0;  ///< of a dense matrix
+  const BlockPlaces* places_ = nullptr;
+  double weight_ = 1, constraint_ = 1;
+  const Matrix3* turns_ = nullptr;
+};
+
+}  // namespace bielle::mechanism
