@@ -365,12 +365,13 @@ std::vector<double> System::break_points() const {
 }
 
 void System::accept(State& state, const Environment& environment) const {
-  VectorX memory = state.memory;
+  thread_local VectorX memory;
+  memory = state.memory;
   for (std::size_t m = 0; m < slots_.size(); ++m)
     if (slots_[m].memories > 0)
       model_.members()[m].component->accept(LocalState(state, slots_[m], environment),
                                             memory.segment(slots_[m].memory_begin, slots_[m].memories));
-  state.memory = memory;
+  state.memory.swap(memory);
   // One Newton step of the polar decomposition removes the rounding that products of rotations gather.
   for (NodeState& node : state.nodes) {
     const Matrix3 excess = node.R.transpose() * node.R;

@@ -3,7 +3,8 @@
 //   performance_mechanism_chain [LINKS ...]      default 10 100 500, then a beam of 50 elements
 //
 // A chain of links of 1 m and 1 kg hangs from the ground by one end and is released from the horizontal; 2 s in steps
-// of 1 ms. Its joints are hinges, or spherical ones, the cheapest there are. The beam falls likewise. Each model runs
+// of 1 ms. Its joints are spherical, the cheapest there are, or hinges, and the links of the latter rigid or elastic
+// (a beam element each). The beam falls likewise. Each model runs
 // with every step recorded, as a user runs it. The parts are then measured one by one at the last state: evaluation of
 // the elements (residuals, tangents, energies, memory), assembly around it, the motion of the nodes (rotations and what
 // follows from them), factorisation, solution; and output as the difference of the runs with and without it; all in
@@ -247,6 +248,7 @@ int main(int argc, char** argv) {
   for (const int n : links) {
     measure(fmt::format("chain of {} links, spherical joints", n), chain(n, spherical));
     measure(fmt::format("chain of {} links, hinges", n), chain(n, hinge));
+    measure(fmt::format("chain of {} flexible links, hinges", n), flexible_chain(n));
   }
   if (argc == 1) measure("beam of 50 elements", beam(50));
 }
