@@ -71,8 +71,6 @@ void TimeIntegration::allocate() {
     stabilised_ = std::make_unique<StabilisedStep>(system_);
   eta_.setZero(system_.dofs());
   mu_.setZero(system_.multipliers());
-  u_.setZero(system_.dofs());
-  u_y_.setZero(system_.first_orders());
   const int size = stabilised_ ? stabilised_->size() : system_.size();
   r_.setZero(size);
   r_evaluated_.setZero(size);
@@ -182,43 +180,40 @@ void TimeIntegration::predict(double h, double end) {
   rate_factor_ = gamma / (beta * h);
   acceleration_factor_ = (1 - alpha_m) / ((1 - alpha_f) * beta * h * h);
   first_order_factor_ = (1 - alpha_m) / ((1 - alpha_f) * gamma * h);
-  // The accelerations stay.
   if (stabilised_) stabilised_->begin(state_, environment_);
+  // The accelerations stay.
   a_new_ = a_;
   calc_algorithmic_acceleration(A_new_);
-  predicted_dq_ = h * v_ + h * h * ((0.5 - beta) * A_ + beta * A_new_);
-  predicted_v_ = v_ + h * ((1 - gamma) * A_ + gamma * A_new_);
+  dq_ = h * v_ + h * h * ((0.5 - beta) * A_ + beta * A_new_);
+  v_new_ = v_ + h * ((1 - gamma) * A_ + gamma * A_new_);
   next_.time = end;
   next_.multiplier = state_.multiplier;
   next_.memory = state_.memory;
-  predicted_y_rate_ = next_.first_order_rate = state_.first_order_rate;
-  predicted_y_ = state_.first_order + h * ((1 - gamma) * Y_ + gamma * algorithmic_rate());
-  for (VectorX* vector : {&u_, &u_y_, &eta_, &mu_, &delta_}) vector->setZero();
-  move(0);
+  next_.first_order_rate = state_.first_order_rate;
+  next_.first_order = state_.first_order + h * ((1 - gamma) * Y_ + gamma * algorithmic_rate());
+  eta_.setZero();
+  mu_.setZero();
 }
 
 void TimeIntegration::move(double part) {
   const int n = system_.dofs(), y = system_.first_orders(), m = system_.multipliers();
-  const double rate_factor = rate_factor_, acceleration_factor = acceleration_factor_;
-  const double *__restrict delta = delta_.data(), *__restrict predicted_dq = predicted_dq_.data(),
-                           *__restrict predicted_v = predicted_v_.data(), *__restrict a = a_.data();
-  double *__restrict u = u_.data(), *__restrict dq = dq_.data(), *__restrict v_new = v_new_.data(),
-                     *__restrict a_new = a_new_.data();
-  for (int i = 0; i < n; ++i) {  // in one pass: eight vectors do not fit the nearest cache
-    u[i] += part * delta[i];
-    dq[i] = predicted_dq[i] + u[i];
-    v_new[i] = predicted_v[i] + rate_factor * u[i];
-    a_new[i] = a[i] + acceleration_factor * u[i];
+  const double to_rate = part * rate_factor_, to_acceleration = part * acceleration_factor_;
+  const double* __restrict delta = delta_.data();
+  double *__restrict dq = dq_.data(), *__restrict v = v_new_.data(), *__restrict a = a_new_.data();
+  for (int i = 0; i < n; ++i) {  // in one pass: the nearest cache does not hold the vectors for long
+    dq[i] += part * delta[i];
+    v[i] += to_rate * delta[i];
+    a[i] += to_acceleration * delta[i];
   }
-  u_y_ += part * delta_.segment(n, y);
+  next_.first_order += part * delta_.segment(n, y);
+  next_.first_order_rate += part * first_order_factor_ * delta_.segment(n, y);
   next_.multiplier += part * delta_.segment(n + y, m);
   if (stabilised_) {
-    eta_ += part * delta_.segment(system_.size(), n);
+    const auto change = part * delta_.segment(system_.size(), n);
+    eta_ += change;
+    dq_ += change;
     mu_ += part * delta_.tail(m);
-    dq_ += eta_;
   }
-  next_.first_order = predicted_y_ + u_y_;
-  next_.first_order_rate = predicted_y_rate_ + first_order_factor_ * u_y_;
 }
 
 void TimeIntegration::evaluate() {
@@ -334,6 +329,12 @@ bool TimeIntegration::reached(const StepReport& report) {
   return within_tolerance();
 }
 
+/// No number among the residuals makes their size infinite; of what stabilises, and before the first iteration, there is
+/// no size.
+bool TimeIntegration::finite(const StepReport& report) const {
+  return report.iterations == 0 || stabilised_ ? r_.allFinite() : std::isfinite(size_);
+}
+
 bool TimeIntegration::within_tolerance() {
   if (!stabilised_) return convergence_.reached(r_, scale_);
   // What the rates of constraints make of them within a step is judged like the constraints themselves.
@@ -370,7 +371,7 @@ StepReport TimeIntegration::attempt(double h, double end, bool kink) {
     predict(h, kink ? end - beside(end, h) : end);
     for (evaluate();; improve(report)) {
       if (reached(report)) break;
-      if (report.iterations == options_.iterations || !r_.allFinite()) {
+      if (report.iterations == options_.iterations || !finite(report)) {
         within_tolerance();
         report.refusal = fmt::format("t = {:.6g} s: Newton did not converge in {} iterations; largest residual: {}",
                                      next_.time, report.iterations, convergence_.worst());

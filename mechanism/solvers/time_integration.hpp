@@ -117,6 +117,7 @@ class TimeIntegration {
   void shorten(double before, StepReport& report);
   bool reached(const StepReport& report);
   bool within_tolerance();
+  bool finite(const StepReport& report) const;
   void check_turns() const;
   void calc_algorithmic_acceleration(VectorX& A) const;  ///< A_{n+1} of the attempt
   VectorX algorithmic_rate() const;                      ///< Y_{n+1}
@@ -138,8 +139,7 @@ class TimeIntegration {
   VectorX Y_;             ///< algorithmic rates of the first-order unknowns
   VectorX Y_rate_;        ///< and their rate over the last accepted step
   bool Y_rate_known_ = false;
-  // The attempt: what was predicted, what Newton's method added, and both together.
-  VectorX predicted_dq_, predicted_v_, predicted_y_, predicted_y_rate_, u_, u_y_, dq_, v_new_, a_new_;
+  VectorX dq_, v_new_, a_new_;  ///< of the attempt
   VectorX r_, delta_;
   VectorX r_evaluated_;  ///< an evaluation that fails leaves r_ as it was
   ResidualScale scale_;

@@ -79,11 +79,11 @@ void System::node_forces(const State& state, const Environment& environment, Vec
                          ResidualScale* scale) const {
   thread_local VectorX local;  // zero but while a component's part is in it
   if (local.size() < largest_local_) local.setZero(largest_local_);
-  forces.setZero(6 * static_cast<Eigen::Index>(state.nodes.size()));
+  forces.setZero(kinematics_.force_rows());
+  const int* force_row = force_rows_.data();
   const int amplitude_row = kinematics_.unknowns(), first_order_row = dofs(), multiplier_row = dofs() + first_orders_;
-  // Of any component; of nodes by direction.
+  // Of any component, by direction.
   Vector3 largest_force = Vector3::Zero(), largest_moment = Vector3::Zero();
-  double largest_of_amplitude = 0, largest_of_first_order = 0, largest_of_constraint = 0;
   for (std::size_t m = 0; m < slots_.size(); ++m) {
     const Slots& slots = slots_[m];
     try {
@@ -93,34 +93,33 @@ void System::node_forces(const State& state, const Environment& environment, Vec
       throw;
     }
     double* node_part = local.data();
-    for (const int node : slots.nodes) {
+    for (std::size_t k = 0; k < slots.nodes.size(); ++k, ++force_row) {
       // In threes, as components write them: what a load finds in two pieces has to wait until both are stored.
       const Vector3 force = Eigen::Map<const Vector3>(node_part), moment = Eigen::Map<const Vector3>(node_part + 3);
       std::fill_n(node_part, 6, 0.0);
-      forces.segment<3>(6 * node) += force;
-      forces.segment<3>(6 * node + 3) += moment;
+      forces.segment<3>(*force_row) += force;
+      forces.segment<3>(*force_row + 3) += moment;
       largest_force = largest_force.cwiseMax(force.cwiseAbs());
       largest_moment = largest_moment.cwiseMax(moment.cwiseAbs());
       node_part += 6;
     }
-    const auto scalars = [&](int local_row, int count, int global_row, double& largest) {
-      for (int k = 0; k < count; ++k) {
-        const double value = std::exchange(local[local_row + k], 0);
-        r[global_row + k] += value;
-        largest = std::max(largest, std::abs(value));
-      }
+    const auto scalars = [&](int local_row, int count, int global_row) {
+      for (int k = 0; k < count; ++k) r[global_row + k] += std::exchange(local[local_row + k], 0);
     };
-    scalars(slots.amplitude_row(), slots.amplitudes, amplitude_row + slots.amplitude_begin, largest_of_amplitude);
-    scalars(slots.first_order_row(), slots.first_orders, first_order_row + slots.first_order_begin,
-            largest_of_first_order);
-    scalars(slots.multiplier_row(), slots.multipliers, multiplier_row + slots.multiplier_begin, largest_of_constraint);
+    scalars(slots.amplitude_row(), slots.amplitudes, amplitude_row + slots.amplitude_begin);
+    scalars(slots.first_order_row(), slots.first_orders, first_order_row + slots.first_order_begin);
+    scalars(slots.multiplier_row(), slots.multipliers, multiplier_row + slots.multiplier_begin);
   }
   if (scale) {
     (*scale)[Kind::translation] = largest_force.maxCoeff();
     (*scale)[Kind::rotation] = largest_moment.maxCoeff();
-    (*scale)[Kind::amplitude] = largest_of_amplitude;
-    (*scale)[Kind::first_order] = largest_of_first_order;
-    (*scale)[Kind::multiplier] = largest_of_constraint;
+    // Each of the other rows is one component's.
+    const auto largest = [&](int begin, int count) {
+      return count > 0 ? r.segment(begin, count).lpNorm<Eigen::Infinity>() : 0.0;
+    };
+    (*scale)[Kind::amplitude] = largest(amplitude_row, amplitudes_);
+    (*scale)[Kind::first_order] = largest(first_order_row, first_orders_);
+    (*scale)[Kind::multiplier] = largest(multiplier_row, multipliers_);
   }
   kinematics_.carry_forces(state.nodes, forces);
 }

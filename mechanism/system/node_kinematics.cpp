@@ -81,10 +81,13 @@ NodeKinematics::NodeKinematics(const Model& model) {
       prescribed_.push_back({i, node.frame, node.freedom, node.motion, count_rotations(node, Freedom::prescribed) > 0});
   }
   for (std::size_t i = 0; i < count; ++i) {
-    if (freedom_[i].all_free)
+    if (freedom_[i].all_free) {
       all_free_.push_back({i, freedom_[i].begin});
-    else
+      force_row_.push_back(freedom_[i].begin);
+    } else {
+      force_row_.push_back(unknowns_ + 6 * static_cast<int>(held_.size()));
       held_.push_back(i);
+    }
   }
 }
 
@@ -224,20 +227,20 @@ void NodeKinematics::get_rates(const std::vector<NodeState>& nodes, Eigen::Ref<V
 
 void NodeKinematics::carry_forces(const std::vector<NodeState>& nodes, Eigen::Ref<VectorX> forces) const {
   for (const Carry& carry : carries_) {
-    const Vector3 force = forces.segment<3>(6 * carry.node), moment = forces.segment<3>(6 * carry.node + 3);
+    const int from = force_row(carry.node), to = force_row(carry.carrier);
+    const Vector3 force = forces.segment<3>(from), moment = forces.segment<3>(from + 3);
     const Matrix3& R = nodes[static_cast<std::size_t>(carry.carrier)].R;
-    forces.segment<3>(6 * carry.carrier) += force;
-    forces.segment<3>(6 * carry.carrier + 3) += carry.c.cross(R.transpose() * force) + carry.R_c * moment;
-    forces.segment<6>(6 * carry.node).setZero();
+    forces.segment<3>(to) += force;
+    forces.segment<3>(to + 3) += carry.c.cross(R.transpose() * force) + carry.R_c * moment;
+    forces.segment<6>(from).setZero();
   }
 }
 
 void NodeKinematics::reduce_forces(const Eigen::Ref<const VectorX>& forces, Eigen::Ref<VectorX> r) const {
-  for (const auto [i, begin] : all_free_) r.segment<6>(begin) = forces.segment<6>(6 * static_cast<Eigen::Index>(i));
+  r = forces.head(unknowns_);
   for (const std::size_t i : held_)
     if (const NodeFreedom& f = freedom_[i]; f.count > 0)
-      r.segment(f.begin, f.count).noalias() =
-          f.G.leftCols(f.count).transpose() * forces.segment<6>(6 * static_cast<Eigen::Index>(i));
+      r.segment(f.begin, f.count).noalias() = f.G.leftCols(f.count).transpose() * forces.segment<6>(force_row_[i]);
 }
 
 double NodeKinematics::support_power(const std::vector<NodeState>& nodes,
@@ -245,9 +248,10 @@ double NodeKinematics::support_power(const std::vector<NodeState>& nodes,
   double power = 0;
   for (const Prescribed& p : prescribed_) {
     const NodeState& node = nodes[static_cast<std::size_t>(p.node)];
+    const int row = force_row(p.node);
     for (int k = 0; k < 3; ++k)
-      if (p.freedom[static_cast<std::size_t>(k)] == Freedom::prescribed) power += forces[6 * p.node + k] * node.v[k];
-    if (p.rotation) power += forces.segment<3>(6 * p.node + 3).dot(node.Omega);
+      if (p.freedom[static_cast<std::size_t>(k)] == Freedom::prescribed) power += forces[row + k] * node.v[k];
+    if (p.rotation) power += forces.segment<3>(row + 3).dot(node.Omega);
   }
   return power;
 }

@@ -66,12 +66,16 @@ class NodeKinematics {
   /// Independent rates of the free directions (inverse of set_rates on them).
   void get_rates(const std::vector<NodeState>& nodes, Eigen::Ref<VectorX> v, Eigen::Ref<VectorX> a) const;
 
-  /// Node forces [force (inertial); moment (node axes)] of carried nodes moved to their carriers. @param forces (6
-  /// nodes)
+  /// Forces on all nodes in one vector: those on nodes that are free in all directions stand where their unknowns do,
+  /// those on others behind all unknowns. First of the six rows [force (inertial); moment (node axes)] of a node.
+  int force_row(int node) const { return force_row_[static_cast<std::size_t>(node)]; }
+  int force_rows() const { return unknowns_ + 6 * static_cast<int>(held_.size()); }
+  /// Hands the forces on carried nodes to their carriers. @param forces (force_rows)
   void carry_forces(const std::vector<NodeState>& nodes, Eigen::Ref<VectorX> forces) const;
-  /// Forces along the independent increments: G^T f of each node. @param forces (6 nodes) @param r (unknowns)
+  /// Forces along the independent increments: G^T f of each node. @param forces (force_rows) @param r (unknowns)
   void reduce_forces(const Eigen::Ref<const VectorX>& forces, Eigen::Ref<VectorX> r) const;
-  /// Power [W] that supports put in: forces of held directions times their prescribed velocities.
+  /// Power [W] that supports put in: forces of held directions times their prescribed velocities. @param forces
+  /// (force_rows)
   double support_power(const std::vector<NodeState>& nodes, const Eigen::Ref<const VectorX>& forces) const;
 
  private:
@@ -94,6 +98,7 @@ class NodeKinematics {
   std::vector<NodeFreedom> freedom_;
   std::vector<FreeNode> all_free_;
   std::vector<std::size_t> held_;  ///< the others
+  std::vector<int> force_row_;     ///< of each node
   std::vector<Carry> carries_;
   std::vector<int> carry_of_node_;  ///< index into carries_, or -1
   std::vector<Prescribed> prescribed_;

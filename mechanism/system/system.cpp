@@ -114,6 +114,7 @@ void System::place(const std::vector<Declaration>& declarations) {
     append(kinematics_.unknowns() + slots.amplitude_begin, slots.amplitudes);
     append(dofs() + slots.first_order_begin, slots.first_orders);
     append(first_multiplier + slots.multiplier_begin, slots.multipliers);
+    for (const int node : slots.nodes) force_rows_.push_back(kinematics_.force_row(node));
     largest_local_ = std::max(largest_local_, slots.size());
     placements_.push_back(std::move(placement));
   }

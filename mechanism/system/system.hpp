@@ -148,6 +148,7 @@ class System {
   NodeKinematics kinematics_;
   std::vector<Slots> slots_;
   std::vector<Placement> placements_;
+  std::vector<int> force_rows_;  ///< of the members' nodes, one member behind the other: NodeKinematics::force_row
   int amplitudes_ = 0, first_orders_ = 0, multipliers_ = 0, memories_ = 0, largest_local_ = 0;
   VectorX start_amplitude_, start_first_order_, start_multiplier_, start_memory_;
   std::vector<Kind> kinds_;
