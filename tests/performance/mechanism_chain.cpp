@@ -1,6 +1,7 @@
 // What a step costs, and on what the time goes: chains of rigid links, and a beam.
 //
-//   performance_mechanism_chain [LINKS ...]      default 10 100 500, then a beam of 50 elements
+//   performance_mechanism_chain [LINKS ...]                        default 10 100 500, then a beam of 50 elements
+//   performance_mechanism_chain --run MODEL renewed|reused LINKS   one run of 10 s, recorded: for step_shares
 //
 // A chain of links of 1 m and 1 kg hangs from the ground by one end and is released from the horizontal; 2 s in steps
 // of 1 ms. Its joints are spherical, the cheapest there are, or hinges, and the links of the latter rigid or elastic
@@ -58,7 +59,8 @@ struct Run {
 
 constexpr double step = 1e-3;
 
-Run integrate(const MechanismFile& file, const System& system, bool reuse, const std::string& results_path) {
+Run integrate(const MechanismFile& file, const System& system, bool reuse, const std::string& results_path,
+              long steps = 2000) {
   NewtonOptions newton;
   newton.reuse_tangent = reuse;
   TimeIntegration integration(system, file.model.environment, Scheme::generalized_alpha(0.8), system.start(0),
@@ -69,12 +71,12 @@ Run integrate(const MechanismFile& file, const System& system, bool reuse, const
   std::unique_ptr<ResultsFile> results;
   if (!results_path.empty()) {
     results = std::make_unique<ResultsFile>(results_path, file.model, file.text);
-    results->begin_analysis("dynamic", 2001);
+    results->begin_analysis("dynamic", static_cast<std::size_t>(steps) + 1);
   }
   Run run;
   const auto start = std::chrono::steady_clock::now();
   const double thread = processor_seconds(CLOCK_THREAD_CPUTIME_ID), all = processor_seconds(CLOCK_PROCESS_CPUTIME_ID);
-  for (run.steps = 0; run.steps < 2000; ++run.steps) {
+  for (run.steps = 0; run.steps < steps; ++run.steps) {
     const StepReport report = integration.step(step);
     run.iterations += report.iterations;
     run.factorisations += report.factorisations;
@@ -172,13 +174,37 @@ void evaluate_memory(const System& system, const State& state, const Environment
                                                     memory.segment(slots.memory_begin, slots.memories));
 }
 
+std::string results_path() {
+  return (std::filesystem::temp_directory_path() / "performance_mechanism_chain.h5").string();
+}
+
+/// A long run alone, for a sampling profiler.
+int run_only(const std::string& model, const std::string& tangents, int links) {
+  const std::string text = model == "spherical"  ? chain(links, spherical)
+                           : model == "hinges"   ? chain(links, hinge)
+                           : model == "flexible" ? flexible_chain(links)
+                                                 : "";
+  if (text.empty() || (tangents != "renewed" && tangents != "reused") || links < 1) {
+    fmt::print(stderr, "expected --run spherical|hinges|flexible renewed|reused LINKS\n");
+    return 1;
+  }
+  const MechanismFile file = read_mechanism_text(text, "model.yaml");
+  System system(file.model);
+  system.set_aside({});
+  const Run run = integrate(file, system, tangents == "reused", results_path(), 10000);
+  std::filesystem::remove(results_path());
+  fmt::print("{:.2f} us per step, {:.2f} iterations\n", 1e6 * run.processor / static_cast<double>(run.steps),
+             static_cast<double>(run.iterations) / static_cast<double>(run.steps));
+  return 0;
+}
+
 void measure(const std::string& title, const std::string& text) {
   const MechanismFile file = read_mechanism_text(text, "model.yaml");
   System system(file.model);
   system.set_aside({});
   const Environment& environment = file.model.environment;
   const std::vector<Declaration> declared = declarations(system);
-  const std::string path = (std::filesystem::temp_directory_path() / "performance_mechanism_chain.h5").string();
+  const std::string path = results_path();
   fmt::print("\n{}: {} equations\n", title, system.size());
   for (const bool reuse : {false, true}) {
     const Run with = fastest(file, system, reuse, path), without = fastest(file, system, reuse, "");
@@ -242,6 +268,7 @@ void measure(const std::string& title, const std::string& text) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc == 5 && std::string(argv[1]) == "--run") return run_only(argv[2], argv[3], std::atoi(argv[4]));
   std::vector<int> links;
   for (int k = 1; k < argc; ++k) links.push_back(std::atoi(argv[k]));
   if (links.empty()) links = {10, 100, 500};
