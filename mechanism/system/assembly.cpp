@@ -77,9 +77,10 @@ void multiply_columns(Eigen::Map<MatrixX>& A, Eigen::Index first, int begin, int
 
 void System::node_forces(const State& state, const Environment& environment, VectorX& forces, Eigen::Ref<VectorX> r,
                          ResidualScale* scale) const {
-  thread_local VectorX local;  // zero but while a component's part is in it
-  if (local.size() < largest_local_) local.setZero(largest_local_);
+  thread_local VectorX buffer;  // zero but while a component's part is in it
+  if (buffer.size() < largest_local_) buffer.setZero(largest_local_);
   forces.setZero(kinematics_.force_rows());
+  double *const local = buffer.data(), *const force_values = forces.data(), *const scalar_values = r.data();
   const int* force_row = force_rows_.data();
   const int amplitude_row = kinematics_.unknowns(), first_order_row = dofs(), multiplier_row = dofs() + first_orders_;
   // Of any component, by direction.
@@ -87,28 +88,29 @@ void System::node_forces(const State& state, const Environment& environment, Vec
   for (std::size_t m = 0; m < slots_.size(); ++m) {
     const Slots& slots = slots_[m];
     try {
-      model_.members()[m].component->add_residual(LocalState(state, slots, environment), local.head(slots.size()));
+      model_.members()[m].component->add_residual(LocalState(state, slots, environment),
+                                                  Eigen::Map<VectorX>(local, slots.size()));
     } catch (...) {
-      local.setZero();
+      buffer.setZero();
       throw;
     }
-    double* node_part = local.data();
-    for (std::size_t k = 0; k < slots.nodes.size(); ++k, ++force_row) {
+    double* part = local;
+    for (const int* const end = force_row + slots.nodes.size(); force_row != end; ++force_row, part += 6) {
       // In threes, as components write them: what a load finds in two pieces has to wait until both are stored.
-      const Vector3 force = Eigen::Map<const Vector3>(node_part), moment = Eigen::Map<const Vector3>(node_part + 3);
-      std::fill_n(node_part, 6, 0.0);
-      forces.segment<3>(*force_row) += force;
-      forces.segment<3>(*force_row + 3) += moment;
+      const Vector3 force = Eigen::Map<const Vector3>(part), moment = Eigen::Map<const Vector3>(part + 3);
+      std::fill_n(part, 6, 0.0);
+      Eigen::Map<Vector3>(force_values + *force_row) += force;
+      Eigen::Map<Vector3>(force_values + *force_row + 3) += moment;
       largest_force = largest_force.cwiseMax(force.cwiseAbs());
       largest_moment = largest_moment.cwiseMax(moment.cwiseAbs());
-      node_part += 6;
     }
-    const auto scalars = [&](int local_row, int count, int global_row) {
-      for (int k = 0; k < count; ++k) r[global_row + k] += std::exchange(local[local_row + k], 0);
+    const auto scalars = [&](int count, int row) {
+      for (int k = 0; k < count; ++k) scalar_values[row + k] += std::exchange(part[k], 0);
+      part += count;
     };
-    scalars(slots.amplitude_row(), slots.amplitudes, amplitude_row + slots.amplitude_begin);
-    scalars(slots.first_order_row(), slots.first_orders, first_order_row + slots.first_order_begin);
-    scalars(slots.multiplier_row(), slots.multipliers, multiplier_row + slots.multiplier_begin);
+    scalars(slots.amplitudes, amplitude_row + slots.amplitude_begin);
+    scalars(slots.first_orders, first_order_row + slots.first_order_begin);
+    scalars(slots.multipliers, multiplier_row + slots.multiplier_begin);
   }
   if (scale) {
     (*scale)[Kind::translation] = largest_force.maxCoeff();

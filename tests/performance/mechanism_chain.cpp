@@ -1,7 +1,7 @@
 // What a step costs, and on what the time goes: chains of rigid links, and a beam.
 //
-//   performance_mechanism_chain [LINKS ...]                        default 10 100 500, then a beam of 50 elements
-//   performance_mechanism_chain --run MODEL renewed|reused LINKS   one run of 10 s, recorded: for step_shares
+//   performance_mechanism_chain [LINKS ...]      default 10 100 500, then a beam of 50 elements
+//   performance_mechanism_chain --run MODEL renewed|reused LINKS STEPS      one run, recorded: for step_shares
 //
 // A chain of links of 1 m and 1 kg hangs from the ground by one end and is released from the horizontal; 2 s in steps
 // of 1 ms. Its joints are spherical, the cheapest there are, or hinges, and the links of the latter rigid or elastic
@@ -179,20 +179,19 @@ std::string results_path() {
 }
 
 /// A long run alone, for a sampling profiler.
-int run_only(const std::string& model, const std::string& tangents, int links) {
+int run_only(const std::string& model, const std::string& tangents, int links, long steps) {
   const std::string text = model == "spherical"  ? chain(links, spherical)
                            : model == "hinges"   ? chain(links, hinge)
                            : model == "flexible" ? flexible_chain(links)
                                                  : "";
-  if (text.empty() || (tangents != "renewed" && tangents != "reused") || links < 1) {
-    fmt::print(stderr, "expected --run spherical|hinges|flexible renewed|reused LINKS\n");
+  if (text.empty() || (tangents != "renewed" && tangents != "reused") || links < 1 || steps < 1) {
+    fmt::print(stderr, "expected --run spherical|hinges|flexible renewed|reused LINKS STEPS\n");
     return 1;
   }
   const MechanismFile file = read_mechanism_text(text, "model.yaml");
   System system(file.model);
   system.set_aside({});
-  const Run run = integrate(file, system, tangents == "reused", results_path(), 10000);
-  std::filesystem::remove(results_path());
+  const Run run = integrate(file, system, tangents == "reused", results_path(), steps);
   fmt::print("{:.2f} us per step, {:.2f} iterations\n", 1e6 * run.processor / static_cast<double>(run.steps),
              static_cast<double>(run.iterations) / static_cast<double>(run.steps));
   return 0;
@@ -268,7 +267,8 @@ void measure(const std::string& title, const std::string& text) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc == 5 && std::string(argv[1]) == "--run") return run_only(argv[2], argv[3], std::atoi(argv[4]));
+  if (argc == 6 && std::string(argv[1]) == "--run")
+    return run_only(argv[2], argv[3], std::atoi(argv[4]), std::atol(argv[5]));
   std::vector<int> links;
   for (int k = 1; k < argc; ++k) links.push_back(std::atoi(argv[k]));
   if (links.empty()) links = {10, 100, 500};
