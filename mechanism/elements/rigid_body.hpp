@@ -19,7 +19,7 @@
 namespace bielle::mechanism {
 
 /// Mass, centre and inertia rigidly tied to one node; gravity acts at the centre. Exact tangents.
-class RigidBody : public Component {
+class RigidBody final : public Component {
  public:
   /// @param type  as in the input file: "rigid_body" or "point_mass"
   /// @param node_name  for those who read the results

@@ -30,7 +30,9 @@ MeasureRate Joint::value_and_rate(std::size_t index, const LocalState& state) co
   const NodeState &first = state.node(0), &second = state.node(1);
   const Frame &A = frames_.on_first, &B = frames_.on_second;
   const JointCoordinate& coordinate = coordinates_[index];
-  if (coordinate.kind != JointCoordinate::Kind::angle)
+  if (coordinate.kind == JointCoordinate::Kind::rotation)
+    throw std::logic_error("a rotation vector's component is no measure");
+  if (coordinate.kind == JointCoordinate::Kind::displacement)
     return measure_position_rate(first, second, A.R.col(coordinate.axis), A.x, B.x);
   const auto [value, rate] = measure_angle_rate(first, second, A.R, B.R);
   const auto memory = state.memory();

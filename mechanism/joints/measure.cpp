@@ -18,18 +18,15 @@ Matrix3 skew_product(const Vector3& a, const Vector3& b) {
 Matrix12 PairHessian::dense() const {
   Matrix12 S;
   const Matrix3 none = Matrix3::Zero();
-  S << none, X, none, none,                       //
-      X.transpose(), P, -X.transpose(), Q,        //
-      none, -X, none, none,                       //
+  S << none, X, none, none,                 //
+      X.transpose(), P, -X.transpose(), Q,  //
+      none, -X, none, none,                 //
       none, Q.transpose(), none, W;
   return S;
 }
 
 PointPair::PointPair(const NodeState& first, const NodeState& second, const Matrix3& R_12, const Vector3& c_2)
-    : c_2_(c_2),
-      s_(first.R.transpose() * (second.x + second.R * c_2 - first.x)),
-      R_1_(first.R),
-      R_12_(R_12) {}
+    : c_2_(c_2), s_(first.R.transpose() * (second.x + second.R * c_2 - first.x)), R_1_(first.R), R_12_(R_12) {}
 
 //        dx_1        dTheta_1         dx_2        dTheta_2
 // g = [ -e           e^ x s           e           c_2 x e_2 ]      e_2 = R_2^T e

@@ -87,6 +87,7 @@ class AxisPair {
   /// @param R_12  R_1^T R_2, which several pairs of the same nodes share; must outlive them
   AxisPair(const Matrix3& R_12, const Vector3& a_hat, const Vector3& b_hat)
       : a_hat_(a_hat), b_hat_(b_hat), b_1_(R_12 * b_hat), a_2_(R_12.transpose() * a_hat), R_12_(R_12) {}
+  AxisPair(Matrix3&& R_12, const Vector3& a_hat, const Vector3& b_hat) = delete;
   double value() const { return a_hat_.dot(b_1_); }
   /// The gradient is zero but for its parts along dTheta_1 and dTheta_2.
   Vector3 first_gradient() const { return a_hat_.cross(b_1_); }

@@ -39,6 +39,7 @@ void Convergence::measure_rounding(const LinearStep& linear, const State& state)
   // Rounding of a sum of some ten terms.
   floor_ *= 10 * std::numeric_limits<double>::epsilon();
   scale_ = linear.scale();
+  measured_ = false;
 }
 
 std::array<double, kind_count> Convergence::tolerances(const ResidualScale& scale) const {
@@ -68,6 +69,7 @@ bool Convergence::reached(const Eigen::Ref<const VectorX>& r, const ResidualScal
 
 bool Convergence::out_of_reach(double size, const ResidualScale& scale) const {
   const std::array<double, kind_count> allowed = tolerances(scale);
+  if (!measured_) return false;
   double growth = 1;  // of the tolerances since
   for (std::size_t k = 0; k < kind_count; ++k)
     if (allowed[k] > measured_by_[k] * growth) growth = allowed[k] / measured_by_[k];
@@ -80,8 +82,10 @@ void Convergence::measure_by(const ResidualScale& scale) {
   measure_.resize(system_.size());
   for (int i = 0; i < system_.size(); ++i) {
     const double most = allowed[static_cast<std::size_t>(system_.kind(i))] + floor_[i];
-    measure_[i] = most > 0 ? 1 / most : 0;
+    // What is allowed less than the least normal number counts for nothing: its inverse would be none.
+    measure_[i] = most > std::numeric_limits<double>::min() ? 1 / most : 0;
   }
+  measured_ = true;
 }
 
 double Convergence::size_of(const Eigen::Ref<const VectorX>& r) const {

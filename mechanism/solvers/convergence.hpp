@@ -55,6 +55,7 @@ class Convergence {
   NewtonOptions options_;
   VectorX floor_, unknown_scale_, measure_;
   std::array<double, kind_count> measured_by_{};  ///< tolerances in `measure_`, rounding left out
+  bool measured_ = false;                         ///< `measure_` is of the present rounding floor
   double scale_ = 1;
   int worst_ = -1;
   double worst_residual_ = 0, worst_ratio_ = 0;

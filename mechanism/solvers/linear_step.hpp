@@ -48,7 +48,7 @@ class LinearStep {
   /// The scale is of translations; of a system that only turns, of its rotations; and so on.
   static constexpr std::array scaling_kinds{Kind::translation, Kind::rotation, Kind::amplitude};
   std::array<std::vector<int>, scaling_kinds.size()> diagonal_by_kind_;  ///< their places that exist
-  VectorX scales_;             ///< 1 for dofs and first-order unknowns, k for multipliers
+  VectorX scales_;  ///< 1 for dofs and first-order unknowns, k for multipliers
   double scale_ = 1;
 };
 

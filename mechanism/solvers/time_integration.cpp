@@ -1,6 +1,7 @@
 #include "mechanism/solvers/time_integration.hpp"
 
 #include <cmath>
+#include <exception>
 #include <limits>
 
 #include <fmt/format.h>
@@ -176,30 +177,50 @@ VectorX TimeIntegration::algorithmic_rate() const {
 }
 
 void TimeIntegration::predict(double h, double end) {
-  const auto [alpha_m, alpha_f, gamma, beta] = scheme_;
+  const auto& [alpha_m, alpha_f, gamma, beta] = scheme_;
   rate_factor_ = gamma / (beta * h);
   acceleration_factor_ = (1 - alpha_m) / ((1 - alpha_f) * beta * h * h);
   first_order_factor_ = (1 - alpha_m) / ((1 - alpha_f) * gamma * h);
   if (stabilised_) stabilised_->begin(state_, environment_);
   // The accelerations stay.
   a_new_ = a_;
-  calc_algorithmic_acceleration(A_new_);
-  dq_ = h * v_ + h * h * ((0.5 - beta) * A_ + beta * A_new_);
-  v_new_ = v_ + h * ((1 - gamma) * A_ + gamma * A_new_);
+  next_.first_order_rate = state_.first_order_rate;
+  calc_prediction(h, dq_, v_new_, next_.first_order);
   next_.time = end;
   next_.multiplier = state_.multiplier;
   next_.memory = state_.memory;
-  next_.first_order_rate = state_.first_order_rate;
-  next_.first_order = state_.first_order + h * ((1 - gamma) * Y_ + gamma * algorithmic_rate());
   eta_.setZero();
   mu_.setZero();
+}
+
+/// Increments, velocities and first-order unknowns at the end of a step with the accelerations and rates of its
+/// beginning.
+void TimeIntegration::calc_prediction(double h, VectorX& dq, VectorX& v, VectorX& y) const {
+  const auto [alpha_m, alpha_f, gamma, beta] = scheme_;
+  const auto A = (a_ - alpha_m * A_) / (1 - alpha_m);
+  const auto Y = (state_.first_order_rate - alpha_m * Y_) / (1 - alpha_m);
+  dq = h * v_ + h * h * ((0.5 - beta) * A_ + beta * A);
+  v = v_ + h * ((1 - gamma) * A_ + gamma * A);
+  y = state_.first_order + h * ((1 - gamma) * Y_ + gamma * Y);
+}
+
+/// Rates are those of the increments again. A step far off and back leaves rounding of its own size in each of them,
+/// and Newton's method, which moves them together, would never take out what they then lack of the scheme's relations.
+void TimeIntegration::follow_increments() {
+  VectorX dq, v, y;
+  calc_prediction(attempted_, dq, v, y);
+  dq = dq_ - dq;
+  if (stabilised_) dq -= eta_;
+  v_new_ = v + rate_factor_ * dq;
+  a_new_ = a_ + acceleration_factor_ * dq;
+  next_.first_order_rate = state_.first_order_rate + first_order_factor_ * (next_.first_order - y);
 }
 
 void TimeIntegration::move(double part) {
   const int n = system_.dofs(), y = system_.first_orders(), m = system_.multipliers();
   const double to_rate = part * rate_factor_, to_acceleration = part * acceleration_factor_;
   const double* __restrict delta = delta_.data();
-  double *__restrict dq = dq_.data(), *__restrict v = v_new_.data(), *__restrict a = a_new_.data();
+  double* __restrict dq = dq_.data(), * __restrict v = v_new_.data(), * __restrict a = a_new_.data();
   for (int i = 0; i < n; ++i) {  // in one pass: the nearest cache does not hold the vectors for long
     dq[i] += part * delta[i];
     v[i] += to_rate * delta[i];
@@ -243,12 +264,14 @@ void TimeIntegration::factor(StepReport& report) {
   floor_age_ = 0;
 }
 
-/// Where a full step made the residual larger than it was `before`: shorter ones, if they make it smaller.
-void TimeIntegration::shorten(double before, StepReport& report) {
+/// Where a full step made the residual larger than it was `before`, or was refused: shorter ones, if they make it
+/// smaller.
+void TimeIntegration::shorten(double before, std::exception_ptr refusal, StepReport& report) {
   const double full = size_;
   double part = 1;
   for (const double shorter : {0.5, 0.25, 0.125}) {
     move(shorter - part);
+    follow_increments();
     part = shorter;
     try {
       evaluate();
@@ -261,8 +284,15 @@ void TimeIntegration::shorten(double before, StepReport& report) {
       return;
     }
   }
+  if (refusal) {
+    move(-part);
+    follow_increments();
+    evaluate();
+    std::rethrow_exception(refusal);
+  }
   // Newton's method may have to pass over a hill.
   move(1 - part);
+  follow_increments();
   evaluate();
   size_ = full;
 }
@@ -296,12 +326,14 @@ void TimeIntegration::improve(StepReport& report) {
   ++report.iterations;
   const double before = size_before_ = size_;
   move(1);
+  std::exception_ptr refusal;
   try {
     evaluate();
     size_ = size_of_residual();
   } catch (const ComputationError&) {
     // A component refuses what it is asked for (a beam whose ends turn too far).
     if (renew && !options_.line_search) throw;
+    refusal = std::current_exception();
     size_ = std::numeric_limits<double>::infinity();
   }
   if (!renew && !worthwhile(before, size_)) {
@@ -309,11 +341,12 @@ void TimeIntegration::improve(StepReport& report) {
     if (size_ < before) return;
     // The old tangent led astray.
     move(-1);
+    follow_increments();
     evaluate();
-    size_ = before;
+    size_ = size_of_residual();
     return;
   }
-  if (options_.line_search && !(size_ <= before)) shorten(before, report);
+  if (options_.line_search && !(size_ <= before)) shorten(before, refusal, report);
 }
 
 bool TimeIntegration::reached(const StepReport& report) {
@@ -329,8 +362,8 @@ bool TimeIntegration::reached(const StepReport& report) {
   return within_tolerance();
 }
 
-/// No number among the residuals makes their size infinite; of what stabilises, and before the first iteration, there is
-/// no size.
+/// No number among the residuals makes their size infinite; of what stabilises, and before the first iteration, there
+/// is no size.
 bool TimeIntegration::finite(const StepReport& report) const {
   return report.iterations == 0 || stabilised_ ? r_.allFinite() : std::isfinite(size_);
 }

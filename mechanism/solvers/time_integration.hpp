@@ -22,6 +22,7 @@
 // (2015) 149 (order of the multipliers).
 #pragma once
 
+#include <exception>
 #include <memory>
 #include <string>
 
@@ -107,14 +108,16 @@ class TimeIntegration {
   void correct_velocity();             ///< of the attempt
   void watch_turns();                  ///< of constraints: corrects velocities once they are fast
   void predict(double h, double end);
+  void calc_prediction(double h, VectorX& dq, VectorX& v, VectorX& y) const;
   void move(double part);  ///< the attempt, by a part of the last solution
-  void evaluate();         ///< residual and its scale at the attempt
+  void follow_increments();
+  void evaluate();  ///< residual and its scale at the attempt
   double size_of_residual() const;
   void improve(StepReport& report);
   void factor(StepReport& report);
   void solve();
   void polish();
-  void shorten(double before, StepReport& report);
+  void shorten(double before, std::exception_ptr refusal, StepReport& report);
   bool reached(const StepReport& report);
   bool within_tolerance();
   bool finite(const StepReport& report) const;
@@ -134,7 +137,7 @@ class TimeIntegration {
   double h_ = 0;          ///< the step size that v_ and A_ belong to
   double attempted_ = 0;  ///< size of the last attempt
   VectorX v_, a_, A_;     ///< of the dofs at the last accepted time
-  VectorX A_new_;         ///< of the attempt
+  VectorX A_new_;         ///< of the step that is accepted, until it has taken the place of A_
   VectorX j_;             ///< rate of A over the last accepted step
   VectorX Y_;             ///< algorithmic rates of the first-order unknowns
   VectorX Y_rate_;        ///< and their rate over the last accepted step

@@ -67,7 +67,7 @@ double TimeIntegration::turn_of_constraints() const {
   const double length = model_length(next_), rounding = 1e-12 * length * length;
   double rate = 0;  // squared
   for (const Slots& slots : system_.slots()) {
-    if (slots.multipliers == 0) continue;
+    if (slots.multipliers == 0 || slots.nodes.empty()) continue;
     const NodeState& first = next_.nodes[static_cast<std::size_t>(slots.nodes[0])];
     rate = std::max(rate, first.Omega.squaredNorm());
     for (std::size_t k = 1; k < slots.nodes.size(); ++k) {

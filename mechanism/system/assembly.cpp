@@ -77,7 +77,8 @@ void multiply_columns(Eigen::Map<MatrixX>& A, Eigen::Index first, int begin, int
 
 void System::node_forces(const State& state, const Environment& environment, VectorX& forces, Eigen::Ref<VectorX> r,
                          ResidualScale* scale) const {
-  thread_local VectorX buffer;  // zero but while a component's part is in it
+  // Zero but while a component's part is in it. (Components do not evaluate systems.)
+  thread_local VectorX buffer;
   if (buffer.size() < largest_local_) buffer.setZero(largest_local_);
   forces.setZero(kinematics_.force_rows());
   double *const local = buffer.data(), *const force_values = forces.data(), *const scalar_values = r.data();
@@ -96,7 +97,7 @@ void System::node_forces(const State& state, const Environment& environment, Vec
     }
     double* part = local;
     for (const int* const end = force_row + slots.nodes.size(); force_row != end; ++force_row, part += 6) {
-      // In threes, as components write them: what a load finds in two pieces has to wait until both are stored.
+      // In threes, as components write them: a read that spans two writes has to wait for both.
       const Vector3 force = Eigen::Map<const Vector3>(part), moment = Eigen::Map<const Vector3>(part + 3);
       std::fill_n(part, 6, 0.0);
       Eigen::Map<Vector3>(force_values + *force_row) += force;
@@ -233,13 +234,13 @@ void System::add_in_place(const Placement& placement, const LocalState& local, c
   const auto into = [&](double weight, double constraint, const Matrix3* turned) {
     return BlockMatrix(placement.places, values.data(), weight, constraint, turned);
   };
-  BlockTangent tangent{into(weights.stiffness, weights.constraint, turns),
-                       into(weights.damping, weights.damping, nullptr),
-                       into(weights.mass, weights.mass, nullptr),
-                       placement.stiffness && (weights.stiffness != 0 ||
-                                               (weights.constraint != 0 && local.slots().multipliers > 0)),
-                       placement.damping && weights.damping != 0,
-                       placement.mass && weights.mass != 0};
+  BlockTangent tangent{
+      into(weights.stiffness, weights.constraint, turns),
+      into(weights.damping, weights.damping, nullptr),
+      into(weights.mass, weights.mass, nullptr),
+      placement.stiffness && (weights.stiffness != 0 || (weights.constraint != 0 && local.slots().multipliers > 0)),
+      placement.damping && weights.damping != 0,
+      placement.mass && weights.mass != 0};
   if (tangent.wants_K || tangent.wants_C || tangent.wants_M) component.add_blocks(local, tangent);
 }
 

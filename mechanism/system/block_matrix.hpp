@@ -1,6 +1,7 @@
 // A local matrix that is written block by block, on its own or straight into the sparse matrix of the whole.
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <vector>
 
@@ -27,9 +28,9 @@ class BlockMatrix {
   BlockMatrix(const BlockPlaces& places, double* values, double weight, double constraint, const Matrix3* turns)
       : values_(values), places_(&places), weight_(weight), constraint_(constraint), turns_(turns) {}
 
-  /// Adds a block of one or three rows and columns: directions of a node, or of constraints. Three columns begin where a
-  /// node's displacements or rotations do; a single column is none of a rotation. All of the block's entries belong to
-  /// the component's pattern, or none.
+  /// Adds a block of one or three rows and columns: directions of a node, or of constraints. Three columns begin where
+  /// a node's displacements or rotations do; a single column is none of a rotation. All of the block's entries belong
+  /// to the component's pattern, or none.
   template <int rows, int columns>
   void add(int row, int column, const Eigen::Matrix<double, rows, columns, rows == 1 && columns != 1>& block) {
     static_assert((rows == 1 || rows == 3) && (columns == 1 || columns == 3));
@@ -72,7 +73,10 @@ class BlockMatrix {
     const int* place = places_->place.data() + row + column * places_->size;
     if (*place < 0) return;
     for (int c = 0; c < columns; ++c, place += places_->size)
-      for (int r = 0; r < rows; ++r) values_[place[r]] += block(r, c);
+      for (int r = 0; r < rows; ++r) {
+        assert(place[r] >= 0 && "a block of which only a part is in the component's pattern");
+        values_[place[r]] += block(r, c);
+      }
   }
 
   double* values_;

@@ -108,7 +108,7 @@ class Component {
   /// non-holonomic row B v + c).
   virtual void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const = 0;
 
-  /// Adds the derivatives of the residual.
+  /// Adds the derivatives of the residual. To be implemented, or add_blocks in its place.
   virtual void add_tangent(const LocalState& state, LocalTangent& tangent) const;
 
   /// The same, block by block. For components of few blocks that are each written once (joints, rigid bodies): where

@@ -6,11 +6,11 @@
 // A chain of links of 1 m and 1 kg hangs from the ground by one end and is released from the horizontal; 2 s in steps
 // of 1 ms. Its joints are spherical, the cheapest there are, or hinges, and the links of the latter rigid or elastic
 // (a beam element each). The beam falls likewise. Each model runs
-// with every step recorded, as a user runs it. The parts are then measured one by one at the last state: evaluation of
-// the elements (residuals, tangents, energies, memory), assembly around it, the motion of the nodes (rotations and what
-// follows from them), factorisation, solution; and output as the difference of the runs with and without it; all in
-// time of the processor. What is left is the scheme's: predicting, judging convergence, records. What a run does once,
-// when its file is closed, is told apart.
+// with every step recorded, as a user runs it. The parts are then measured one by one at the last state: residuals and
+// tangents (elements with their assembly), energies and memory, the motion of the nodes (rotations and what follows
+// from them), factorisation, solution; and output as the difference of the runs with and without it; all in time of the
+// processor. What is left is the scheme's: predicting, judging convergence, records. What a run does once, when its
+// file is closed, is told apart. What of residuals and tangents is assembly, step_shares tells.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -130,40 +130,6 @@ double time_of(const std::function<void()>& call) {
   return best;
 }
 
-/// Which matrices each component contributes to.
-std::vector<Declaration> declarations(const System& system) {
-  std::vector<Declaration> result(system.slots().size());
-  for (std::size_t m = 0; m < result.size(); ++m) system.model().members()[m].component->declare(result[m]);
-  return result;
-}
-
-/// Tangents of all components into buffers, without assembly.
-void evaluate_tangents(const System& system, const std::vector<Declaration>& declared, const State& state,
-                       const Environment& environment) {
-  static std::vector<double> buffers[3];
-  for (std::size_t m = 0; m < system.slots().size(); ++m) {
-    const Slots& slots = system.slots()[m];
-    const auto n = static_cast<Eigen::Index>(slots.size());
-    const bool wants[] = {declared[m].stiffness, declared[m].damping, declared[m].mass};
-    for (int k = 0; k < 3; ++k) {
-      buffers[k].resize(std::max(buffers[k].size(), static_cast<std::size_t>(n * n)));
-      if (wants[k]) std::fill_n(buffers[k].begin(), n * n, 0.0);
-    }
-    Eigen::Map<MatrixX> K(buffers[0].data(), n, n), C(buffers[1].data(), n, n), M(buffers[2].data(), n, n);
-    LocalTangent tangent{K, C, M, wants[0], wants[1], wants[2]};
-    system.model().members()[m].component->add_tangent(LocalState(state, slots, environment), tangent);
-  }
-}
-
-void evaluate_residuals(const System& system, const State& state, const Environment& environment) {
-  static VectorX r;
-  for (std::size_t m = 0; m < system.slots().size(); ++m) {
-    const Slots& slots = system.slots()[m];
-    r.setZero(slots.size());
-    system.model().members()[m].component->add_residual(LocalState(state, slots, environment), r);
-  }
-}
-
 /// What components keep from step to step.
 void evaluate_memory(const System& system, const State& state, const Environment& environment) {
   static VectorX memory;
@@ -202,7 +168,6 @@ void measure(const std::string& title, const std::string& text) {
   System system(file.model);
   system.set_aside({});
   const Environment& environment = file.model.environment;
-  const std::vector<Declaration> declared = declarations(system);
   const std::string path = results_path();
   fmt::print("\n{}: {} equations\n", title, system.size());
   for (const bool reuse : {false, true}) {
@@ -221,24 +186,14 @@ void measure(const std::string& title, const std::string& text) {
     const auto steps = static_cast<double>(with.steps);
     const double iterations = static_cast<double>(with.iterations) / steps;
     const double tangents = static_cast<double>(with.factorisations) / steps, residuals = 1 + iterations;
-    const double residual_elements = time_of([&] { evaluate_residuals(system, state, environment); });
-    const double tangent_elements = time_of([&] { evaluate_tangents(system, declared, state, environment); });
     const double energy = time_of([&] { system.energy(state, environment); });
     const double memory = time_of([&] { evaluate_memory(system, state, environment); });
     const double residual = time_of([&] { system.residual(state, environment, r, &scale); });
     const double tangent = time_of([&] { system.tangent(state, environment, weights, &dq, values); });
     const double factored = time_of([&] { linear.factor(state, environment, weights, &dq); }) - tangent;
     State moved = state;
-    const double motion = time_of([&] {
-      system.displace(moved, state, dq);
-      system.set_rates(moved, dq, dq);
-    });
-    const double elements =
-        residuals * residual_elements + tangents * tangent_elements + energy + memory;
-    const double assembly =
-        residuals * (residual - residual_elements) + tangents * (tangent - tangent_elements);
+    const double motion = time_of([&] { system.move(moved, state, dq, dq, dq); });
     const double factor = tangents * factored;
-    const double nodes = residuals * motion;
     const double solve = time_of([&] { linear.solve(r, delta); }) * (reuse ? residuals : iterations);
 
     const double total = 1e6 * with.processor / steps, output = total - 1e6 * without.processor / steps;
@@ -251,15 +206,17 @@ void measure(const std::string& title, const std::string& text) {
         "    per step {:.2f} us of the processor, {:.2f} per iteration; elapsed with all ends {:.2f}, both threads "
         "{:.2f}; closing the file {:.1f} ms\n",
         total, total / iterations, 1e6 * with.seconds / steps, 1e6 * with.all_processors / steps, 1e3 * with.end);
-    line("elements", 1e6 * elements);
-    line("factorisation", 1e6 * factor);
-    line("solution", 1e6 * solve);
-    line("nodes", 1e6 * nodes);
-    line("assembly", 1e6 * assembly);
+    const double parts[] = {
+        residuals * residual, tangents * tangent, energy + memory, residuals * motion, factor, solve};
+    const char* const names[] = {"residuals",       "tangents",      "energies, memory",
+                                 "motion of nodes", "factorisation", "solution"};
+    double rest = total - output;
+    for (int k = 0; k < 6; ++k) {
+      line(names[k], 1e6 * parts[k]);
+      rest -= 1e6 * parts[k];
+    }
     line("output", output);
-    const double work = 1e6 * (elements + factor + solve);
-    line("the scheme's rest", total - output - work - 1e6 * (assembly + nodes));
-    line("all but elements and solver", total - work);
+    line("the scheme's rest", rest);
     std::fflush(stdout);
   }
 }

@@ -79,10 +79,6 @@ State random_state(const System& system, State& base, VectorX& dq, VectorX& v, V
   return state;
 }
 
-}  // namespace
-
-namespace {
-
 MatrixX tangent_of(const System& system, const State& state, const Environment& environment,
                    const TangentWeights& weights, const VectorX* dq) {
   std::vector<double> values;
