@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <csignal>
 #include <filesystem>
 #include <optional>
 
 #include <fmt/format.h>
 
 #include "mechanism/io/energy_balance.hpp"
+#include "mechanism/io/interrupt_guard.hpp"
 #include "mechanism/io/results_file.hpp"
 #include "mechanism/io/step_log.hpp"
 #include "mechanism/solvers/model_length.hpp"
@@ -18,30 +18,6 @@
 
 namespace bielle::mechanism {
 namespace {
-
-volatile std::sig_atomic_t interrupted = 0;
-
-/// While it lives, an interrupt (Ctrl-C) or a request to end lets the step in hand finish; then the run stops.
-class InterruptGuard {
- public:
-  InterruptGuard() : previous_int_(std::signal(SIGINT, note)), previous_term_(std::signal(SIGTERM, note)) {
-    interrupted = 0;
-  }
-  ~InterruptGuard() {
-    std::signal(SIGINT, previous_int_);
-    std::signal(SIGTERM, previous_term_);
-  }
-  void check(double time, const std::string& advice = "") const {
-    if (interrupted)
-      throw ComputationError(
-          fmt::format("interrupted at t = {:.6g} s; the results file holds all steps up to there{}", time, advice));
-  }
-
- private:
-  static void note(int) { interrupted = 1; }
-  using Handler = void (*)(int);
-  Handler previous_int_, previous_term_;
-};
 
 class Run {
  public:

@@ -22,6 +22,7 @@
 // (2015) 149 (order of the multipliers).
 #pragma once
 
+#include <cmath>
 #include <exception>
 #include <memory>
 #include <string>
@@ -97,6 +98,9 @@ class TimeIntegration {
   const StartReport& start_report() const { return start_report_; }
 
  private:
+  static constexpr int never_measured = 1 << 20;
+  /// Sizes of steps that differ by rounding are the same.
+  static bool same_size(double h, double other) { return std::abs(h - other) <= 1e-9 * other; }
   void allocate();
   void take_rates();                                ///< of the state, as algorithmic values
   VectorX acceleration_rate(double h);              ///< j
@@ -149,7 +153,7 @@ class TimeIntegration {
   double rate_factor_ = 0, acceleration_factor_ = 0, first_order_factor_ = 0;  ///< gamma', beta', and of y
   double size_ = 0, size_before_ = 0;           ///< of the residual, now and an iteration before: Convergence::size_of
   double factored_for_ = 0;                     ///< the step size that the factors belong to; 0: none that serve
-  int floor_age_ = 1 << 20;                     ///< steps since the rounding floor was measured
+  int floor_age_ = never_measured;              ///< steps since the rounding floor was measured
   std::unique_ptr<StabilisedStep> stabilised_;  ///< of that form only
   ConstraintForm form_;
   double turn_ = 0;                     ///< of constraints in the last accepted step [rad]

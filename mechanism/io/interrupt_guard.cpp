@@ -1,0 +1,34 @@
+#include "mechanism/io/interrupt_guard.hpp"
+
+#include <csignal>
+
+#include <fmt/format.h>
+
+#include "reduce/common/error.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+
+void note(int) { interrupted = 1; }
+
+}  // namespace
+
+InterruptGuard::InterruptGuard()
+    : previous_int_(std::signal(SIGINT, note)), previous_term_(std::signal(SIGTERM, note)) {
+  interrupted = 0;
+}
+
+InterruptGuard::~InterruptGuard() {
+  std::signal(SIGINT, previous_int_);
+  std::signal(SIGTERM, previous_term_);
+}
+
+void InterruptGuard::check(double time, const std::string& advice) const {
+  if (interrupted)
+    throw ComputationError(
+        fmt::format("interrupted at t = {:.6g} s; the results file holds all steps up to there{}", time, advice));
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,25 @@
+// Runs that are interrupted end with their last step.
+#pragma once
+
+#include <string>
+
+namespace bielle::mechanism {
+
+/// While it lives, an interrupt (Ctrl-C) or a request to end lets the step in hand finish; then the run stops.
+class InterruptGuard {
+ public:
+  InterruptGuard();
+  ~InterruptGuard();
+  InterruptGuard(const InterruptGuard&) = delete;
+  InterruptGuard& operator=(const InterruptGuard&) = delete;
+  /// @param time    that the run has come to [s]
+  /// @param advice  how to go on, for the message
+  /// @throws ComputationError once an interrupt has come
+  void check(double time, const std::string& advice = "") const;
+
+ private:
+  using Handler = void (*)(int);
+  Handler previous_int_, previous_term_;
+};
+
+}  // namespace bielle::mechanism
