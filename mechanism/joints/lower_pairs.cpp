@@ -75,14 +75,12 @@ void LowerPair::add_blocks(const LocalState& state, BlockTangent& tangent) const
     K.add_row(constraint, column, gradient);
   };
   PairHessian second_derivatives;  // of all rows, each times its multiplier
-  bool couples = false;            // the nodes' rotations
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     if (rows_[k].is_translation) continue;
     const AxisPair pair = axes(rows_[k], R_12);
     pair.add_second(lambda[static_cast<Eigen::Index>(k)], second_derivatives);
     add_gradient(k, 3, pair.first_gradient());
     add_gradient(k, 9, pair.second_gradient());
-    couples = true;
   }
   if (inertial(state)) {
     const PointGap gap(first, second, frames().on_first.x, frames().on_second.x);
@@ -99,18 +97,8 @@ void LowerPair::add_blocks(const LocalState& state, BlockTangent& tangent) const
       for (const int column : {0, 3, 6, 9}) add_gradient(k, column, gradient.segment<3>(column));
     }
     points.add_second(force, second_derivatives);
-    const Matrix3& X = second_derivatives.X;
-    K.add(0, 3, X);
-    K.add(3, 0, X.transpose());
-    K.add(3, 6, -X.transpose());
-    K.add(6, 3, -X);
-    couples = true;
   }
-  K.add(3, 3, second_derivatives.P);
-  K.add(9, 9, second_derivatives.W);
-  if (!couples) return;
-  K.add(3, 9, second_derivatives.Q);
-  K.add(9, 3, second_derivatives.Q.transpose());
+  second_derivatives.add_to(K, !inertial(state), couples_rotations(state.slots()));
 }
 
 void LowerPair::add_pattern(const Slots& slots, LocalPattern& pattern) const {
@@ -125,7 +113,7 @@ void LowerPair::add_pattern(const Slots& slots, LocalPattern& pattern) const {
   while (translations < count && rows_[static_cast<std::size_t>(translations)].is_translation) ++translations;
   add_rows(0, count);
   for (const int rotation : {3, 9}) pattern.add_block(rotation, rotation);
-  if (translations < count || !inertial(slots)) {
+  if (couples_rotations(slots)) {
     pattern.add_block(3, 9);
     pattern.add_block(9, 3);
   }

@@ -50,6 +50,8 @@ class LowerPair final : public Joint {
   /// Whether the locked translations are rows in inertial axes.
   bool inertial(const LocalState& state) const { return inertial(state.slots()); }
   bool inertial(const Slots& slots) const { return locks_point_ && !slots.carried_axes; }
+  /// Whether second derivatives couple the rotations of the two nodes: all do but those of a point in inertial axes.
+  bool couples_rotations(const Slots& slots) const { return !inertial(slots) || rows_.size() > 3; }
   /// @param R_12  must outlive the pair
   AxisPair axes(const Row& row, const Matrix3& R_12) const;
   std::vector<Row> rows_;

@@ -15,13 +15,24 @@ Matrix3 skew_product(const Vector3& a, const Vector3& b) {
 
 }  // namespace
 
+void PairHessian::add_to(BlockMatrix& matrix, bool positions, bool coupling) const {
+  if (positions) {
+    matrix.add(0, 3, X);
+    matrix.add(3, 0, X.transpose());
+    matrix.add(3, 6, -X.transpose());
+    matrix.add(6, 3, -X);
+  }
+  matrix.add(3, 3, P);
+  matrix.add(9, 9, W);
+  if (!coupling) return;
+  matrix.add(3, 9, Q);
+  matrix.add(9, 3, Q.transpose());
+}
+
 Matrix12 PairHessian::dense() const {
-  Matrix12 S;
-  const Matrix3 none = Matrix3::Zero();
-  S << none, X, none, none,                 //
-      X.transpose(), P, -X.transpose(), Q,  //
-      none, -X, none, none,                 //
-      none, Q.transpose(), none, W;
+  Matrix12 S = Matrix12::Zero();
+  BlockMatrix blocks(S);
+  add_to(blocks, true, true);
   return S;
 }
 

@@ -33,6 +33,8 @@ inline Vector12 pair_acceleration(const NodeState& first, const NodeState& secon
 ///     [ 0    Q^T  0    W  ]
 struct PairHessian {
   Matrix3 X = Matrix3::Zero(), P = Matrix3::Zero(), Q = Matrix3::Zero(), W = Matrix3::Zero();
+  /// @param positions  whether X is written; @param coupling  whether Q is
+  void add_to(BlockMatrix& matrix, bool positions, bool coupling) const;
   Matrix12 dense() const;
 };
 

@@ -116,6 +116,15 @@ VectorX factor_mass_saddle(const System& system, const Environment& environment,
   return everywhere;
 }
 
+void note_farthest(const System& system, const State& from, const State& to, double& distance, std::string& node) {
+  for (std::size_t i = 0; i < to.nodes.size(); ++i) {
+    const double moved = (to.nodes[i].x - from.nodes[i].x).norm();
+    if (moved <= distance) continue;
+    distance = moved;
+    node = system.model().node(static_cast<int>(i)).name;
+  }
+}
+
 void assemble_positions(const System& system, const Environment& environment, State& state, StartReport& report) {
   if (system.multipliers() == 0) return;
   const int first = system.size() - system.multipliers();
@@ -187,15 +196,10 @@ void assemble_positions(const System& system, const Environment& environment, St
   if (const std::string wrong = system.wrong_branch(state, environment); !wrong.empty())
     throw ComputationError(
         fmt::format("the mechanism is put together the wrong way round; {}: draw it nearer to where it starts", wrong));
-  for (std::size_t i = 0; i < state.nodes.size(); ++i) {
-    const double distance = (state.nodes[i].x - start.nodes[i].x).norm();
-    if (distance > report.largest_displacement) {
-      report.largest_displacement = distance;
-      report.displaced_node = system.model().node(static_cast<int>(i)).name;
-    }
+  note_farthest(system, start, state, report.largest_displacement, report.displaced_node);
+  for (std::size_t i = 0; i < state.nodes.size(); ++i)
     report.largest_rotation =
         std::max(report.largest_rotation, log_so3(Matrix3(start.nodes[i].R.transpose() * state.nodes[i].R)).norm());
-  }
 }
 
 void make_velocities_consistent(const System& system, const Environment& environment, State& state,

@@ -36,6 +36,10 @@ struct StartReport {
   void add(const StartReport& later);
 };
 
+/// The node that has moved farthest from one state to another, where that is farther than what is noted already.
+/// @param distance,node  how far [m], and its name
+void note_farthest(const System& system, const State& from, const State& to, double& distance, std::string& node);
+
 /// Moves the state's positions until all holonomic constraints hold.
 /// @throws ComputationError naming the constraint that cannot be satisfied
 void assemble_positions(const System& system, const Environment& environment, State& state, StartReport& report);

@@ -68,8 +68,8 @@ bool Convergence::reached(const Eigen::Ref<const VectorX>& r, const ResidualScal
 }
 
 bool Convergence::out_of_reach(double size, const ResidualScale& scale) const {
-  const std::array<double, kind_count> allowed = tolerances(scale);
   if (!measured_) return false;
+  const std::array<double, kind_count> allowed = tolerances(scale);
   double growth = 1;  // of the tolerances since
   for (std::size_t k = 0; k < kind_count; ++k)
     if (allowed[k] > measured_by_[k] * growth) growth = allowed[k] / measured_by_[k];

@@ -183,12 +183,7 @@ void balance_massless(const System& system, const Environment& environment, Stat
   }
   balance.follow(state);
   make_accelerations_consistent(system, environment, state);
-  for (std::size_t i = 0; i < state.nodes.size(); ++i) {
-    const double distance = (state.nodes[i].x - given.nodes[i].x).norm();
-    if (distance <= report.balanced) continue;
-    report.balanced = distance;
-    report.balanced_node = system.model().node(static_cast<int>(i)).name;
-  }
+  note_farthest(system, given, state, report.balanced, report.balanced_node);
 }
 
 }  // namespace bielle::mechanism

@@ -86,12 +86,7 @@ void settle(const System& system, const Environment& of_motion, const NewtonOpti
     throw ComputationError(fmt::format("static equilibrium at the start: it is not unique: {} meets no resistance",
                                        *loose >= 0 ? system.unknown_name(*loose) : "an unknown"));
   system.set_rates(state, v, VectorX::Zero(system.dofs()));
-  for (std::size_t i = 0; i < state.nodes.size(); ++i) {
-    const double distance = (state.nodes[i].x - assembled.nodes[i].x).norm();
-    if (distance <= report.settled) continue;
-    report.settled = distance;
-    report.settled_node = system.model().node(static_cast<int>(i)).name;
-  }
+  note_farthest(system, assembled, state, report.settled, report.settled_node);
 }
 
 }  // namespace bielle::mechanism

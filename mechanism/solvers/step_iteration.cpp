@@ -20,18 +20,6 @@ bool worthwhile(double before, double now) {
 
 }  // namespace
 
-/// Rates are those of the increments again. A step far off and back leaves rounding of its own size in each of them,
-/// and Newton's method, which moves them together, would never take out what they then lack of the scheme's relations.
-void TimeIntegration::follow_increments() {
-  VectorX dq, v, y;
-  calc_prediction(attempted_, dq, v, y);
-  dq = dq_ - dq;
-  if (stabilised_) dq -= eta_;
-  v_new_ = v + rate_factor_ * dq;
-  a_new_ = a_ + acceleration_factor_ * dq;
-  next_.first_order_rate = state_.first_order_rate + first_order_factor_ * (next_.first_order - y);
-}
-
 void TimeIntegration::move(double part) {
   const int n = system_.dofs(), y = system_.first_orders(), m = system_.multipliers();
   const double to_rate = part * rate_factor_, to_acceleration = part * acceleration_factor_;
@@ -53,8 +41,22 @@ void TimeIntegration::move(double part) {
   }
 }
 
+/// Moves the attempt where it has been far off. A way there and back leaves rounding of its own size in increments and
+/// rates, and Newton's method, which moves them together, would never take out what they then lack of the scheme's
+/// relations: the rates are made those of the increments again.
+void TimeIntegration::move_and_follow(double part) {
+  move(part);
+  VectorX dq, v, y;
+  calc_prediction(attempted_, dq, v, y);
+  dq = dq_ - eta_ - dq;
+  v_new_ = v + rate_factor_ * dq;
+  a_new_ = a_ + acceleration_factor_ * dq;
+  next_.first_order_rate = state_.first_order_rate + first_order_factor_ * (next_.first_order - y);
+}
+
 void TimeIntegration::evaluate() {
-  system_.move(next_, state_, dq_, v_new_, a_new_);
+  system_.displace(next_, state_, dq_);
+  system_.set_rates(next_, v_new_, a_new_);
   ResidualScale scale;
   system_.residual(next_, environment_, r_evaluated_.head(system_.size()), &scale);
   if (stabilised_) stabilised_->add_residual(next_, environment_, eta_, mu_, r_evaluated_);
@@ -86,8 +88,7 @@ void TimeIntegration::shorten(double before, std::exception_ptr refusal, StepRep
   const double full = size_;
   double part = 1;
   for (const double shorter : {0.5, 0.25, 0.125}) {
-    move(shorter - part);
-    follow_increments();
+    move_and_follow(shorter - part);
     part = shorter;
     try {
       evaluate();
@@ -101,14 +102,12 @@ void TimeIntegration::shorten(double before, std::exception_ptr refusal, StepRep
     }
   }
   if (refusal) {
-    move(-part);
-    follow_increments();
+    move_and_follow(-part);
     evaluate();
     std::rethrow_exception(refusal);
   }
   // Newton's method may have to pass over a hill.
-  move(1 - part);
-  follow_increments();
+  move_and_follow(1 - part);
   evaluate();
   size_ = full;
 }
@@ -125,7 +124,8 @@ void TimeIntegration::solve() {
 void TimeIntegration::polish() {
   solve();
   move(1);
-  system_.move(next_, state_, dq_, v_new_, a_new_);
+  system_.displace(next_, state_, dq_);
+  system_.set_rates(next_, v_new_, a_new_);
 }
 
 /// An iteration of Newton's method.
@@ -156,8 +156,7 @@ void TimeIntegration::improve(StepReport& report) {
     factored_for_ = 0;
     if (size_ < before) return;
     // The old tangent led astray.
-    move(-1);
-    follow_increments();
+    move_and_follow(-1);
     evaluate();
     size_ = size_of_residual();
     return;

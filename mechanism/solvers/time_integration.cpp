@@ -153,9 +153,9 @@ void TimeIntegration::restart(double h) {
   state_.time = time;
 }
 
-void TimeIntegration::calc_algorithmic_acceleration(VectorX& A) const {
+VectorX TimeIntegration::algorithmic_acceleration() const {
   const auto& [alpha_m, alpha_f, gamma, beta] = scheme_;
-  A = ((1 - alpha_f) * a_new_ + alpha_f * a_ - alpha_m * A_) / (1 - alpha_m);
+  return ((1 - alpha_f) * a_new_ + alpha_f * a_ - alpha_m * A_) / (1 - alpha_m);
 }
 
 VectorX TimeIntegration::algorithmic_rate() const {
@@ -183,7 +183,7 @@ void TimeIntegration::predict(double h, double end) {
 /// Increments, velocities and first-order unknowns at the end of a step with the accelerations and rates of its
 /// beginning.
 void TimeIntegration::calc_prediction(double h, VectorX& dq, VectorX& v, VectorX& y) const {
-  const auto [alpha_m, alpha_f, gamma, beta] = scheme_;
+  const auto& [alpha_m, alpha_f, gamma, beta] = scheme_;
   const auto A = (a_ - alpha_m * A_) / (1 - alpha_m);
   const auto Y = (state_.first_order_rate - alpha_m * Y_) / (1 - alpha_m);
   dq = h * v_ + h * h * ((0.5 - beta) * A_ + beta * A);
@@ -244,12 +244,11 @@ StepReport TimeIntegration::attempt(double h, double end, bool kink) {
 
 void TimeIntegration::accept() {
   check_set_aside(system_, environment_, next_);
-  const VectorX Y = algorithmic_rate();
-  calc_algorithmic_acceleration(A_new_);
-  j_ = (A_new_ - A_) / attempted_;
+  const VectorX A = algorithmic_acceleration(), Y = algorithmic_rate();
+  j_ = (A - A_) / attempted_;
   Y_rate_ = (Y - Y_) / attempted_;
   Y_rate_known_ = true;
-  A_.swap(A_new_);
+  A_ = A;
   Y_ = Y;
   watch_turns();
   v_.swap(v_new_);
@@ -301,9 +300,7 @@ State TimeIntegration::interpolated(double time) const {
 
 VectorX TimeIntegration::position_error() const {
   const double h = attempted_;
-  VectorX error(system_.dofs());
-  calc_algorithmic_acceleration(error);
-  error = scheme_.position_error() * h * h * (error - A_);
+  VectorX error = scheme_.position_error() * h * h * (algorithmic_acceleration() - A_);
   for (std::size_t i = 0; i < next_.nodes.size(); ++i) {
     const NodeFreedom& f = system_.kinematics().freedom(static_cast<int>(i));
     if (f.rotations == 3)

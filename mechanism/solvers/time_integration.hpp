@@ -114,7 +114,7 @@ class TimeIntegration {
   void predict(double h, double end);
   void calc_prediction(double h, VectorX& dq, VectorX& v, VectorX& y) const;
   void move(double part);  ///< the attempt, by a part of the last solution
-  void follow_increments();
+  void move_and_follow(double part);
   void evaluate();  ///< residual and its scale at the attempt
   double size_of_residual() const;
   void improve(StepReport& report);
@@ -126,8 +126,8 @@ class TimeIntegration {
   bool within_tolerance();
   bool finite(const StepReport& report) const;
   void check_turns() const;
-  void calc_algorithmic_acceleration(VectorX& A) const;  ///< A_{n+1} of the attempt
-  VectorX algorithmic_rate() const;                      ///< Y_{n+1}
+  VectorX algorithmic_acceleration() const;  ///< A_{n+1} of the attempt
+  VectorX algorithmic_rate() const;          ///< Y_{n+1}
 
   const System& system_;
   Environment environment_;
@@ -141,7 +141,6 @@ class TimeIntegration {
   double h_ = 0;          ///< the step size that v_ and A_ belong to
   double attempted_ = 0;  ///< size of the last attempt
   VectorX v_, a_, A_;     ///< of the dofs at the last accepted time
-  VectorX A_new_;         ///< of the step that is accepted, until it has taken the place of A_
   VectorX j_;             ///< rate of A over the last accepted step
   VectorX Y_;             ///< algorithmic rates of the first-order unknowns
   VectorX Y_rate_;        ///< and their rate over the last accepted step

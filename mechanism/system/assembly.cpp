@@ -61,11 +61,11 @@ NodeRelation relate(const NodeKinematics& kinematics, int node, const State& sta
   return relation;
 }
 
-/// Three columns of A from `first` on, times T, in `count` rows from `begin` on.
-void multiply_columns(Eigen::Map<MatrixX>& A, Eigen::Index first, int begin, int count, const Matrix3& T) {
-  double *__restrict x = A.col(first).data() + begin, *__restrict y = A.col(first + 1).data() + begin,
-         *__restrict z = A.col(first + 2).data() + begin;
-  for (int row = 0; row < count; ++row) {
+/// Three columns of A from `first` on, times T.
+void multiply_columns(Eigen::Map<MatrixX>& A, Eigen::Index first, const Matrix3& T) {
+  double *__restrict x = A.col(first).data(), *__restrict y = A.col(first + 1).data(),
+         *__restrict z = A.col(first + 2).data();
+  for (Eigen::Index row = 0; row < A.rows(); ++row) {
     const double a = x[row], b = y[row], c = z[row];
     x[row] = a * T(0, 0) + b * T(1, 0) + c * T(2, 0);
     y[row] = a * T(0, 1) + b * T(1, 1) + c * T(2, 1);
@@ -164,31 +164,16 @@ struct System::Workspace {
   }
 };
 
-/// Adds local entries to the global values: those of K, and those of C and M by their weights where these are given.
-template <bool with_C, bool with_M>
-void System::scatter(const Targets& targets, const Weighted& local, std::vector<double>& values) {
-  const auto entry_of = [&](int entry) {
-    double sum = local.K[entry];
-    if constexpr (with_C) sum += local.damping * local.C[entry];
-    if constexpr (with_M) sum += local.mass * local.M[entry];
-    return sum;
-  };
-  for (const auto [entry, place] : targets.triples) {
+/// Adds local entries to the global values.
+void System::scatter(const Targets& targets, const double* entries, std::vector<double>& values) {
+  for (const auto [first, place] : targets.triples) {
+    const double* entry = entries + first;
     double* value = values.data() + place;
-    for (int k = 0; k < 3; ++k) value[k] += entry_of(entry + k);
+    value[0] += entry[0];
+    value[1] += entry[1];
+    value[2] += entry[2];
   }
-  for (const auto [entry, place] : targets.singles) values[static_cast<std::size_t>(place)] += entry_of(entry);
-}
-
-void System::scatter(const Targets& targets, const Weighted& local, std::vector<double>& values) {
-  if (local.C && local.M)
-    scatter<true, true>(targets, local, values);
-  else if (local.C)
-    scatter<true, false>(targets, local, values);
-  else if (local.M)
-    scatter<false, true>(targets, local, values);
-  else
-    scatter<false, false>(targets, local, values);
+  for (const auto [entry, place] : targets.singles) values[static_cast<std::size_t>(place)] += entries[entry];
 }
 
 /// K <- d(B v)/dq, C <- B in the rows of holonomic constraints. d(B^T lambda)/dq of one multiplier at a time has the
@@ -289,18 +274,18 @@ void System::add_reduced(const Placement& placement, const LocalState& local, co
 
   if (placement.plain) {
     if (dq && wants_K)
-      for (const TurnedRows& rows : placement.turned)
-        multiply_columns(K, rows.column, rows.begin, rows.count,
-                         work.step_tangent[static_cast<std::size_t>(rows.node)]);
-    const bool adds_C = wants_C || weights.velocity_level, adds_M = wants_M && !weights.velocity_level;
-    if (adds_C && slots.first_orders > 0) {
+      for (std::size_t k = 0; k < slots.nodes.size(); ++k) {
+        if (!kinematics_.freedom(slots.nodes[k]).all_free) continue;
+        multiply_columns(K, 6 * static_cast<Eigen::Index>(k) + 3,
+                         work.step_tangent[static_cast<std::size_t>(slots.nodes[k])]);
+      }
+    if (wants_C || weights.velocity_level) {
+      K.leftCols(first_order) += weights.damping * C.leftCols(first_order);
       K.middleCols(first_order, slots.first_orders) +=
           weights.first_order * C.middleCols(first_order, slots.first_orders);
-      C.middleCols(first_order, slots.first_orders).setZero();
     }
-    scatter(placement.targets,
-            {K.data(), adds_C ? C.data() : nullptr, adds_M ? M.data() : nullptr, weights.damping, weights.mass},
-            values);
+    if (wants_M && !weights.velocity_level) K += weights.mass * M;
+    scatter(placement.targets, K.data(), values);
     return;
   }
   Map sum(work.sum.data(), reduced, reduced);
@@ -352,7 +337,7 @@ void System::add_reduced(const Placement& placement, const LocalState& local, co
           weights.stiffness * (G.bottomRows<3>().transpose() * turn * GT.bottomRows<3>());
     }
   }
-  scatter(placement.targets, {sum.data()}, values);
+  scatter(placement.targets, sum.data(), values);
 }
 
 void System::tangent(const State& state, const Environment& environment, const TangentWeights& weights,

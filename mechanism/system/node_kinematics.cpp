@@ -148,28 +148,6 @@ void set_node_rates(NodeState& node, const double* rate, const double* accelerat
 void NodeKinematics::displace(std::vector<NodeState>& nodes, const std::vector<NodeState>& base,
                               const Eigen::Ref<const VectorX>& dp, double time, double motion_factor) const {
   for (const auto [i, begin] : all_free_) displace_node(nodes[i], base[i], dp.data() + begin);
-  displace_held(nodes, base, dp, time, motion_factor);
-}
-
-void NodeKinematics::set_rates(std::vector<NodeState>& nodes, const Eigen::Ref<const VectorX>& v,
-                               const Eigen::Ref<const VectorX>& a, double time) const {
-  for (const auto [i, begin] : all_free_) set_node_rates(nodes[i], v.data() + begin, a.data() + begin);
-  set_held_rates(nodes, v, a, time);
-}
-
-void NodeKinematics::move(std::vector<NodeState>& nodes, const std::vector<NodeState>& base,
-                          const Eigen::Ref<const VectorX>& dp, const Eigen::Ref<const VectorX>& v,
-                          const Eigen::Ref<const VectorX>& a, double time, double motion_factor) const {
-  for (const auto [i, begin] : all_free_) {
-    displace_node(nodes[i], base[i], dp.data() + begin);
-    set_node_rates(nodes[i], v.data() + begin, a.data() + begin);
-  }
-  displace_held(nodes, base, dp, time, motion_factor);
-  set_held_rates(nodes, v, a, time);
-}
-
-void NodeKinematics::displace_held(std::vector<NodeState>& nodes, const std::vector<NodeState>& base,
-                                   const Eigen::Ref<const VectorX>& dp, double time, double motion_factor) const {
   for (const std::size_t i : held_) {
     const NodeFreedom& f = freedom_[i];
     if (f.count == 0) continue;
@@ -180,8 +158,9 @@ void NodeKinematics::displace_held(std::vector<NodeState>& nodes, const std::vec
   follow_carriers(nodes);
 }
 
-void NodeKinematics::set_held_rates(std::vector<NodeState>& nodes, const Eigen::Ref<const VectorX>& v,
-                                    const Eigen::Ref<const VectorX>& a, double time) const {
+void NodeKinematics::set_rates(std::vector<NodeState>& nodes, const Eigen::Ref<const VectorX>& v,
+                               const Eigen::Ref<const VectorX>& a, double time) const {
+  for (const auto [i, begin] : all_free_) set_node_rates(nodes[i], v.data() + begin, a.data() + begin);
   for (const std::size_t i : held_) {
     const NodeFreedom& f = freedom_[i];
     const Vector6 rate = f.G.leftCols(f.count) * v.segment(f.begin, f.count);

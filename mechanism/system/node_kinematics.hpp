@@ -59,10 +59,6 @@ class NodeKinematics {
   /// Rates of all nodes from the independent ones. @param v,a (unknowns)
   void set_rates(std::vector<NodeState>& nodes, const Eigen::Ref<const VectorX>& v, const Eigen::Ref<const VectorX>& a,
                  double time) const;
-  /// Both in one pass.
-  void move(std::vector<NodeState>& nodes, const std::vector<NodeState>& base, const Eigen::Ref<const VectorX>& dp,
-            const Eigen::Ref<const VectorX>& v, const Eigen::Ref<const VectorX>& a, double time,
-            double motion_factor) const;
   /// Independent rates of the free directions (inverse of set_rates on them).
   void get_rates(const std::vector<NodeState>& nodes, Eigen::Ref<VectorX> v, Eigen::Ref<VectorX> a) const;
 
@@ -79,10 +75,6 @@ class NodeKinematics {
   double support_power(const std::vector<NodeState>& nodes, const Eigen::Ref<const VectorX>& forces) const;
 
  private:
-  void displace_held(std::vector<NodeState>& nodes, const std::vector<NodeState>& base,
-                     const Eigen::Ref<const VectorX>& dp, double time, double motion_factor) const;
-  void set_held_rates(std::vector<NodeState>& nodes, const Eigen::Ref<const VectorX>& v,
-                      const Eigen::Ref<const VectorX>& a, double time) const;
   void prescribe_positions(std::vector<NodeState>& nodes, double time, double motion_factor) const;
   void follow_carriers(std::vector<NodeState>& nodes) const;
 

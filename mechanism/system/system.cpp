@@ -139,22 +139,6 @@ LocalPattern System::reduced_pattern(std::size_t member) const {
   return pattern;
 }
 
-std::vector<System::TurnedRows> System::rows_turned(std::size_t member, const LocalPattern& pattern) const {
-  std::vector<TurnedRows> result;
-  const Slots& slots = slots_[member];
-  for (std::size_t k = 0; k < slots.nodes.size(); ++k) {
-    const int node = slots.nodes[k], column = 6 * static_cast<int>(k) + 3;
-    if (!kinematics_.freedom(node).all_free) continue;
-    for (int row = 0; row < slots.size(); ++row) {
-      if (!pattern.has(row, column)) continue;
-      if (result.empty() || result.back().column != column || result.back().begin + result.back().count != row)
-        result.push_back({node, column, row, 0});
-      ++result.back().count;
-    }
-  }
-  return result;
-}
-
 BlockPlaces System::block_places(const Slots& slots, const std::vector<Target>& targets) const {
   BlockPlaces places;
   places.size = slots.size();
@@ -197,7 +181,6 @@ void System::build_pattern() {
       targets.push_back({entry, pattern_.find(row, column)});
     });
     placements_[member].targets = in_triples(targets);
-    if (placements_[member].plain) placements_[member].turned = rows_turned(member, reduced_pattern(member));
     if (placements_[member].in_blocks) placements_[member].places = block_places(slots_[member], targets);
   }
 }
@@ -320,15 +303,6 @@ void System::displace(State& state, const State& base, const Eigen::Ref<const Ve
 void System::set_rates(State& state, const Eigen::Ref<const VectorX>& v, const Eigen::Ref<const VectorX>& a) const {
   const int n = kinematics_.unknowns();
   kinematics_.set_rates(state.nodes, v.head(n), a.head(n), state.time);
-  state.amplitude_rate = v.tail(amplitudes_);
-  state.amplitude_acceleration = a.tail(amplitudes_);
-}
-
-void System::move(State& state, const State& base, const Eigen::Ref<const VectorX>& dq,
-                  const Eigen::Ref<const VectorX>& v, const Eigen::Ref<const VectorX>& a) const {
-  const int n = kinematics_.unknowns();
-  kinematics_.move(state.nodes, base.nodes, dq.head(n), v.head(n), a.head(n), state.time, state.motion_factor);
-  state.amplitude = base.amplitude + dq.tail(amplitudes_);
   state.amplitude_rate = v.tail(amplitudes_);
   state.amplitude_acceleration = a.tail(amplitudes_);
 }

@@ -70,9 +70,6 @@ class System {
   /// state = base o exp(dq) at state.time, with the part state.motion_factor of prescribed motions. @param dq (dofs)
   void displace(State& state, const State& base, const Eigen::Ref<const VectorX>& dq) const;
   void set_rates(State& state, const Eigen::Ref<const VectorX>& v, const Eigen::Ref<const VectorX>& a) const;
-  /// Both in one pass.
-  void move(State& state, const State& base, const Eigen::Ref<const VectorX>& dq, const Eigen::Ref<const VectorX>& v,
-            const Eigen::Ref<const VectorX>& a) const;
   void get_rates(const State& state, Eigen::Ref<VectorX> v, Eigen::Ref<VectorX> a) const;
 
   /// r (size) of all equations. @param scale  if given, receives the largest contributions
@@ -103,22 +100,11 @@ class System {
     std::vector<Target> triples, singles;
     bool empty() const { return triples.empty() && singles.empty(); }
   };
-  /// Rows of a local matrix that can differ from zero in the three columns of a node's rotation.
-  struct TurnedRows {
-    int node, column, begin, count;
-  };
-  /// Local entries and their weights; C and M are left out where they are null.
-  struct Weighted {
-    const double* K = nullptr;
-    const double *C = nullptr, *M = nullptr;
-    double damping = 0, mass = 0;
-  };
   /// How one component's local rows and columns reach the global ones.
   struct Placement {
     bool plain = true;               ///< every node is free in all six directions, or held in all
     std::vector<int> unknown;        ///< global unknown of each reduced local row, -1 where held
     Targets targets;                 ///< of the reduced entries (column-major), without those that are dropped
-    std::vector<TurnedRows> turned;  ///< of nodes that are free in all directions
     std::vector<int> reduced_begin;  ///< first reduced row of each node
     bool stiffness = false, damping = false, mass = false;
     std::vector<int> nonholonomic;  ///< local rows
@@ -126,16 +112,13 @@ class System {
     BlockPlaces places;             ///< of those
   };
   struct Workspace;
-  template <bool with_C, bool with_M>
-  static void scatter(const Targets& targets, const Weighted& local, std::vector<double>& values);
-  static void scatter(const Targets& targets, const Weighted& local, std::vector<double>& values);
+  static void scatter(const Targets& targets, const double* entries, std::vector<double>& values);
   void velocity_rows(const Placement& placement, const LocalState& local, const Component& component,
                      Workspace& work) const;
   void place(const std::vector<Declaration>& declarations);
   LocalPattern reduced_pattern(std::size_t member) const;
   static Targets in_triples(const std::vector<Target>& targets);
   BlockPlaces block_places(const Slots& slots, const std::vector<Target>& targets) const;
-  std::vector<TurnedRows> rows_turned(std::size_t member, const LocalPattern& pattern) const;
   void build_pattern();
   void node_forces(const State& state, const Environment& environment, VectorX& forces, Eigen::Ref<VectorX> r,
                    ResidualScale* scale) const;

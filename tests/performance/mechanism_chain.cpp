@@ -192,7 +192,10 @@ void measure(const std::string& title, const std::string& text) {
     const double tangent = time_of([&] { system.tangent(state, environment, weights, &dq, values); });
     const double factored = time_of([&] { linear.factor(state, environment, weights, &dq); }) - tangent;
     State moved = state;
-    const double motion = time_of([&] { system.move(moved, state, dq, dq, dq); });
+    const double motion = time_of([&] {
+      system.displace(moved, state, dq);
+      system.set_rates(moved, dq, dq);
+    });
     const double factor = tangents * factored;
     const double solve = time_of([&] { linear.solve(r, delta); }) * (reuse ? residuals : iterations);
 
