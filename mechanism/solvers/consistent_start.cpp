@@ -211,7 +211,7 @@ void make_velocities_consistent(const System& system, const Environment& environ
     system.constraint_rates(state, environment, rate, unused);
     VectorX r = VectorX::Zero(system.size()), step(system.size());
     r.tail(system.multipliers()) = rate;
-    for (const int multiplier : system.set_aside()) r[system.size() - system.multipliers() + multiplier] = 0;
+    system.for_each_idle(state, [&](int k) { r[system.size() - system.multipliers() + k] = 0; });
     LinearStep linear(system);
     factor_mass_saddle(system, environment, state, linear);
     linear.solve(r, step);
@@ -219,6 +219,11 @@ void make_velocities_consistent(const System& system, const Environment& environ
       if (system.kind(i) == Kind::translation)
         report.velocity_change = std::max(report.velocity_change, std::abs(step[i]));
     v += step.head(system.dofs());
+    // Impulses -B^T mu work on the way; what moves by itself, B v + c = 0, takes c mu from its drive.
+    system.set_rates(state, VectorX::Zero(system.dofs()), a);
+    VectorX driven(system.multipliers());
+    system.constraint_rates(state, environment, driven, unused);
+    report.impulse_work = driven.dot(step.tail(system.multipliers()));
   }
   system.set_rates(state, v, a);
 }
@@ -234,7 +239,7 @@ void make_accelerations_consistent(const System& system, const Environment& envi
   system.residual(state, environment, r);
   system.constraint_rates(state, environment, velocity, acceleration);
   r.tail(m) = acceleration;
-  for (const int multiplier : system.set_aside()) r[n + y + multiplier] = 0;
+  system.for_each_idle(state, [&](int k) { r[n + y + k] = 0; });
   LinearStep linear(system);
   const VectorX floor = factor_mass_saddle(system, environment, state, linear);
   linear.solve(r, step);
@@ -252,6 +257,8 @@ void make_accelerations_consistent(const System& system, const Environment& envi
 StartReport make_consistent(const System& system, const Environment& environment, State& state) {
   StartReport report;
   assemble_positions(system, environment, state, report);
+  system.begin_branch(state, environment);
+  set_redundant_aside(system, environment, state);
   check_set_aside(system, environment, state);
   check_massless_directions(system, state);
   make_velocities_consistent(system, environment, state, report);

@@ -28,6 +28,7 @@ struct StartReport {
   std::string displaced_node;       ///< that node's name
   double largest_rotation = 0;      ///< [rad]
   double velocity_change = 0;       ///< largest change of a nodal velocity [m/s]
+  double impulse_work = 0;          ///< of drives and supports that bring about such a change [J]
   double settled = 0;               ///< largest displacement of a node by static equilibrium, if asked for [m]
   std::string settled_node;         ///< that node's name
   double balanced = 0;              ///< largest displacement of a node without mass, to where its forces balance [m]

@@ -22,7 +22,7 @@ double proposed_size(double h, double error, double largest) {
 }  // namespace
 
 void MarchLog::exchange(Archive& archive) {
-  for (long* count : {&steps, &iterations, &factorisations, &shortened, &refused_by_error, &refused_by_newton})
+  for (long* count : {&steps, &iterations, &factorisations, &shortened, &refused_by_error, &refused_by_newton, &crossings})
     archive(*count);
   for (double* value : {&smallest, &largest, &most_iterations_at}) archive(*value);
   archive(most_iterations);
@@ -37,6 +37,7 @@ MarchLog MarchLog::followed_by(const MarchLog& next) const {
   both.shortened = shortened + next.shortened;
   both.refused_by_error = refused_by_error + next.refused_by_error;
   both.refused_by_newton = refused_by_newton + next.refused_by_newton;
+  both.crossings = crossings + next.crossings;
   both.smallest = smallest > 0 && next.smallest > 0 ? std::min(smallest, next.smallest) : smallest + next.smallest;
   both.largest = std::max(largest, next.largest);
   both.hardest = next.hardest.empty() ? hardest : next.hardest;
@@ -85,19 +86,20 @@ March::March(TimeIntegration& integration, double begin, double end, StepOptions
     : integration_(integration),
       end_(end),
       options_(std::move(options)),
-      norm_(integration.system(), integration.environment(), integration.state()) {
+      norm_(integration.system(), integration.environment(), integration.state()),
+      watch_(integration.system()) {
   const bool adaptive = options_.tolerance > 0;
   stops_ = std::make_unique<Stops>(begin, end, options_);
   stops_->advance(integration.state().time);
   size_ = adaptive ? std::min(options_.size, options_.largest) : stops_->step_size();
   smallest_ = adaptive ? 1e-10 * (end - begin) : size_ / 1024;
   const std::vector<double>& kinks = options_.break_points;
-  if (std::find(kinks.begin(), kinks.end(), begin) != kinks.end()) pending_ = Pending::restart;
+  if (std::find(kinks.begin(), kinks.end(), begin) != kinks.end()) pending_ = Pending::branch;
 }
 
 March::~March() = default;
 
-bool March::done() const { return integration_.state().time >= end_; }
+bool March::done() const { return stopped_ || integration_.state().time >= end_; }
 
 void March::exchange(Archive& archive) {
   auto pending = static_cast<int>(pending_);
@@ -111,6 +113,14 @@ void March::exchange(Archive& archive) {
     log_ = {};
   }
   norm_.exchange(archive);  // with fixed steps as well: adaptive ones may go on where they ended
+  watch_.exchange(archive);
+  VectorX crossed(static_cast<Eigen::Index>(crossed_.size()));
+  std::copy(crossed_.begin(), crossed_.end(), crossed.begin());
+  archive(crossed);
+  crossed_.assign(crossed.begin(), crossed.end());
+  archive(stopped_);
+  archive(last_crossing_);
+  archive(crossings_at_once_);
   stops_->advance(integration_.state().time);
 }
 
@@ -118,7 +128,67 @@ void March::begin_step() {
   const double h = std::min(size_, stops_->time() - integration_.state().time);
   if (pending_ == Pending::start) integration_.start(h);
   if (pending_ == Pending::restart) integration_.restart(h);
+  if (pending_ == Pending::branch) {
+    const Jump jump = integration_.begin_branch(h, crossed_);
+    if (jump_listener_) jump_listener_(jump);
+  }
   pending_ = Pending::nothing;
+  crossed_.clear();
+  if (!watch_.idle()) watch_.begin(integration_.state(), integration_.environment());
+}
+
+StepReport March::attempt(double h, double end, bool kink) {
+  const StepReport report = integration_.attempt(h, end, kink);
+  log_.iterations += report.iterations;
+  log_.factorisations += report.factorisations;
+  log_.shortened += report.shortened;
+  return report;
+}
+
+/// Where the attempted step holds a crossing: attempts shorter ones until it ends just behind the first.
+/// @returns the size of that step, or 0 where it holds none, or where a shorter step failed (the report then says why)
+double March::locate(double time, StepReport& report) {
+  const double h = report.size;
+  // Far below the error of the steps, far above rounding.
+  const double tolerance = std::max(1e-10 * h, 16 * std::numeric_limits<double>::epsilon() * std::abs(time));
+  if (watch_.idle() || !watch_.found(integration_.attempted(), integration_.environment(), h, tolerance)) return 0;
+  constexpr int most = 60;  // bisection alone takes some 35
+  integration_.share_factors(true);
+  double last = h;
+  for (int k = 0; k < most && !watch_.located(); ++k) {
+    last = watch_.proposal();
+    if (k == 0) integration_.change_step(last);
+    report = attempt(last, time + last, false);
+    if (!report.converged()) break;
+    watch_.narrow(integration_.attempted(), integration_.environment(), last);
+  }
+  // The last attempt may have ended before the crossing.
+  if (report.converged() && last != watch_.behind()) report = attempt(watch_.behind(), time + watch_.behind(), false);
+  integration_.share_factors(false);
+  return report.converged() ? watch_.behind() : 0;
+}
+
+/// What the crossings at the end of an accepted step ask for.
+void March::pass_crossings(MarchStep& step) {
+  const double time = integration_.state().time;
+  const auto& all = integration_.system().crossings();
+  crossings_at_once_ = time - last_crossing_ <= 1e-7 * size_ ? crossings_at_once_ + 1 : 0;
+  last_crossing_ = time;
+  const std::vector<int> passed = watch_.pass();
+  constexpr long most = 1000;
+  if (crossings_at_once_ > most)
+    throw ComputationError(fmt::format(
+        "t = {:.6g} s: '{}' happens again and again without the motion going on: give the contact some compliance, or "
+        "the switch some hysteresis",
+        time, all[static_cast<std::size_t>(passed.front())].name));
+  for (const int k : passed) {
+    const Crossing& crossing = all[static_cast<std::size_t>(k)].crossing;
+    step.passed.push_back({time, k});
+    crossed_.push_back(k);
+    ++log_.crossings;
+    if (crossing.stops) stopped_ = true;
+    if (crossing.restarts) pending_ = Pending::branch;
+  }
 }
 
 void March::refuse_by_newton(double h, const StepReport& report) {
@@ -158,10 +228,7 @@ MarchStep March::advance() {
       integration_.restart(h);
     else
       integration_.change_step(h);
-    const StepReport report = integration_.attempt(h, last ? stops_->time() : time + h, kink);
-    log_.iterations += report.iterations;
-    log_.factorisations += report.factorisations;
-    log_.shortened += report.shortened;
+    StepReport report = attempt(h, last ? stops_->time() : time + h, kink);
     const auto tell = [&](Attempt::Outcome outcome, double error) {
       if (observer_) observer_({outcome, time + h, report, error});
     };
@@ -177,7 +244,13 @@ MarchStep March::advance() {
       refuse_by_error(h, error);
       continue;
     }
-    integration_.accept();
+    const double crossing = locate(time, report);
+    if (!report.converged()) {
+      tell(Attempt::Outcome::refused_by_newton, 0);
+      refuse_by_newton(h, report);
+      continue;
+    }
+    const bool branch_left = integration_.accept();
     tell(Attempt::Outcome::accepted, error);
     ++log_.steps;
     if (report.iterations > log_.most_iterations) {
@@ -185,18 +258,30 @@ MarchStep March::advance() {
       log_.most_iterations_at = integration_.state().time;
       log_.slowest_equation = report.worst_equation;
     }
-    if (!kink) {
+    if (!kink && crossing == 0) {
       log_.smallest = log_.smallest > 0 ? std::min(log_.smallest, h) : h;
       log_.largest = std::max(log_.largest, h);
+    }
+    MarchStep step{report, error, adaptive, {}};
+    if (crossing > 0) pass_crossings(step);
+    if (branch_left) pending_ = Pending::branch;
+    if (crossing > 0 && crossing < h) {
+      // A time of the grid that is hardly farther has been reached: so short a step would be nothing but rounding.
+      constexpr double sliver = 1e-3;
+      step.on_grid = !adaptive && stops_->on_grid() && stops_->time() < end_ && !stops_->at_kink() &&
+                     stops_->time() - time - crossing < sliver * stops_->step_size();
+      if (step.on_grid) stops_->advance(stops_->time());
+      return step;
     }
     if (adaptive)
       size_ = std::max(proposed_size(h, error, options_.largest), last ? size_ : 0);
     else
       size_ = std::min(2 * size_, stops_->step_size());
     const bool on_grid = last && stops_->on_grid();
-    if (kink) pending_ = Pending::restart;
+    if (kink) pending_ = Pending::branch;
     if (last) stops_->advance(stops_->time());
-    return {report, error, adaptive || on_grid};
+    step.on_grid = adaptive || on_grid;
+    return step;
   }
 }
 

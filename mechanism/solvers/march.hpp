@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "mechanism/solvers/crossing_watch.hpp"
 #include "mechanism/solvers/error_norm.hpp"
 
 namespace bielle::mechanism {
@@ -24,11 +25,18 @@ struct StepOptions {
   std::vector<double> break_points;
 };
 
+/// A crossing that a step has ended on.
+struct Passed {
+  double time = 0;  ///< [s]
+  int crossing = 0;  ///< by number, System::crossings
+};
+
 /// An accepted step.
 struct MarchStep {
   StepReport report;
   double error = 0;     ///< local error over tolerance; 0 with fixed steps
-  bool on_grid = true;  ///< ends on a time of the fixed grid; always true with adaptive steps
+  bool on_grid = true;  ///< ends on a time of the fixed grid; always true with adaptive steps, but for crossings
+  std::vector<Passed> passed;  ///< the crossings at its end
 };
 
 /// A step that was tried, as told to those who keep a log.
@@ -46,6 +54,7 @@ struct MarchLog {
   long shortened = 0;                ///< iterations whose full step was too long
   long refused_by_error = 0;         ///< steps whose local error was too large
   long refused_by_newton = 0;        ///< steps in which Newton's method failed
+  long crossings = 0;                ///< at which steps have ended
   double smallest = 0, largest = 0;  ///< accepted steps [s], those cut short by kinks left out
   int most_iterations = 0;           ///< of an accepted step
   double most_iterations_at = 0;     ///< [s]
@@ -65,6 +74,7 @@ class March {
   ~March();
 
   bool done() const;
+  bool stopped() const { return stopped_; }  ///< by a crossing
   /// Takes one step. What a kink at its end asks for is done when the next one begins.
   /// @throws ComputationError when Newton's method fails with the smallest steps too: 1/1024 of the fixed size, or
   /// 1e-10
@@ -73,12 +83,17 @@ class March {
   /// Of this program's run: what came before a restart is not in it.
   const MarchLog& log() const { return log_; }
   void observe(std::function<void(const Attempt&)> observer) { observer_ = std::move(observer); }
+  /// Called where the motion has been started anew behind a discontinuity, at the beginning of the next step.
+  void on_jump(std::function<void(const Jump&)> listener) { jump_listener_ = std::move(listener); }
   void exchange(Archive& archive);  ///< of a march with the same options; the integration has its own
 
  private:
   class Stops;
-  enum class Pending { nothing, start, restart };
+  enum class Pending { nothing, start, restart, branch };
   void begin_step();
+  double locate(double time, StepReport& report);
+  StepReport attempt(double h, double end, bool kink);
+  void pass_crossings(MarchStep& step);
   void refuse_by_error(double h, double error);
   void refuse_by_newton(double h, const StepReport& report);
 
@@ -88,6 +103,12 @@ class March {
   std::unique_ptr<Stops> stops_;
   ErrorNorm norm_;
   Pending pending_ = Pending::start;
+  CrossingWatch watch_;
+  std::vector<int> crossed_;   ///< that the next step begins behind
+  bool stopped_ = false;
+  double last_crossing_ = 0;   ///< [s]
+  long crossings_at_once_ = 0;  ///< that have followed each other without progress
+  std::function<void(const Jump&)> jump_listener_;
   double size_ = 0, smallest_ = 0;
   MarchLog log_, before_;  ///< before_: of the runs that this one goes on from
   std::function<void(const Attempt&)> observer_;

@@ -65,13 +65,28 @@ std::vector<int> find_redundant(const System& system, const Environment& environ
   transposed.setFromTriplets(entries.begin(), entries.end());
   // Far above rounding (of positions beside the arms), far below what a loop that is nearly planar leaves.
   const double tolerance = std::max({1e-9, least, 1e3 * std::numeric_limits<double>::epsilon() * positions / length});
-  return dependent_columns(transposed, tolerance);
+  std::vector<int> dependent = dependent_columns(transposed, tolerance);
+  // What is switched off has no entries; it repeats nothing.
+  if (!state.idle.empty())
+    std::erase_if(dependent, [&](int m) { return state.idle[static_cast<std::size_t>(m)] == Idle::switched_off; });
+  return dependent;
+}
+
+void set_redundant_aside(const System& system, const Environment& environment, State& state) {
+  if (!system.switches()) return;
+  for (char& idle : state.idle)
+    if (idle == Idle::redundant) idle = Idle::active;
+  for (const int multiplier : find_redundant(system, environment, state)) {
+    state.idle[static_cast<std::size_t>(multiplier)] = Idle::redundant;
+    state.multiplier[multiplier] = 0;
+  }
 }
 
 std::string describe_singularity(const System& system, const Environment& environment, const State& state) {
   constexpr double near = 0.02;
   std::vector<int> repeating = find_redundant(system, environment, state, near);
-  const std::vector<int>& known = system.set_aside();
+  std::vector<int> known;
+  system.for_each_redundant(state, [&](int multiplier) { known.push_back(multiplier); });
   // Which of several dependent rows comes last may differ from the start; more of them is news.
   if (repeating.size() <= known.size()) return {};
   const auto was_known = [&](int multiplier) { return std::binary_search(known.begin(), known.end(), multiplier); };
@@ -107,26 +122,26 @@ std::vector<std::string> name_constraints(const System& system, const std::vecto
 }
 
 void check_set_aside(const System& system, const Environment& environment, const State& state) {
-  if (system.set_aside().empty()) return;
+  if (system.set_aside().empty() && state.idle.empty()) return;
   // Rounding and Newton's tolerance leave far less; a contradiction shows at once.
   constexpr double tolerance = 1e-6;
   std::size_t member = 0;
   VectorX r;
-  for (const int multiplier : system.set_aside()) {
+  system.for_each_redundant(state, [&](int multiplier) {
     while (multiplier >= system.slots()[member].multiplier_begin + system.slots()[member].multipliers) ++member;
     const Slots& slots = system.slots()[member];
     r.setZero(slots.size());
     system.model().members()[member].component->add_residual(LocalState(state, slots, environment), r);
     const double violation = r[slots.multiplier_row() + multiplier - slots.multiplier_begin];
     if (violation == 0 || std::abs(violation) <= tolerance * constraint_size(system, environment, state, multiplier))
-      continue;
+      return;
     const int equation = system.size() - system.multipliers() + multiplier;
     throw ComputationError(
         fmt::format("t = {:.6g} s: {} looked redundant at the start and was set aside, but is violated by {:.3g} {}: "
                     "it contradicts the "
                     "joints and drives before it",
                     state.time, system.equation_name(equation), violation, system.equation_units(equation)));
-  }
+  });
 }
 
 }  // namespace bielle::mechanism

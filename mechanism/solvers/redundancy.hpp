@@ -18,6 +18,10 @@ namespace bielle::mechanism {
 std::vector<int> find_redundant(const System& system, const Environment& environment, const State& state,
                                 double least = 0);
 
+/// Where constraints can be switched (System::switches): marks those that repeat others among the ones that are on, and
+/// takes the marks from the others.
+void set_redundant_aside(const System& system, const Environment& environment, State& state);
+
 /// What to say of a position in which a step fails, if constraints nearly repeat others there that did not at the
 /// start; or nothing.
 std::string describe_singularity(const System& system, const Environment& environment, const State& state);

@@ -6,12 +6,13 @@
 namespace bielle::mechanism {
 namespace {
 
-std::vector<bool> find_active(const System& system) {
-  std::vector<bool> active(static_cast<std::size_t>(system.multipliers()));
+/// Constraints that may be kept on the level of velocities as well: holonomic ones that are not out for good.
+std::vector<bool> find_holonomic(const System& system) {
+  std::vector<bool> holonomic(static_cast<std::size_t>(system.multipliers()));
   for (int k = 0; k < system.multipliers(); ++k)
-    active[static_cast<std::size_t>(k)] = system.constraint_kind(k) == ConstraintKind::holonomic;
-  for (const int k : system.set_aside()) active[static_cast<std::size_t>(k)] = false;
-  return active;
+    holonomic[static_cast<std::size_t>(k)] = system.constraint_kind(k) == ConstraintKind::holonomic;
+  for (const int k : system.set_aside()) holonomic[static_cast<std::size_t>(k)] = false;
+  return holonomic;
 }
 
 /// Calls act(entry, row, column) for each entry of a pattern.
@@ -23,14 +24,14 @@ void for_each_entry(const SparsePattern& pattern, const Act& act) {
       act(k, pattern.row()[static_cast<std::size_t>(k)], column);
 }
 
-SparsePattern large_pattern(const System& system, const std::vector<bool>& active) {
+SparsePattern large_pattern(const System& system, const std::vector<bool>& holonomic) {
   const int n = system.dofs(), first = system.size() - system.multipliers(), eta = system.size(), mu = eta + n;
   std::vector<std::pair<int, int>> entries;
   for_each_entry(system.pattern(), [&](int, int row, int column) {
     entries.emplace_back(row, column);
     if (column >= n) return;
     entries.emplace_back(row, eta + column);
-    if (row < first || !active[static_cast<std::size_t>(row - first)]) return;
+    if (row < first || !holonomic[static_cast<std::size_t>(row - first)]) return;
     const int rate_row = mu + row - first;
     entries.emplace_back(rate_row, column);
     entries.emplace_back(rate_row, eta + column);
@@ -44,8 +45,9 @@ SparsePattern large_pattern(const System& system, const std::vector<bool>& activ
 
 StabilisedStep::StabilisedStep(const System& system)
     : system_(system),
-      active_(find_active(system)),
-      pattern_(large_pattern(system, active_)),
+      holonomic_(find_holonomic(system)),
+      active_(holonomic_),
+      pattern_(large_pattern(system, holonomic_)),
       places_(static_cast<std::size_t>(system.pattern().entry_count())),
       factors_(pattern_) {
   const int n = system.dofs(), first = system.size() - system.multipliers(), eta = system.size(), mu = eta + n;
@@ -54,20 +56,21 @@ StabilisedStep::StabilisedStep(const System& system)
     places.tangent = pattern_.find(row, column);
     if (column >= n) return;
     places.position = pattern_.find(row, eta + column);
-    if (row < first || !holds(row - first)) return;
+    if (row < first || !holonomic_[static_cast<std::size_t>(row - first)]) return;
     places.velocity = pattern_.find(mu + row - first, column);
     places.velocity_position = pattern_.find(mu + row - first, eta + column);
     places.constraint = pattern_.find(eta + column, mu + row - first);
   });
   for (int i = 0; i < n; ++i) weight_places_.push_back(pattern_.find(eta + i, eta + i));
-  for (int k = 0; k < system.multipliers(); ++k)
-    if (!holds(k)) idle_places_.push_back(pattern_.find(mu + k, mu + k));
+  for (int k = 0; k < system.multipliers(); ++k) idle_places_.push_back(pattern_.find(mu + k, mu + k));
   values_.resize(static_cast<std::size_t>(pattern_.entry_count()));
   scale_.setOnes(size());
 }
 
 void StabilisedStep::begin(const State& state, const Environment& environment) {
   const int n = system_.dofs();
+  active_ = holonomic_;
+  system_.for_each_idle(state, [&](int k) { active_[static_cast<std::size_t>(k)] = false; });
   system_.tangent(state, environment, TangentWeights{0, 0, 1, 0, 1}, nullptr, constraint_);
   // Any positive weights serve; masses let the positions move as an impulse would.
   constexpr double floor = 1e-6;
@@ -120,7 +123,8 @@ bool StabilisedStep::factor(const LinearStep& step, const State& state, const En
     put(places.constraint, -constraint_[k]);
   }
   for (int i = 0; i < system_.dofs(); ++i) put(weight_places_[static_cast<std::size_t>(i)], weight_[i]);
-  for (const int place : idle_places_) put(place, 1);
+  for (int k = 0; k < system_.multipliers(); ++k)
+    if (!holds(k)) put(idle_places_[static_cast<std::size_t>(k)], 1);
 
   // lambda in the size of the forces that move the dofs (see LinearStep), mu in that of their weights.
   const double weight = weight_.size() > 0 ? weight_.maxCoeff() : 1;

@@ -47,10 +47,11 @@ class StabilisedStep {
   bool holds(int multiplier) const { return active_[static_cast<std::size_t>(multiplier)]; }
 
   const System& system_;
-  std::vector<bool> active_;  ///< multipliers of holonomic constraints that are not set aside
+  std::vector<bool> holonomic_;  ///< multipliers of constraints of positions that are not set aside for good
+  std::vector<bool> active_;     ///< of these, those in the equations of the present step
   SparsePattern pattern_;
   std::vector<Places> places_;                    ///< of each entry of the system's pattern
-  std::vector<int> weight_places_, idle_places_;  ///< diagonals of W, and of mu without a constraint
+  std::vector<int> weight_places_, idle_places_;  ///< diagonals of W, and of mu (put where it has no constraint)
   SparseLU factors_;
   VectorX weight_, scale_;
   std::vector<double> constraint_;  ///< B_n among the values of the system's pattern

@@ -120,19 +120,32 @@ void TimeIntegration::solve() {
 }
 
 /// What is left within the tolerance is taken out once more: a tangent that is not of this iterate leaves a residual of
-/// the tolerance's size, of the same sign step after step.
+/// the tolerance's size, of the same sign step after step. Where forces have kinks, that tangent may be of the other
+/// side: there the residual has to become smaller indeed.
 void TimeIntegration::polish() {
   solve();
   move(1);
-  system_.displace(next_, state_, dq_);
-  system_.set_rates(next_, v_new_, a_new_);
+  if (!system_.has_kinks()) {
+    system_.displace(next_, state_, dq_);
+    system_.set_rates(next_, v_new_, a_new_);
+    return;
+  }
+  const double before = size_of_residual();
+  try {
+    evaluate();
+    if (size_of_residual() <= before) return;
+  } catch (const ComputationError&) {
+    // refused: not there, then
+  }
+  move_and_follow(-1);
+  evaluate();
 }
 
 /// An iteration of Newton's method.
 void TimeIntegration::improve(StepReport& report) {
   // Late in a step that is hard to solve, old factors are not to blame.
   const bool renew =
-      !options_.reuse_tangent || !same_size(attempted_, factored_for_) || report.iterations >= options_.iterations / 2;
+      !options_.reuse_tangent || !same_size(attempted_, factored_for_, factors_serve_within_) || report.iterations >= options_.iterations / 2;
   if (renew) factor(report);
   if (report.iterations == 0) {
     convergence_.measure_by(scale_);

@@ -145,12 +145,33 @@ void TimeIntegration::restart(double h) {
   const double time = state_.time;
   state_.time += beside(time, h);
   StartReport unused;
-  make_velocities_consistent(system_, environment_, state_, unused);
+  start_anew(h, unused);
+  state_.time = time;
+}
+
+void TimeIntegration::start_anew(double h, StartReport& report) {
+  make_velocities_consistent(system_, environment_, state_, report);
   make_accelerations_consistent(system_, environment_, state_);
-  balance_massless(system_, environment_, state_, unused);
+  balance_massless(system_, environment_, state_, report);
   take_rates();
   start(h);
-  state_.time = time;
+}
+
+Jump TimeIntegration::begin_branch(double h, const std::vector<int>& crossed) {
+  Jump jump;
+  jump.time = state_.time;
+  jump.crossed = crossed;
+  jump.before = system_.energy(state_, environment_);
+  state_.time += beside(jump.time, h);
+  system_.begin_branch(state_, environment_, crossed);
+  set_redundant_aside(system_, environment_, state_);
+  StartReport report;
+  start_anew(h, report);
+  factored_for_ = 0;
+  jump.after = system_.energy(state_, environment_);
+  jump.work = report.impulse_work;
+  state_.time = jump.time;
+  return jump;
 }
 
 VectorX TimeIntegration::algorithmic_acceleration() const {
@@ -176,6 +197,7 @@ void TimeIntegration::predict(double h, double end) {
   next_.time = end;
   next_.multiplier = state_.multiplier;
   next_.memory = state_.memory;
+  next_.idle = state_.idle;
   eta_.setZero();
   mu_.setZero();
 }
@@ -242,7 +264,7 @@ StepReport TimeIntegration::attempt(double h, double end, bool kink) {
   return report;
 }
 
-void TimeIntegration::accept() {
+bool TimeIntegration::accept() {
   check_set_aside(system_, environment_, next_);
   const VectorX A = algorithmic_acceleration(), Y = algorithmic_rate();
   j_ = (A - A_) / attempted_;
@@ -255,9 +277,10 @@ void TimeIntegration::accept() {
   a_.swap(a_new_);
   last_dq_.swap(dq_);
   h_ = attempted_;
-  system_.accept(next_, environment_);
+  const bool branch_left = system_.accept(next_, environment_);
   next_.time = end_;
   std::swap(state_, next_);
+  return branch_left;
 }
 
 StepReport TimeIntegration::step(double h) {

@@ -51,6 +51,14 @@ struct StepReport {
   bool converged() const { return refusal.empty(); }
 };
 
+/// A discontinuity of a motion, from its left to its right.
+struct Jump {
+  double time = 0;
+  Energy before, after;
+  double work = 0;  ///< of the drives and supports whose rate jumps [J]
+  std::vector<int> crossed;
+};
+
 class TimeIntegration {
  public:
   /// @param state  positions and velocities to start from; made consistent here
@@ -73,14 +81,24 @@ class TimeIntegration {
   StepReport attempt(double h) { return attempt(h, state_.time + h); }
   /// Makes the attempted step the motion's last. @throws ComputationError when a constraint that was set aside as
   /// redundant contradicts the others
-  void accept();
+  /// @returns whether a component has left the branch that the step was computed on: `begin_branch` is wanted
+  bool accept();
   /// Both, for a step that has to succeed. @throws ComputationError naming time and equation
   StepReport step(double h);
 
   /// The next attempts will be of size h: renews the algorithmic values that belong to a step size.
   void change_step(double h);
-  /// Forces have jumped at this time: velocities, accelerations and multipliers are those of just after.
+  /// Algorithmic values for steps of size h anew, from velocities, accelerations and multipliers that are consistent.
   void restart(double h);
+  /// Forces or constraints have changed at this time: components begin another branch, and velocities, accelerations
+  /// and multipliers are those of just after. What comes into force on relative motion stops it by an inelastic
+  /// impulse, the least change of velocities in the kinetic energy's norm.
+  /// @param crossed  the crossings that were met, by number
+  Jump begin_branch(double h, const std::vector<int>& crossed);
+  /// The end of the last attempt.
+  const State& attempted() const { return next_; }
+  /// While a crossing is located, attempts differ little in size: factors of the tangent serve them all.
+  void share_factors(bool shared) { factors_serve_within_ = shared ? 0.1 : same; }
 
   const System& system() const { return system_; }
   const Environment& environment() const { return environment_; }
@@ -100,9 +118,11 @@ class TimeIntegration {
  private:
   static constexpr int never_measured = 1 << 20;
   /// Sizes of steps that differ by rounding are the same.
-  static bool same_size(double h, double other) { return std::abs(h - other) <= 1e-9 * other; }
+  static constexpr double same = 1e-9;
+  static bool same_size(double h, double other, double within = same) { return std::abs(h - other) <= within * other; }
   void allocate();
   void take_rates();                                ///< of the state, as algorithmic values
+  void start_anew(double h, StartReport& report);
   VectorX acceleration_rate(double h);              ///< j
   bool resolved(const VectorX& j, double h) const;  ///< accelerations change little within a step
   VectorX velocity_target(const State& state, const VectorX& v, const VectorX& a, const VectorX& j) const;
@@ -152,6 +172,7 @@ class TimeIntegration {
   double rate_factor_ = 0, acceleration_factor_ = 0, first_order_factor_ = 0;  ///< gamma', beta', and of y
   double size_ = 0, size_before_ = 0;           ///< of the residual, now and an iteration before: Convergence::size_of
   double factored_for_ = 0;                     ///< the step size that the factors belong to; 0: none that serve
+  double factors_serve_within_ = same;          ///< relative difference of sizes that factors serve
   int floor_age_ = never_measured;              ///< steps since the rounding floor was measured
   std::unique_ptr<StabilisedStep> stabilised_;  ///< of that form only
   ConstraintForm form_;

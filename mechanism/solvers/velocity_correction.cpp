@@ -43,7 +43,7 @@ VectorX TimeIntegration::velocity_target(const State& state, const VectorX& v, c
   // What relates velocities holds for those of the scheme as they are.
   for (int k = 0; k < system_.multipliers(); ++k)
     if (system_.constraint_kind(k) != ConstraintKind::holonomic) target[k] = 0;
-  for (const int k : system_.set_aside()) target[k] = 0;
+  system_.for_each_idle(state, [&](int k) { target[k] = 0; });
   return target;
 }
 
@@ -88,7 +88,7 @@ void TimeIntegration::correct_velocity() {
   system_.constraint_rates(next_, environment_, rate, unused);
   for (int k = 0; k < m; ++k)
     if (system_.constraint_kind(k) != ConstraintKind::holonomic) rate[k] = 0;
-  for (const int k : system_.set_aside()) rate[k] = 0;
+  system_.for_each_idle(next_, [&](int k) { rate[k] = 0; });
   r_.setZero();
   r_.tail(m) = rate - h * h * velocity_target(next_, v_new_, a_new_, j_);
   v_new_ += across_constraints(next_);

@@ -38,6 +38,13 @@ class Archive {
     vector.conservativeResize(size);
     for (double& value : vector) (*this)(value);
   }
+  /// The size is kept too.
+  void operator()(std::vector<char>& flags) {
+    auto size = static_cast<long>(flags.size());
+    (*this)(size);
+    flags.resize(static_cast<std::size_t>(size));
+    for (char& flag : flags) as_number(flag);
+  }
   template <int rows, int columns>
   void operator()(Eigen::Matrix<double, rows, columns>& matrix) {
     static_assert(rows > 0 && columns > 0);
@@ -55,8 +62,9 @@ class Archive {
     (*this)(state.time);
     for (NodeState& node : state.nodes) (*this)(node);
     for (VectorX* vector : {&state.amplitude, &state.amplitude_rate, &state.amplitude_acceleration, &state.first_order,
-                            &state.first_order_rate, &state.multiplier, &state.memory})
+                            &state.first_order_rate, &state.multiplier, &state.memory, &state.reaction})
       (*this)(*vector);
+    (*this)(state.idle);
   }
 
  private:

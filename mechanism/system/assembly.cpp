@@ -86,7 +86,8 @@ void System::node_forces(const State& state, const Environment& environment, Vec
   const int amplitude_row = kinematics_.unknowns(), first_order_row = dofs(), multiplier_row = dofs() + first_orders_;
   // Of any component, by direction.
   Vector3 largest_force = Vector3::Zero(), largest_moment = Vector3::Zero();
-  for (std::size_t m = 0; m < slots_.size(); ++m) {
+  ResidualScale of_references;
+  for (const std::size_t m : acting_) {
     const Slots& slots = slots_[m];
     try {
       model_.members()[m].component->add_residual(LocalState(state, slots, environment),
@@ -112,19 +113,43 @@ void System::node_forces(const State& state, const Environment& environment, Vec
     scalars(slots.amplitudes, amplitude_row + slots.amplitude_begin);
     scalars(slots.first_orders, first_order_row + slots.first_order_begin);
     scalars(slots.multipliers, multiplier_row + slots.multiplier_begin);
+    if (slots.referenced > 0) {
+      add_referenced(placements_[m], local, forces, r, of_references);
+      std::fill_n(part, slots.referenced, 0.0);
+    }
   }
   if (scale) {
-    (*scale)[Kind::translation] = largest_force.maxCoeff();
-    (*scale)[Kind::rotation] = largest_moment.maxCoeff();
-    // Each of the other rows is one component's.
-    const auto largest = [&](int begin, int count) {
-      return count > 0 ? r.segment(begin, count).lpNorm<Eigen::Infinity>() : 0.0;
+    (*scale)[Kind::translation] = std::max(largest_force.maxCoeff(), of_references[Kind::translation]);
+    (*scale)[Kind::rotation] = std::max(largest_moment.maxCoeff(), of_references[Kind::rotation]);
+    // What is one component's in the other rows; others may have added to them.
+    const auto largest = [&](Kind kind, int begin, int count) {
+      (*scale)[kind] = count > 0 ? r.segment(begin, count).lpNorm<Eigen::Infinity>() : 0.0;
+      (*scale)[kind] = std::max((*scale)[kind], of_references[kind]);
     };
-    (*scale)[Kind::amplitude] = largest(amplitude_row, amplitudes_);
-    (*scale)[Kind::first_order] = largest(first_order_row, first_orders_);
-    (*scale)[Kind::multiplier] = largest(multiplier_row, multipliers_);
+    largest(Kind::amplitude, amplitude_row, amplitudes_);
+    largest(Kind::first_order, first_order_row, first_orders_);
+    largest(Kind::multiplier, multiplier_row, multipliers_);
   }
   kinematics_.carry_forces(state.nodes, forces);
+}
+
+/// What a component adds to equations of those that it refers to. @param part  its local vector
+void System::add_referenced(const Placement& placement, double* part, VectorX& forces, Eigen::Ref<VectorX> r,
+                            ResidualScale& scale) const {
+  for (std::size_t k = 0; k < placement.nodes.size(); ++k) {
+    const NodePart& node = placement.nodes[k];
+    if (node.local < placement.own_size) continue;
+    Eigen::Map<const Vector6> local(part + node.local);
+    forces.segment<6>(kinematics_.force_row(node.node)) += local;
+    scale[Kind::translation] = std::max(scale[Kind::translation], local.head<3>().lpNorm<Eigen::Infinity>());
+    scale[Kind::rotation] = std::max(scale[Kind::rotation], local.tail<3>().lpNorm<Eigen::Infinity>());
+  }
+  for (const ScalarPart& scalars : placement.scalars) {
+    if (scalars.own || scalars.kind == Kind::multiplier) continue;
+    Eigen::Map<const VectorX> local(part + scalars.local, scalars.count);
+    r.segment(scalars.unknown, scalars.count) += local;
+    scale[scalars.kind] = std::max(scale[scalars.kind], local.lpNorm<Eigen::Infinity>());
+  }
 }
 
 void System::residual(const State& state, const Environment& environment, Eigen::Ref<VectorX> r,
@@ -134,7 +159,7 @@ void System::residual(const State& state, const Environment& environment, Eigen:
   if (scale) *scale = {};
   node_forces(state, environment, forces, r, scale);
   kinematics_.reduce_forces(forces, r.head(kinematics_.unknowns()));
-  for (const int multiplier : set_aside_) r[dofs() + first_orders_ + multiplier] = state.multiplier[multiplier];
+  for_each_idle(state, [&](int multiplier) { r[dofs() + first_orders_ + multiplier] = state.multiplier[multiplier]; });
 }
 
 Energy System::energy(const State& state, const Environment& environment) const {
@@ -181,16 +206,23 @@ void System::scatter(const Targets& targets, const double* entries, std::vector<
 void System::velocity_rows(const Placement& placement, const LocalState& local, const Component& component,
                            Workspace& work) const {
   const Slots& slots = local.slots();
-  const int n = slots.size(), dofs = slots.first_order_row(), first = slots.multiplier_row();
+  const int n = slots.size(), first = slots.multiplier_row();
   using Map = Eigen::Map<MatrixX>;
   Map K(work.K.data(), n, n), C(work.C.data(), n, n), unused(work.M.data(), n, n), unloaded(work.columns.data(), n, n),
       loaded(work.sum.data(), n, n);
-  auto v = work.r.head(dofs);
-  for (std::size_t k = 0; k < slots.nodes.size(); ++k) {
-    v.segment<3>(6 * static_cast<Eigen::Index>(k)) = local.node(static_cast<int>(k)).v;
-    v.segment<3>(6 * static_cast<Eigen::Index>(k) + 3) = local.node(static_cast<int>(k)).Omega;
+  // Velocities, zero where an unknown is none of positions.
+  auto v = work.r.head(n);
+  v.setZero();
+  const State& state = local.global();
+  for (const NodePart& part : placement.nodes) {
+    const NodeState& node = state.nodes[static_cast<std::size_t>(part.node)];
+    v.segment<3>(part.local) = node.v;
+    v.segment<3>(part.local + 3) = node.Omega;
   }
-  v.tail(slots.amplitudes) = local.amplitude_rate();
+  for (const ScalarPart& part : placement.scalars)
+    if (part.kind == Kind::amplitude)
+      v.segment(part.local, part.count) =
+          state.amplitude_rate.segment(part.unknown - kinematics_.unknowns(), part.count);
   auto lambda = work.probe.multiplier.segment(slots.multiplier_begin, slots.multipliers);
   const LocalState probed(work.probe, slots, local.environment());
   const auto add_stiffness = [&](Map& sum) {
@@ -198,20 +230,56 @@ void System::velocity_rows(const Placement& placement, const LocalState& local, 
     LocalTangent tangent{sum, unused, unused, true, false, false};
     component.add_tangent(probed, tangent);
   };
+  const auto for_each_position = [&](const auto& act) {
+    const auto columns = [&](int begin, int count) {
+      for (int column = begin; column < begin + count; ++column) act(column);
+    };
+    for (const NodePart& part : placement.nodes) columns(part.local, 6);
+    for (const ScalarPart& part : placement.scalars)
+      if (part.kind == Kind::amplitude) columns(part.local, part.count);
+  };
   lambda.setZero();
   add_stiffness(unloaded);
-  for (int row = first; row < n; ++row) {
+  for (int row = first; row < first + slots.multipliers; ++row) {
     if (std::find(placement.nonholonomic.begin(), placement.nonholonomic.end(), row) != placement.nonholonomic.end())
       continue;
     lambda[row - first] = 1;
     add_stiffness(loaded);
     lambda[row - first] = 0;
-    for (int column = 0; column < dofs; ++column) {
-      K(row, column) = v.dot(loaded.col(column).head(dofs) - unloaded.col(column).head(dofs));
+    for_each_position([&](int column) {
+      K(row, column) = v.dot(loaded.col(column) - unloaded.col(column));
       C(row, column) = unloaded(row, column);
-    }
+    });
   }
   lambda = local.multiplier();
+}
+
+/// K, weighted: own rows and columns of constraints, derivatives by the multipliers of others, and the rest.
+void System::weigh_stiffness(const Placement& placement, const Slots& slots, const TangentWeights& weights,
+                             Eigen::Map<MatrixX>& K) const {
+  const int own = slots.multiplier_row(), multipliers = slots.multipliers, n = slots.size();
+  if (slots.referenced == 0) {
+    if (weights.stiffness != 1) K.topLeftCorner(own, own) *= weights.stiffness;
+    if (weights.constraint != 1) {
+      K.bottomRows(multipliers) *= weights.constraint;
+      K.topRightCorner(own, multipliers) *= weights.constraint;
+    }
+    return;
+  }
+  const double reaction = weights.reactions ? 1 : weights.stiffness;
+  const auto weigh_columns = [&](int begin, int count, double weight) {
+    auto columns = K.middleCols(begin, count);
+    columns.topRows(own) *= weight;
+    columns.middleRows(own, multipliers) *= weights.constraint;
+    columns.bottomRows(n - own - multipliers) *= weight;
+  };
+  weigh_columns(0, own, weights.stiffness);
+  weigh_columns(own, multipliers, weights.constraint);
+  for (const NodePart& part : placement.nodes)
+    if (part.local >= placement.own_size) weigh_columns(part.local, 6, weights.stiffness);
+  for (const ScalarPart& part : placement.scalars)
+    if (!part.own)
+      weigh_columns(part.local, part.count, part.kind == Kind::multiplier ? reaction : weights.stiffness);
 }
 
 void System::add_in_place(const Placement& placement, const LocalState& local, const TangentWeights& weights,
@@ -237,8 +305,9 @@ void System::add_reduced(const Placement& placement, const LocalState& local, co
   using Map = Eigen::Map<MatrixX>;
   Map K(work.K.data(), n, n), C(work.C.data(), n, n), M(work.M.data(), n, n);
   // Convective terms of carried nodes bring C and M into the stiffness: then all three are needed.
-  const bool wants_K =
-      placement.stiffness && (weights.stiffness != 0 || (weights.constraint != 0 && slots.multipliers > 0));
+  const bool wants_K = placement.stiffness &&
+                       (weights.stiffness != 0 || (weights.constraint != 0 && slots.multipliers > 0) ||
+                        (weights.reactions && placement.reads_multipliers));
   const bool rates_in_K = !placement.plain && weights.stiffness != 0;
   const bool rate_rows = weights.acceleration_level && !placement.nonholonomic.empty();
   const bool wants_C =
@@ -260,84 +329,97 @@ void System::add_reduced(const Placement& placement, const LocalState& local, co
       K.row(row) = C.row(row);
       C.row(row).setZero();
     }
-  if (wants_K) {
-    const int free_rows = n - slots.multipliers;
-    if (weights.stiffness != 1) K.topLeftCorner(free_rows, free_rows) *= weights.stiffness;
-    if (weights.constraint != 1) {
-      K.bottomRows(slots.multipliers) *= weights.constraint;
-      K.topRightCorner(free_rows, slots.multipliers) *= weights.constraint;
-    }
-  }
-  const int reduced = static_cast<int>(placement.unknown.size());
-  const int scalar_row = slots.amplitude_row();
-  const int first_order = slots.first_order_row();
-
+  if (wants_K) weigh_stiffness(placement, slots, weights, K);
   if (placement.plain) {
-    if (dq && wants_K)
-      for (std::size_t k = 0; k < slots.nodes.size(); ++k) {
-        if (!kinematics_.freedom(slots.nodes[k]).all_free) continue;
-        multiply_columns(K, 6 * static_cast<Eigen::Index>(k) + 3,
-                         work.step_tangent[static_cast<std::size_t>(slots.nodes[k])]);
-      }
-    if (wants_C || weights.velocity_level) {
-      K.leftCols(first_order) += weights.damping * C.leftCols(first_order);
-      K.middleCols(first_order, slots.first_orders) +=
-          weights.first_order * C.middleCols(first_order, slots.first_orders);
-    }
-    if (wants_M && !weights.velocity_level) K += weights.mass * M;
+    add_plain(placement, weights, dq, wants_K, wants_C || weights.velocity_level, wants_M && !weights.velocity_level,
+              n, work);
     scatter(placement.targets, K.data(), values);
-    return;
+  } else {
+    add_related(placement, local, weights, component, dq, work);
+    scatter(placement.targets, work.sum.data(), values);
   }
-  Map sum(work.sum.data(), reduced, reduced);
-  const int scalars = n - scalar_row, reduced_scalar_row = reduced - scalars;
+}
+
+/// K <- K T(Dq) + damping C + mass M, columns of first-order unknowns with their own weight of C.
+void System::add_plain(const Placement& placement, const TangentWeights& weights, const VectorX* dq, bool with_K,
+                       bool with_C, bool with_M, int n, Workspace& work) const {
+  using Map = Eigen::Map<MatrixX>;
+  Map K(work.K.data(), n, n), C(work.C.data(), n, n), M(work.M.data(), n, n);
+  if (dq && with_K)
+    for (const NodePart& part : placement.nodes)
+      if (kinematics_.freedom(part.node).all_free)
+        multiply_columns(K, part.local + 3, work.step_tangent[static_cast<std::size_t>(part.node)]);
+  if (with_C) {
+    // Own nodes stand together: most components have no others.
+    const int own_rows = placement.own_nodes_end;
+    K.leftCols(own_rows) += weights.damping * C.leftCols(own_rows);
+    for (const NodePart& part : placement.nodes)
+      if (part.local >= placement.own_size)
+        K.middleCols<6>(part.local) += weights.damping * C.middleCols<6>(part.local);
+    for (const ScalarPart& part : placement.scalars)
+      if (part.kind != Kind::multiplier)
+        K.middleCols(part.local, part.count) +=
+            (part.kind == Kind::amplitude ? weights.damping : weights.first_order) *
+            C.middleCols(part.local, part.count);
+  }
+  if (with_M) K += weights.mass * M;
+}
+
+/// The same where nodes are held in some directions or carried by others: sum <- the entries along independent
+/// increments, columns first, over all local rows; then rows.
+void System::add_related(const Placement& placement, const LocalState& local, const TangentWeights& weights,
+                         const Component& component, const VectorX* dq, Workspace& work) const {
+  const int n = local.slots().size(), reduced = static_cast<int>(placement.unknown.size());
+  using Map = Eigen::Map<MatrixX>;
+  Map K(work.K.data(), n, n), C(work.C.data(), n, n), M(work.M.data(), n, n), sum(work.sum.data(), reduced, reduced),
+      columns(work.columns.data(), n, reduced);
   const State& state = local.global();
   std::vector<NodeRelation>& relation = work.relation;
-  relation.resize(std::max(relation.size(), slots.nodes.size()));
-  for (std::size_t k = 0; k < slots.nodes.size(); ++k) relation[k] = relate(kinematics_, slots.nodes[k], state, dq);
-  // Columns first, over all local rows; then rows.
-  Map columns(work.columns.data(), n, reduced);
-  columns.rightCols(scalars) = K.rightCols(scalars);
-  columns.rightCols(scalars) += weights.mass * M.rightCols(scalars);
-  columns.middleCols(reduced_scalar_row, slots.amplitudes) +=
-      weights.damping * C.middleCols(scalar_row, slots.amplitudes);
-  columns.middleCols(reduced_scalar_row + slots.amplitudes, slots.first_orders) +=
-      weights.first_order * C.middleCols(first_order, slots.first_orders);
-  for (std::size_t k = 0; k < slots.nodes.size(); ++k) {
+  relation.resize(std::max(relation.size(), placement.nodes.size()));
+  for (std::size_t k = 0; k < placement.nodes.size(); ++k)
+    relation[k] = relate(kinematics_, placement.nodes[k].node, state, dq);
+  for (const ScalarPart& part : placement.scalars) {
+    auto to = columns.middleCols(part.reduced, part.count);
+    to = K.middleCols(part.local, part.count);
+    if (part.kind == Kind::multiplier) continue;
+    to += weights.mass * M.middleCols(part.local, part.count);
+    to += (part.kind == Kind::amplitude ? weights.damping : weights.first_order) * C.middleCols(part.local, part.count);
+  }
+  bool any_carried = false;
+  for (std::size_t k = 0; k < placement.nodes.size(); ++k) {
     const NodeRelation& node = relation[k];
-    const Eigen::Index count = node.displacement.cols(), at = 6 * static_cast<Eigen::Index>(k);
-    auto part = columns.middleCols(placement.reduced_begin[k], count);
+    const Eigen::Index count = node.displacement.cols(), at = placement.nodes[k].local;
+    auto part = columns.middleCols(placement.nodes[k].reduced, count);
     const auto Kk = K.middleCols<6>(at), Ck = C.middleCols<6>(at), Mk = M.middleCols<6>(at);
     part.noalias() = Kk * node.displacement_step;
     part.noalias() += Ck * (weights.damping * node.displacement);
     part.noalias() += Mk * (weights.mass * node.displacement);
     if (!node.carried) continue;
+    any_carried = true;
     part.noalias() += Ck * (weights.stiffness * node.rate_of_displacement);
     part.noalias() += Mk * (weights.stiffness * node.acceleration_of_displacement);
     part.noalias() += Mk * (weights.damping * node.acceleration_of_rate);
   }
-  sum.bottomRows(scalars) = columns.bottomRows(scalars);
-  for (std::size_t k = 0; k < slots.nodes.size(); ++k)
-    sum.middleRows(placement.reduced_begin[k], relation[k].displacement.cols()).noalias() =
-        relation[k].displacement.transpose() * columns.middleRows<6>(6 * static_cast<Eigen::Index>(k));
-  if (std::any_of(relation.begin(), relation.begin() + static_cast<std::ptrdiff_t>(slots.nodes.size()),
-                  [](const NodeRelation& node) { return node.carried; })) {
-    auto r = work.r.head(n);
-    r.setZero();
-    component.add_residual(local, r);
-    for (std::size_t k = 0; k < slots.nodes.size(); ++k) {
-      const Carry* carry = kinematics_.carry(slots.nodes[k]);
-      if (!carry) continue;
-      const NodeFreedom& f = kinematics_.freedom(carry->carrier);
-      const Matrix3& R = state.nodes[static_cast<std::size_t>(carry->carrier)].R;
-      const Matrix3 turn = skew(carry->c) * skew(R.transpose() * r.segment<3>(6 * static_cast<Eigen::Index>(k)));
-      const Matrix6X G = f.G.leftCols(f.count);
-      const Matrix6X GT = times_step_tangent(G, f, dq);
-      const int at = placement.reduced_begin[k];
-      sum.block(at, at, f.count, f.count).noalias() +=
-          weights.stiffness * (G.bottomRows<3>().transpose() * turn * GT.bottomRows<3>());
-    }
+  for (const ScalarPart& part : placement.scalars)
+    sum.middleRows(part.reduced, part.count) = columns.middleRows(part.local, part.count);
+  for (std::size_t k = 0; k < placement.nodes.size(); ++k)
+    sum.middleRows(placement.nodes[k].reduced, relation[k].displacement.cols()).noalias() =
+        relation[k].displacement.transpose() * columns.middleRows<6>(placement.nodes[k].local);
+  if (!any_carried) return;
+  auto r = work.r.head(n);
+  r.setZero();
+  component.add_residual(local, r);
+  for (const NodePart& part : placement.nodes) {
+    const Carry* carry = kinematics_.carry(part.node);
+    if (!carry) continue;
+    const NodeFreedom& f = kinematics_.freedom(carry->carrier);
+    const Matrix3& R = state.nodes[static_cast<std::size_t>(carry->carrier)].R;
+    const Matrix3 turn = skew(carry->c) * skew(R.transpose() * r.segment<3>(part.local));
+    const Matrix6X G = f.G.leftCols(f.count);
+    const Matrix6X GT = times_step_tangent(G, f, dq);
+    sum.block(part.reduced, part.reduced, f.count, f.count).noalias() +=
+        weights.stiffness * (G.bottomRows<3>().transpose() * turn * GT.bottomRows<3>());
   }
-  scatter(placement.targets, sum.data(), values);
 }
 
 void System::tangent(const State& state, const Environment& environment, const TangentWeights& weights,
@@ -351,7 +433,7 @@ void System::tangent(const State& state, const Environment& environment, const T
     for (const auto [node, begin] : kinematics_.all_free())
       work->step_tangent[node] = mechanism::tangent(dq->segment<3>(begin + 3));
   }
-  for (std::size_t m = 0; m < slots_.size(); ++m) {
+  for (const std::size_t m : acting_) {
     const Placement& placement = placements_[m];
     if (placement.targets.empty()) continue;
     const LocalState local(state, slots_[m], environment);
@@ -361,8 +443,11 @@ void System::tangent(const State& state, const Environment& environment, const T
     else
       add_reduced(placement, local, weights, component, dq, *work, values);
   }
-  for (const int place : set_aside_entries_) values[static_cast<std::size_t>(place)] = 0;
-  for (const int place : set_aside_diagonal_) values[static_cast<std::size_t>(place)] = 1;
+  for_each_idle(state, [&](int multiplier) {
+    const IdlePlaces& places = idle_places_[static_cast<std::size_t>(multiplier)];
+    for (const int place : places.entries) values[static_cast<std::size_t>(place)] = 0;
+    values[static_cast<std::size_t>(places.diagonal)] = 1;
+  });
 }
 
 }  // namespace bielle::mechanism

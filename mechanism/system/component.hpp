@@ -7,9 +7,16 @@
 // LocalState, and writes into local vectors and matrices of the layout
 //     [ 6 per node: force (inertial), moment (node axes) | amplitudes | first-order rows | constraint rows ].
 // Columns follow the same layout: dx (inertial) and dTheta (node axes, R exp(dTheta~)) of each node, and so on.
+//
+// A component may use what belongs to others (a gear the angles of two joints, friction the reaction of its joint, a
+// valve the pressures of two volumes): it declares `references`, and the local layouts of those components follow its
+// own, rows and columns (Slots). It may add forces to their nodes and flows to their first-order equations, never to
+// their constraints. Constraints are affine in the multipliers of their owner, B^T lambda, and depend on those of no
+// other: the derivative of a force by a multiplier of another component is a derivative of forces, no part of B.
 // That a node is free, fixed, driven or carried rigidly by another is system/'s business: components never ask.
 #pragma once
 
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,7 +26,19 @@
 
 namespace bielle::mechanism {
 
+class Component;
+
 enum class ConstraintKind { holonomic, nonholonomic };  ///< Phi(q,t) = 0, or B(q) v + c(q,t) = 0
+
+/// A function of the state whose zero begins another branch: contact, a force that is reached, an end of a range.
+struct Crossing {
+  enum class Direction { rising, falling, both };
+  std::string name;  ///< "gap closes"
+  Direction direction = Direction::both;
+  /// Forces, rates or constraints may change behind it: the motion is started anew there. Otherwise it is only noted.
+  bool restarts = true;
+  bool stops = false;  ///< the run ends there
+};
 
 /// Collects what a component needs. Names come back in messages and results: "moment z of joint 'main'".
 struct Declaration {
@@ -28,14 +47,25 @@ struct Declaration {
     std::string units;  ///< of the unknown (amplitudes: of the modal amplitude; multipliers: "N" or "N m")
     double start = 0;   ///< initial value
     ConstraintKind kind = ConstraintKind::holonomic;  ///< multipliers only
+    /// Multipliers only: the constraint may be switched off and on during a run, see Component::is_on.
+    bool switched = false;
   };
   std::vector<int> nodes;  ///< indices into the model's nodes
   std::vector<Scalar> amplitudes, first_order, multipliers;
   std::vector<double> memory;  ///< initial values
+  /// Components whose unknowns, memory or measures this one uses, each once.
+  std::vector<const Component*> references;
+  /// Functions of the state whose zeros end steps, see Component::calc_crossings.
+  std::vector<Crossing> crossings;
+  /// The forces depend on the reactions of a component referred to (LocalState::reaction).
+  bool reads_reactions = false;
+  /// The forces have kinks in the state that end no step: what an old tangent says beyond one may be wrong.
+  bool kinks = false;
   /// Which of the tangent's three matrices the component contributes to.
   bool stiffness = false, damping = false, mass = false;
   /// The component implements add_blocks in place of add_tangent.
   bool in_blocks = false;
+  bool passive = false;  ///< it adds nothing to the equations (a measure)
 };
 
 /// The entries of a component's local tangent that can differ from zero at some state.
@@ -144,6 +174,23 @@ class Component {
 
   /// After a converged step: new values of the component's memory, from the state (whose memory is still the old one).
   virtual void accept(const LocalState& /*state*/, Eigen::Ref<VectorX> /*memory*/) const {}
+
+  /// Values of the declared crossings at a state (crossings). Each should be smooth on either side of its zero.
+  virtual void calc_crossings(const LocalState& /*state*/, Eigen::Ref<VectorX> /*values*/) const {}
+
+  /// Where a motion begins, and behind every discontinuity (a crossing that restarts, a break point, an accepted step
+  /// that asked for it): new values of the component's memory at the state just behind, whose rates may still be those
+  /// of before.
+  /// @param crossed  the component's own crossings that were met there, by number
+  virtual void begin_branch(const LocalState& /*state*/, std::span<const int> /*crossed*/,
+                            Eigen::Ref<VectorX> /*memory*/) const {}
+
+  /// Whether the branch that an accepted step was computed on is not the one that goes on from its end, which no
+  /// crossing told: the motion is started anew there.
+  virtual bool leaves_branch(const LocalState& /*state*/) const { return false; }
+
+  /// Whether a switched constraint row is in the equations, by the component's memory.
+  virtual bool is_on(const LocalState& /*state*/, int /*row*/) const { return true; }
 
   /// Times at which the component's forces or prescribed motions have kinks: steps end there.
   virtual void add_break_points(std::vector<double>& /*times*/) const {}

@@ -28,6 +28,12 @@ struct State {
   VectorX first_order, first_order_rate;                      ///< first-order unknowns y (pressures)
   VectorX multiplier;                                         ///< lambda: physical reactions
   VectorX memory;  ///< what components keep from the last accepted step (turns of an angle, bristles)
+  /// Whether each constraint is out of the equations (redundant, or switched off), by multiplier. Its multiplier is
+  /// zero. Empty: none is.
+  std::vector<char> idle;
+  /// Where redundancy leaves multipliers undetermined: those of the reactions of smallest norm
+  /// (solvers/reaction_norm.hpp). Empty: `multiplier` itself.
+  VectorX reaction;
 };
 
 /// What acts everywhere, as seen by components.
@@ -38,6 +44,10 @@ struct Environment {
 };
 
 /// Where a component's unknowns stand in the State. Nodes may repeat; the scalars are contiguous.
+///
+/// A component that refers to others sees their unknowns as well: its local vectors are
+///     [ 6 per own node (dx, dTheta) | own amplitudes | own first-order | own multipliers | the whole local vector of
+///       the first component that it refers to | of the second | ... ]
 struct Slots {
   std::vector<int> nodes;
   int amplitude_begin = 0, amplitudes = 0;
@@ -48,11 +58,22 @@ struct Slots {
   /// redundant have to: what a planar linkage repeats is normal to its plane, wherever that plane turns. Otherwise a
   /// component may choose axes (its forces are the same).
   bool carried_axes = true;
-  /// Size of the component's local vector: [6 per node (dx, dTheta) | amplitudes | first-order | multipliers].
-  int size() const { return amplitude_row() + amplitudes + first_orders + multipliers; }
+  std::vector<const Slots*> references;  ///< of the components that this one refers to, in the order of its declaration
+  std::vector<int> reference_rows;       ///< first local row of each
+  int referenced = 0;                    ///< local rows of all of them together
+  /// Size of the component's local vector.
+  int size() const { return own_size() + referenced; }
+  int own_size() const { return multiplier_row() + multipliers; }
   int amplitude_row() const { return 6 * static_cast<int>(nodes.size()); }
   int first_order_row() const { return amplitude_row() + amplitudes; }
   int multiplier_row() const { return first_order_row() + first_orders; }
+  int reference_row(int k) const { return reference_rows[static_cast<std::size_t>(k)]; }
+  /// Appends the component's view of another. The other's slots must be complete and stay where they are.
+  void refer_to(const Slots& other) {
+    references.push_back(&other);
+    reference_rows.push_back(size());
+    referenced += other.size();
+  }
 };
 
 /// The part of a state that one component sees. A view: cheap, made on the spot, outlived by the state.
@@ -79,6 +100,20 @@ class LocalState {
     return {state_.first_order_rate.data() + slots_.first_order_begin, slots_.first_orders};
   }
   Segment multiplier() const { return {state_.multiplier.data() + slots_.multiplier_begin, slots_.multipliers}; }
+  /// The multipliers as reported and as forces read them: where redundancy leaves them undetermined, those of the
+  /// reactions of smallest norm.
+  Segment reaction() const {
+    const VectorX& reported = state_.reaction.size() > 0 ? state_.reaction : state_.multiplier;
+    return {reported.data() + slots_.multiplier_begin, slots_.multipliers};
+  }
+  /// Whether the k-th own constraint is out of the equations.
+  bool idle(int k) const {
+    return !state_.idle.empty() && state_.idle[static_cast<std::size_t>(slots_.multiplier_begin + k)] != 0;
+  }
+  /// What the k-th component that this one refers to sees.
+  LocalState of(int k) const {
+    return {state_, *slots_.references[static_cast<std::size_t>(k)], environment_};
+  }
   Segment memory() const { return {state_.memory.data() + slots_.memory_begin, slots_.memories}; }
 
  private:

@@ -1,6 +1,8 @@
 #include "mechanism/system/system.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -34,7 +36,10 @@ System::System(const Model& model) : model_(model), kinematics_(model) {
       units.push_back(scalar.units);
     }
   };
+  slots_.reserve(model.members().size());  // references point to them
   for (const Member& member : model.members()) {
+    const std::size_t index = slots_.size();
+    member_index_[member.component.get()] = index;
     Declaration declaration;
     member.component->declare(declaration);
     Slots slots;
@@ -52,9 +57,20 @@ System::System(const Model& model) : model_(model), kinematics_(model) {
     append(declaration.multipliers, member, multiplier, multiplier_names, multiplier_units);
     for (const Declaration::Scalar& scalar : declaration.multipliers) constraint_kinds_.push_back(scalar.kind);
     memory.insert(memory.end(), declaration.memory.begin(), declaration.memory.end());
+    for (int k = 0; k < slots.multipliers; ++k)
+      if (declaration.multipliers[static_cast<std::size_t>(k)].switched)
+        switched_.push_back({index, k, slots.multiplier_begin + k});
+    for (int k = 0; k < static_cast<int>(declaration.crossings.size()); ++k) {
+      const Crossing& crossing = declaration.crossings[static_cast<std::size_t>(k)];
+      crossings_.push_back({index, k, crossing, fmt::format("{} of {}", crossing.name, describe(member))});
+    }
+    if (!declaration.passive) acting_.push_back(index);
+    reads_reactions_ = reads_reactions_ || declaration.reads_reactions;
+    kinks_ = kinks_ || declaration.kinks || declaration.reads_reactions;
     slots_.push_back(slots);
     declarations.push_back(std::move(declaration));
   }
+  resolve_references(declarations);
   const auto as_vector = [](const std::vector<double>& values) {
     return VectorX(Eigen::Map<const VectorX>(values.data(), static_cast<Eigen::Index>(values.size())));
   };
@@ -83,8 +99,60 @@ System::System(const Model& model) : model_(model), kinematics_(model) {
   place(declarations);
 }
 
+void System::resolve_references(const std::vector<Declaration>& declarations) {
+  enum class Progress : char { untouched, under_way, done };
+  std::vector<Progress> progress(slots_.size(), Progress::untouched);
+  const std::function<void(std::size_t)> resolve = [&](std::size_t m) {
+    progress[m] = Progress::under_way;
+    for (const Component* component : declarations[m].references) {
+      const auto found = member_index_.find(component);
+      if (found == member_index_.end())
+        throw std::logic_error("component '" + component->name() + "' is referred to but not part of the model");
+      const std::size_t other = found->second;
+      if (progress[other] == Progress::under_way) {
+        const std::string name = describe(model_.members()[m]), to = describe(model_.members()[other]);
+        throw InputError(other == m ? fmt::format("{} refers to itself", name)
+                                    : fmt::format("{} refers to {}, which refers back to it", name, to));
+      }
+      if (progress[other] == Progress::untouched) resolve(other);
+      slots_[m].refer_to(slots_[other]);
+    }
+    progress[m] = Progress::done;
+  };
+  for (std::size_t m = 0; m < slots_.size(); ++m)
+    if (progress[m] == Progress::untouched) resolve(m);
+}
+
+void System::add_parts(Placement& placement, const Slots& slots, int local, bool own) const {
+  const auto reduced = [&] { return static_cast<int>(placement.unknown.size()); };
+  for (std::size_t k = 0; k < slots.nodes.size(); ++k) {
+    const int node = slots.nodes[k];
+    const Carry* carry = kinematics_.carry(node);
+    const NodeFreedom& f = kinematics_.freedom(carry ? carry->carrier : node);
+    placement.nodes.push_back({node, local + 6 * static_cast<int>(k), reduced()});
+    for (int c = 0; c < f.count; ++c) placement.unknown.push_back(f.begin + c);
+    if (placement.plain && f.count == 0) placement.unknown.insert(placement.unknown.end(), 6, -1);
+  }
+  const auto add_scalars = [&](Kind kind, int row, int begin, int count) {
+    if (count > 0) placement.scalars.push_back({kind, local + row, reduced(), count, begin, own});
+    for (int k = 0; k < count; ++k) placement.unknown.push_back(begin + k);
+  };
+  add_scalars(Kind::amplitude, slots.amplitude_row(), kinematics_.unknowns() + slots.amplitude_begin, slots.amplitudes);
+  add_scalars(Kind::first_order, slots.first_order_row(), dofs() + slots.first_order_begin, slots.first_orders);
+  add_scalars(Kind::multiplier, slots.multiplier_row(), dofs() + first_orders_ + slots.multiplier_begin,
+              slots.multipliers);
+  for (std::size_t k = 0; k < slots.references.size(); ++k)
+    add_parts(placement, *slots.references[k], local + slots.reference_rows[k], false);
+}
+
 void System::place(const std::vector<Declaration>& declarations) {
-  const int first_multiplier = dofs() + first_orders_;
+  const std::function<bool(const Slots&)> plain = [&](const Slots& slots) {
+    const auto is_plain = [&](int node) {
+      return !kinematics_.carry(node) && (kinematics_.freedom(node).all_free || kinematics_.freedom(node).count == 0);
+    };
+    return std::all_of(slots.nodes.begin(), slots.nodes.end(), is_plain) &&
+           std::all_of(slots.references.begin(), slots.references.end(), [&](const Slots* other) { return plain(*other); });
+  };
   for (std::size_t m = 0; m < slots_.size(); ++m) {
     const Slots& slots = slots_[m];
     Placement placement;
@@ -94,27 +162,18 @@ void System::place(const std::vector<Declaration>& declarations) {
     for (std::size_t k = 0; k < declarations[m].multipliers.size(); ++k)
       if (declarations[m].multipliers[k].kind == ConstraintKind::nonholonomic)
         placement.nonholonomic.push_back(slots.multiplier_row() + static_cast<int>(k));
-    for (const int node : slots.nodes) {
-      const Carry* carry = kinematics_.carry(node);
-      const NodeFreedom& f = kinematics_.freedom(carry ? carry->carrier : node);
-      if (carry || !(f.all_free || f.count == 0)) placement.plain = false;
-    }
-    placement.in_blocks =
-        declarations[m].in_blocks && placement.plain && placement.nonholonomic.empty() && slots.first_orders == 0;
-    for (const int node : slots.nodes) {
-      const Carry* carry = kinematics_.carry(node);
-      const NodeFreedom& f = kinematics_.freedom(carry ? carry->carrier : node);
-      placement.reduced_begin.push_back(static_cast<int>(placement.unknown.size()));
-      for (int c = 0; c < f.count; ++c) placement.unknown.push_back(f.begin + c);
-      if (placement.plain && f.count == 0) placement.unknown.insert(placement.unknown.end(), 6, -1);
-    }
-    const auto append = [&](int begin, int count) {
-      for (int k = 0; k < count; ++k) placement.unknown.push_back(begin + k);
-    };
-    append(kinematics_.unknowns() + slots.amplitude_begin, slots.amplitudes);
-    append(dofs() + slots.first_order_begin, slots.first_orders);
-    append(first_multiplier + slots.multiplier_begin, slots.multipliers);
-    for (const int node : slots.nodes) force_rows_.push_back(kinematics_.force_row(node));
+    placement.plain = plain(slots);
+    placement.own_size = slots.own_size();
+    placement.own_nodes_end = slots.amplitude_row();
+    placement.in_blocks = declarations[m].in_blocks && placement.plain && placement.nonholonomic.empty() &&
+                          slots.first_orders == 0 && slots.references.empty();
+    add_parts(placement, slots, 0, true);
+    placement.reads_multipliers =
+        std::any_of(placement.scalars.begin(), placement.scalars.end(),
+                    [](const ScalarPart& part) { return part.kind == Kind::multiplier && !part.own; });
+    if (declarations[m].passive) placement.stiffness = placement.damping = placement.mass = false;
+    if (!declarations[m].passive)
+      for (const int node : slots.nodes) force_rows_.push_back(kinematics_.force_row(node));
     largest_local_ = std::max(largest_local_, slots.size());
     placements_.push_back(std::move(placement));
   }
@@ -132,8 +191,8 @@ LocalPattern System::reduced_pattern(std::size_t member) const {
   }
   model_.members()[member].component->add_pattern(slots, pattern);
   // T(Dq) mixes the three columns of a rotation.
-  for (std::size_t k = 0; k < slots.nodes.size(); ++k)
-    for (int row = 0, first = 6 * static_cast<int>(k) + 3; row < size; ++row)
+  for (const NodePart& part : placement.nodes)
+    for (int row = 0, first = part.local + 3; row < size; ++row)
       if (pattern.has(row, first) || pattern.has(row, first + 1) || pattern.has(row, first + 2))
         pattern.add_block(row, first, 1, 3);
   return pattern;
@@ -153,7 +212,8 @@ BlockPlaces System::block_places(const Slots& slots, const std::vector<Target>& 
 }
 
 void System::build_pattern() {
-  // A constraint does not depend on multipliers: that block stays out of the pattern, but for those set aside.
+  // A constraint does not depend on multipliers: that block stays out of the pattern, but for those that may be out of
+  // the equations. Nobody adds to the constraints of others.
   const int first_multiplier = dofs() + first_orders_;
   std::vector<std::pair<int, int>> entries;
   const auto for_each_kept = [&](std::size_t member, const auto& act) {
@@ -161,11 +221,16 @@ void System::build_pattern() {
     if (!placement.stiffness && !placement.damping && !placement.mass) return;
     const LocalPattern pattern = reduced_pattern(member);
     const auto n = static_cast<int>(placement.unknown.size());
+    std::vector<bool> of_others(static_cast<std::size_t>(n), false);
+    for (const ScalarPart& part : placement.scalars)
+      if (part.kind == Kind::multiplier && !part.own)
+        std::fill_n(of_others.begin() + part.reduced, part.count, true);
     for (int j = 0; j < n; ++j)
       for (int i = 0; i < n; ++i) {
         const int row = placement.unknown[static_cast<std::size_t>(i)],
                   column = placement.unknown[static_cast<std::size_t>(j)];
-        if (row >= 0 && column >= 0 && !(row >= first_multiplier && column >= first_multiplier) && pattern.has(i, j))
+        if (row >= 0 && column >= 0 && !(row >= first_multiplier && column >= first_multiplier) &&
+            !of_others[static_cast<std::size_t>(i)] && pattern.has(i, j))
           act(j * n + i, row, column);
       }
   };
@@ -174,6 +239,9 @@ void System::build_pattern() {
   for (int i = 0; i < dofs(); ++i) entries.emplace_back(i, i);  // solvers add to it
   for (const int multiplier : set_aside_)
     entries.emplace_back(first_multiplier + multiplier, first_multiplier + multiplier);
+  // Which constraints are redundant may change with those that are switched.
+  if (switches())
+    for (int row = first_multiplier; row < size(); ++row) entries.emplace_back(row, row);
   pattern_ = SparsePattern(size(), std::move(entries));
   for (std::size_t member = 0; member < placements_.size(); ++member) {
     std::vector<Target> targets;
@@ -183,6 +251,29 @@ void System::build_pattern() {
     placements_[member].targets = in_triples(targets);
     if (placements_[member].in_blocks) placements_[member].places = block_places(slots_[member], targets);
   }
+  find_idle_places();
+}
+
+void System::find_idle_places() {
+  idle_places_.assign(static_cast<std::size_t>(multipliers_), {});
+  const int first = dofs() + first_orders_;
+  std::vector<bool> wanted(static_cast<std::size_t>(multipliers_), switches());
+  for (const int multiplier : set_aside_) wanted[static_cast<std::size_t>(multiplier)] = true;
+  const auto places_of = [&](int unknown) -> IdlePlaces* {
+    const auto k = static_cast<std::size_t>(unknown - first);
+    return unknown >= first && wanted[k] ? &idle_places_[k] : nullptr;
+  };
+  for (int column = 0; column < size(); ++column)
+    for (int k = pattern_.column_start()[static_cast<std::size_t>(column)];
+         k < pattern_.column_start()[static_cast<std::size_t>(column) + 1]; ++k) {
+      const int row = pattern_.row()[static_cast<std::size_t>(k)];
+      if (row == column) {
+        if (IdlePlaces* const places = places_of(row)) places->diagonal = k;
+        continue;
+      }
+      for (const int unknown : {row, column})
+        if (IdlePlaces* const places = places_of(unknown)) places->entries.push_back(k);
+    }
 }
 
 System::Targets System::in_triples(const std::vector<Target>& targets) {
@@ -205,20 +296,10 @@ void System::set_aside(const std::vector<int>& multipliers) {
     slots.carried_axes = std::any_of(multipliers.begin(), multipliers.end(), [&](int multiplier) {
       return multiplier >= slots.multiplier_begin && multiplier < slots.multiplier_begin + slots.multipliers;
     });
+  // Rows that may be set aside later have to be carried, too.
+  if (switches())
+    for (Slots& slots : slots_) slots.carried_axes = true;
   build_pattern();
-  set_aside_entries_.clear();
-  set_aside_diagonal_.clear();
-  std::vector<bool> aside(static_cast<std::size_t>(size()), false);
-  for (const int multiplier : multipliers) aside[static_cast<std::size_t>(dofs() + first_orders_ + multiplier)] = true;
-  for (int column = 0; column < size(); ++column)
-    for (int k = pattern_.column_start()[static_cast<std::size_t>(column)];
-         k < pattern_.column_start()[static_cast<std::size_t>(column) + 1]; ++k) {
-      const int row = pattern_.row()[static_cast<std::size_t>(k)];
-      if (row == column && aside[static_cast<std::size_t>(row)])
-        set_aside_diagonal_.push_back(k);
-      else if (aside[static_cast<std::size_t>(row)] || aside[static_cast<std::size_t>(column)])
-        set_aside_entries_.push_back(k);
-    }
 }
 
 std::string System::unknown_name(int unknown) const {
@@ -339,18 +420,60 @@ std::vector<double> System::break_points() const {
   return times;
 }
 
-void System::accept(State& state, const Environment& environment) const {
+bool System::accept(State& state, const Environment& environment) const {
   thread_local VectorX memory;
   memory = state.memory;
-  for (std::size_t m = 0; m < slots_.size(); ++m)
-    if (slots_[m].memories > 0)
-      model_.members()[m].component->accept(LocalState(state, slots_[m], environment),
-                                            memory.segment(slots_[m].memory_begin, slots_[m].memories));
+  bool branches_left = false;
+  for (std::size_t m = 0; m < slots_.size(); ++m) {
+    if (slots_[m].memories == 0) continue;
+    const Component& component = *model_.members()[m].component;
+    const LocalState local(state, slots_[m], environment);
+    if (component.leaves_branch(local)) branches_left = true;
+    component.accept(local, memory.segment(slots_[m].memory_begin, slots_[m].memories));
+  }
   state.memory.swap(memory);
   // One Newton step of the polar decomposition removes the rounding that products of rotations gather.
   for (NodeState& node : state.nodes) {
     const Matrix3 excess = node.R.transpose() * node.R;
     node.R = node.R * (1.5 * Matrix3::Identity() - 0.5 * excess);
+  }
+  return branches_left;
+}
+
+void System::begin_branch(State& state, const Environment& environment, const std::vector<int>& crossed) const {
+  VectorX memory = state.memory;
+  std::vector<int> own;
+  for (std::size_t m = 0; m < slots_.size(); ++m) {
+    if (slots_[m].memories == 0) continue;
+    own.clear();
+    for (const int k : crossed)
+      if (crossings_[static_cast<std::size_t>(k)].member == m) own.push_back(crossings_[static_cast<std::size_t>(k)].index);
+    model_.members()[m].component->begin_branch(LocalState(state, slots_[m], environment), own,
+                                                memory.segment(slots_[m].memory_begin, slots_[m].memories));
+  }
+  state.memory = memory;
+  switch_constraints(state, environment);
+}
+
+void System::switch_constraints(State& state, const Environment& environment) const {
+  if (!switches()) return;
+  state.idle.assign(static_cast<std::size_t>(multipliers_), Idle::active);
+  for (const Switched& each : switched_)
+    if (!model_.members()[each.member].component->is_on(LocalState(state, slots_[each.member], environment), each.row)) {
+      state.idle[static_cast<std::size_t>(each.multiplier)] = Idle::switched_off;
+      state.multiplier[each.multiplier] = 0;
+    }
+}
+
+void System::calc_crossings(const State& state, const Environment& environment, Eigen::Ref<VectorX> values) const {
+  for (std::size_t k = 0; k < crossings_.size();) {
+    const std::size_t member = crossings_[k].member;
+    std::size_t end = k;
+    while (end < crossings_.size() && crossings_[end].member == member) ++end;
+    const auto count = static_cast<Eigen::Index>(end - k);
+    model_.members()[member].component->calc_crossings(LocalState(state, slots_[member], environment),
+                                                       values.segment(static_cast<Eigen::Index>(k), count));
+    k = end;
   }
 }
 
