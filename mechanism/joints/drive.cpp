@@ -10,7 +10,7 @@ namespace bielle::mechanism {
 Drive::Drive(std::string name, const Joint& joint, std::size_t coordinate, Expression f)
     : Component("drive", std::move(name)), joint_(joint), coordinate_(coordinate), f_(std::move(f)) {}
 
-Measure Drive::measure(const LocalState& state) const {
+PairMeasure Drive::measure(const LocalState& state) const {
   return joint_.calc_coordinate(coordinate_, state.node(0), state.node(1));
 }
 
@@ -49,8 +49,8 @@ void Drive::add_break_points(std::vector<double>& times) const {
 
 // -- position
 
-Measure PositionDrive::distance(const LocalState& state) const {
-  Measure m = measure(state);
+PairMeasure PositionDrive::distance(const LocalState& state) const {
+  PairMeasure m = measure(state);
   const double target = state.motion_factor() * law()(state.time());
   // An angle is wanted modulo turns: the drive counts them by time, not by memory, so that steps of any size and
   // restarts find the same. Whole turns are taken off the target by itself: rounding of large angles would otherwise
@@ -70,14 +70,14 @@ void PositionDrive::declare(Declaration& declaration) const {
 }
 
 void PositionDrive::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
-  const Measure m = distance(state);
+  const PairMeasure m = distance(state);
   r.head<12>() += state.multiplier()[0] * m.gradient;
   r[12] += m.value;
 }
 
 void PositionDrive::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   if (!tangent.wants_K) return;
-  const Measure m = distance(state);
+  const PairMeasure m = distance(state);
   tangent.K.topLeftCorner<12, 12>() += state.multiplier()[0] * m.second;
   tangent.K.block<12, 1>(0, 12) += m.gradient;
   tangent.K.block<1, 12>(12, 0) += m.gradient.transpose();
@@ -85,7 +85,7 @@ void PositionDrive::add_tangent(const LocalState& state, LocalTangent& tangent) 
 
 void PositionDrive::add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
                                          Eigen::Ref<VectorX> acceleration) const {
-  const Measure m = measure(state);
+  const PairMeasure m = measure(state);
   const Vector12 v = pair_rate(state.node(0), state.node(1)), a = pair_acceleration(state.node(0), state.node(1));
   velocity[0] += m.rate(v) - law().derivative(state.time(), 1);
   acceleration[0] += m.acceleration(v, a) - law().derivative(state.time(), 2);
@@ -106,13 +106,13 @@ void RateDrive::declare(Declaration& declaration) const {
 }
 
 void RateDrive::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
-  const Measure m = measure(state);
+  const PairMeasure m = measure(state);
   r.head<12>() += state.multiplier()[0] * m.gradient;
   r[12] += m.rate(pair_rate(state.node(0), state.node(1))) - law()(state.time());
 }
 
 void RateDrive::add_tangent(const LocalState& state, LocalTangent& tangent) const {
-  const Measure m = measure(state);
+  const PairMeasure m = measure(state);
   if (tangent.wants_K) {
     tangent.K.topLeftCorner<12, 12>() += state.multiplier()[0] * m.second;
     tangent.K.block<12, 1>(0, 12) += m.gradient;
@@ -124,7 +124,7 @@ void RateDrive::add_tangent(const LocalState& state, LocalTangent& tangent) cons
 
 void RateDrive::add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
                                      Eigen::Ref<VectorX> acceleration) const {
-  const Measure m = measure(state);
+  const PairMeasure m = measure(state);
   const Vector12 v = pair_rate(state.node(0), state.node(1)), a = pair_acceleration(state.node(0), state.node(1));
   velocity[0] += m.rate(v) - law()(state.time());
   acceleration[0] += m.acceleration(v, a) - law().derivative(state.time(), 1);

@@ -24,7 +24,7 @@ class Drive : public Component {
   void add_break_points(std::vector<double>& times) const final;
 
  protected:
-  Measure measure(const LocalState& state) const;           ///< the joint's coordinate
+  PairMeasure measure(const LocalState& state) const;           ///< the joint's coordinate
   void declare_nodes(Declaration& declaration) const;       ///< those of the joint, with a stiffness
   std::string force_units() const;                          ///< of the driven coordinate
   virtual double force(const LocalState& state) const = 0;  ///< along the coordinate [N] or [N m]
@@ -49,7 +49,7 @@ class PositionDrive final : public Drive {
   void add_energy(const LocalState& state, Energy& energy) const override;
 
  private:
-  Measure distance(const LocalState& state) const;  ///< from where the law wants the coordinate
+  PairMeasure distance(const LocalState& state) const;  ///< from where the law wants the coordinate
   double force(const LocalState& state) const override;
 };
 

@@ -5,6 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "mechanism/joints/pair_rotation.hpp"
+
 namespace bielle::mechanism {
 
 Joint::Joint(std::string type, std::string name, JointFrames frames, std::vector<JointCoordinate> coordinates,
@@ -16,54 +18,61 @@ Joint::Joint(std::string type, std::string name, JointFrames frames, std::vector
       first_name_(model.node(frames_.first).name),
       second_name_(model.node(frames_.second).name) {}
 
-Measure Joint::calc_coordinate(std::size_t index, const NodeState& first, const NodeState& second) const {
-  const JointCoordinate& coordinate = coordinates_[index];
-  if (coordinate.kind == JointCoordinate::Kind::rotation)
-    throw std::logic_error("a rotation vector's component is no measure");
-  return coordinate.kind == JointCoordinate::Kind::angle
-             ? measure_angle(first, second, frames_.on_first.R, frames_.on_second.R)
-             : measure_position(first, second, frames_.on_first.R.col(coordinate.axis), frames_.on_first.x,
-                                frames_.on_second.x);
+std::size_t Joint::coordinate_index(const std::string& name) const {
+  std::size_t index = 0;
+  while (coordinates_.at(index).name != name) ++index;
+  return index;
 }
 
-MeasureRate Joint::value_and_rate(std::size_t index, const LocalState& state) const {
+CoordinateRate Joint::principal_coordinate(std::size_t index, const LocalState& state) const {
   const NodeState &first = state.node(0), &second = state.node(1);
   const Frame &A = frames_.on_first, &B = frames_.on_second;
   const JointCoordinate& coordinate = coordinates_[index];
-  if (coordinate.kind == JointCoordinate::Kind::rotation)
-    throw std::logic_error("a rotation vector's component is no measure");
-  if (coordinate.kind == JointCoordinate::Kind::displacement)
-    return measure_position_rate(first, second, A.R.col(coordinate.axis), A.x, B.x);
-  const auto [value, rate] = measure_angle_rate(first, second, A.R, B.R);
+  if (coordinate.kind == JointCoordinate::Kind::rotation) {
+    const PairRotation rotation(first, second, A.R, B.R);
+    return {rotation.psi()[coordinate.axis], rotation.omega(first, second)[coordinate.axis]};
+  }
+  const auto [value, rate] = coordinate.kind == JointCoordinate::Kind::displacement
+                                 ? measure_position_rate(first, second, A.R.col(coordinate.axis), A.x, B.x)
+                                 : measure_angle_rate(first, second, A.R, B.R);
+  return {value, rate};
+}
+
+double Joint::counted(std::size_t index, const LocalState& state, const CoordinateRate& principal) const {
+  if (coordinates_[index].kind != JointCoordinate::Kind::angle) return principal.value;
   const auto memory = state.memory();
   const auto at = 2 * static_cast<Eigen::Index>(index);
   const double time_before = memory[memory.size() - 1];
   // Before the first step: as far as statics have brought the drive that starts elsewhere than drawn.
-  const double expected = std::isnan(time_before)
-                              ? state.motion_factor() * memory[at]
-                              : memory[at] + 0.5 * (memory[at + 1] + rate) * (state.time() - time_before);
-  return {unwrap_angle(value, expected), rate};
+  const double expected =
+      std::isnan(time_before)
+          ? state.motion_factor() * memory[at]
+          : memory[at] + 0.5 * (memory[at + 1] + principal.rate) * (state.time() - time_before);
+  return unwrap_angle(principal.value, expected);
 }
 
-void Joint::write_coordinates(const LocalState& state, double* values, double* rates) const {
-  const auto is_rotation = [](const JointCoordinate& c) { return c.kind == JointCoordinate::Kind::rotation; };
-  Vector3 turned = Vector3::Zero(), spin = Vector3::Zero();
-  if (std::any_of(coordinates_.begin(), coordinates_.end(), is_rotation)) {
-    const NodeState &first = state.node(0), &second = state.node(1);
-    const Matrix3 A = first.R * frames_.on_first.R, B = second.R * frames_.on_second.R;
-    turned = log_so3(Matrix3(A.transpose() * B));
-    spin = A.transpose() * (second.R * second.Omega - first.R * first.Omega);
+CoordinateRate Joint::coordinate(std::size_t index, const LocalState& state) const {
+  const CoordinateRate principal = principal_coordinate(index, state);
+  return {counted(index, state, principal), principal.rate};
+}
+
+void Joint::calc_coordinate(std::size_t index, const LocalState& state, CoordinateJet& jet) const {
+  const NodeState &first = state.node(0), &second = state.node(1);
+  const Frame &A = frames_.on_first, &B = frames_.on_second;
+  const JointCoordinate& coordinate = coordinates_[index];
+  jet.prepare(state.slots().size());
+  if (coordinate.kind == JointCoordinate::Kind::rotation) {
+    PairRotation(first, second, A.R, B.R).calc(coordinate.axis, first, second, jet);
+    return;
   }
-  for (std::size_t k = 0; k < coordinates_.size(); ++k) {
-    if (is_rotation(coordinates_[k])) {
-      values[k] = turned[coordinates_[k].axis];
-      rates[k] = spin[coordinates_[k].axis];
-    } else {
-      const auto [value, rate] = value_and_rate(k, state);
-      values[k] = value;
-      rates[k] = rate;
-    }
-  }
+  const PairMeasure m = coordinate.kind == JointCoordinate::Kind::angle
+                            ? measure_angle(first, second, A.R, B.R)
+                            : measure_position(first, second, A.R.col(coordinate.axis), A.x, B.x);
+  jet.g().head<12>() = jet.w().head<12>() = m.gradient;
+  jet.S().topLeftCorner<12, 12>() = jet.W().topLeftCorner<12, 12>() = m.second;
+  jet.principal = m.value;
+  jet.rate = m.rate(pair_rate(first, second));
+  jet.value = counted(index, state, {jet.principal, jet.rate});
 }
 
 void Joint::declare(Declaration& declaration) const {
@@ -75,7 +84,7 @@ void Joint::declare(Declaration& declaration) const {
 void Joint::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {
   for (std::size_t k = 0; k < coordinates_.size(); ++k) {
     if (coordinates_[k].kind != JointCoordinate::Kind::angle) continue;  // only turns are counted
-    const auto [value, rate] = value_and_rate(k, state);
+    const auto [value, rate] = coordinate(k, state);
     memory.segment<2>(2 * static_cast<Eigen::Index>(k)) << value, rate;
   }
   memory[memory.size() - 1] = state.time();
@@ -85,11 +94,11 @@ std::vector<OutputField> Joint::output_fields() const {
   std::vector<OutputField> fields;
   if (!coordinates_.empty()) {
     std::string names, units, rate_units;
-    for (const JointCoordinate& coordinate : coordinates_) {
+    for (const JointCoordinate& each : coordinates_) {
       const std::string separator = names.empty() ? "" : ", ";
-      names += separator + coordinate.name;
-      units += separator + coordinate.units();
-      rate_units += separator + coordinate.units() + "/s";
+      names += separator + each.name;
+      units += separator + each.units();
+      rate_units += separator + each.rate_units();
     }
     fields.push_back({"coordinate", {coordinates_.size()}, units, names});
     fields.push_back({"rate", {coordinates_.size()}, rate_units, names});
@@ -105,19 +114,16 @@ std::vector<OutputField> Joint::output_fields() const {
 }
 
 void Joint::write_output(const LocalState& state, double* values) const {
-  const NodeState &first = state.node(0), &second = state.node(1);
   const std::size_t count = coordinates_.size();
-  write_coordinates(state, values, values + count);
-  // What the joint adds to the second node's equations is what it takes from it.
-  thread_local VectorX r;
-  r.setZero(state.slots().size());
-  add_residual(state, r);
-  const Vector3 force = -r.segment<3>(6);
-  const Vector3 arm = second.R * frames_.on_second.x;
-  const Vector3 moment = -(second.R * r.segment<3>(9)) - arm.cross(force);
-  const Matrix3 axes = first.R * frames_.on_first.R;
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto [value, rate] = coordinate(k, state);
+    values[k] = value;
+    values[count + k] = rate;
+  }
+  const Vector6 in_axes = calc_reaction(state);
+  const Matrix3 axes = state.node(0).R * frames_.on_first.R;
   Eigen::Map<Eigen::Matrix<double, 12, 1>> reaction(values + 2 * count);
-  reaction << axes.transpose() * force, axes.transpose() * moment, force, moment;
+  reaction << in_axes, axes * in_axes.head<3>(), axes * in_axes.tail<3>();
 }
 
 std::vector<std::pair<std::string, std::string>> Joint::attributes() const {

@@ -10,20 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "mechanism/joints/measure.hpp"
+#include "mechanism/joints/coordinate.hpp"
+#include "mechanism/joints/pair_measure.hpp"
 #include "mechanism/system/model.hpp"
 
 namespace bielle::mechanism {
-
-/// What a coordinate is: a displacement along an axis of the joint's frame, an angle about its z axis, or a component
-/// of the rotation vector of J_B beside J_A (principal value; its rate is the relative angular velocity).
-struct JointCoordinate {
-  enum class Kind { displacement, angle, rotation };
-  std::string name;  ///< "angle", "displacement", "x", ...
-  Kind kind = Kind::displacement;
-  int axis = 2;  ///< 0 x, 1 y, 2 z
-  const char* units() const { return kind == Kind::displacement ? "m" : "rad"; }
-};
 
 /// Frames of a joint on its two nodes, in the nodes' axes.
 struct JointFrames {
@@ -38,8 +29,23 @@ class Joint : public Component {
 
   const JointFrames& frames() const { return frames_; }
   const std::vector<JointCoordinate>& coordinates() const { return coordinates_; }
-  /// A displacement or angle (in (-pi, pi]) of the two nodes, with its derivatives.
-  Measure calc_coordinate(std::size_t index, const NodeState& first, const NodeState& second) const;
+  /// @throws std::out_of_range when there is none of that name
+  std::size_t coordinate_index(const std::string& name) const;
+  /// The value, counted over turns, and the rate. @param state  of this joint
+  CoordinateRate coordinate(std::size_t index, const LocalState& state) const;
+  /// The same with all derivatives over the joint's local layout.
+  virtual void calc_coordinate(std::size_t index, const LocalState& state, CoordinateJet& jet) const;
+
+  /// Force and moment that the joint exerts on its second node, about the attachment point there, along the axes of its
+  /// frame: those of the multipliers as reported, in whatever axes the rows are written.
+  virtual Vector6 calc_reaction(const LocalState& state) const;
+  /// The same with its derivatives over the joint's local layout. @param derivatives  (6, slots().size())
+  virtual Vector6 calc_reaction(const LocalState& state, MatrixX& derivatives) const;
+  /// What each multiplier makes of the reaction. @returns (6, multipliers)
+  MatrixX reaction_of_multipliers(const LocalState& state) const;
+
+  const std::string& first_name() const { return first_name_; }
+  const std::string& second_name() const { return second_name_; }
 
   /// The value of an angle at the start [rad], to count turns from (a drive begins some turns away). Default 0.
   void start_at(std::size_t coordinate, double value) { start_[coordinate] = value; }
@@ -49,14 +55,18 @@ class Joint : public Component {
   void write_output(const LocalState& state, double* values) const override;
   std::vector<std::pair<std::string, std::string>> attributes() const override;
   void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
+  /// "<coordinate>", "<coordinate>.rate", "reaction.x" (y z rx ry rz).
+  std::vector<std::string> measure_names() const override;
+  std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const override;
+
+ protected:
+  /// A coordinate's value, angles in (-pi, pi], and its rate.
+  virtual CoordinateRate principal_coordinate(std::size_t index, const LocalState& state) const;
 
  private:
-  /// A displacement or angle; angles are unwrapped beside what the joint's memory and the rates let expect, so that a
-  /// step may turn by more than half a turn. Memory: [value, rate of each coordinate | time], of the last accepted
-  /// step.
-  MeasureRate value_and_rate(std::size_t index, const LocalState& state) const;
-  /// All coordinates, also rotation vectors, and their rates.
-  void write_coordinates(const LocalState& state, double* values, double* rates) const;
+  /// An angle with the whole turns that the joint's memory and the rates let expect, so that a step may turn by more
+  /// than half a turn. Memory: [value, rate of each coordinate | time], of the last accepted step.
+  double counted(std::size_t index, const LocalState& state, const CoordinateRate& principal) const;
   JointFrames frames_;
   std::vector<JointCoordinate> coordinates_;
   std::vector<double> start_;

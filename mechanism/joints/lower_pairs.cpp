@@ -17,7 +17,7 @@ LowerPair::LowerPair(std::string type, std::string name, JointFrames frames, std
   if (locked.rotation == LockedMotions::Rotation::all) rows_.push_back({false, 0, 1, "rz"});
 }
 
-Measure LowerPair::calc_row(const Row& row, const NodeState& first, const NodeState& second) const {
+PairMeasure LowerPair::calc_row(const Row& row, const NodeState& first, const NodeState& second) const {
   const Frame &A = frames().on_first, &B = frames().on_second;
   return row.is_translation ? measure_position(first, second, A.R.col(row.first_axis), A.x, B.x)
                             : measure_alignment(first, second, A.R.col(row.first_axis), B.R.col(row.second_axis));
@@ -136,7 +136,7 @@ void LowerPair::add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX
   const Vector12 v = pair_rate(first, second), a = pair_acceleration(first, second);
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     if (rows_[k].is_translation && inertial(state)) continue;
-    const Measure m = calc_row(rows_[k], first, second);
+    const PairMeasure m = calc_row(rows_[k], first, second);
     velocity[static_cast<Eigen::Index>(k)] += m.rate(v);
     acceleration[static_cast<Eigen::Index>(k)] += m.acceleration(v, a);
   }

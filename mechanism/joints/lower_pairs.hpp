@@ -46,7 +46,7 @@ class LowerPair final : public Joint {
     int second_axis;  ///< on the second node (rotations)
     const char* name;
   };
-  Measure calc_row(const Row& row, const NodeState& first, const NodeState& second) const;
+  PairMeasure calc_row(const Row& row, const NodeState& first, const NodeState& second) const;
   /// Whether the locked translations are rows in inertial axes.
   bool inertial(const LocalState& state) const { return inertial(state.slots()); }
   bool inertial(const Slots& slots) const { return locks_point_ && !slots.carried_axes; }

@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "mechanism/system/measure.hpp"
+
 namespace bielle::mechanism {
 
 void Component::add_tangent(const LocalState& state, LocalTangent& tangent) const {
@@ -12,6 +14,10 @@ void Component::add_tangent(const LocalState& state, LocalTangent& tangent) cons
 
 void Component::add_blocks(const LocalState& /*state*/, BlockTangent& /*tangent*/) const {
   throw std::logic_error("component type '" + type_ + "' gives no derivatives");
+}
+
+std::unique_ptr<Measure> Component::make_measure(const std::string& /*name*/, const std::string& measure) const {
+  throw std::logic_error("component type '" + type_ + "' has no measure '" + measure + "'");
 }
 
 void Component::add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX>, Eigen::Ref<VectorX>) const {

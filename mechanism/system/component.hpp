@@ -16,6 +16,7 @@
 // That a node is free, fixed, driven or carried rigidly by another is system/'s business: components never ask.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -27,6 +28,7 @@
 namespace bielle::mechanism {
 
 class Component;
+class Measure;
 
 enum class ConstraintKind { holonomic, nonholonomic };  ///< Phi(q,t) = 0, or B(q) v + c(q,t) = 0
 
@@ -188,6 +190,11 @@ class Component {
   /// Whether the branch that an accepted step was computed on is not the one that goes on from its end, which no
   /// crossing told: the motion is started anew there.
   virtual bool leaves_branch(const LocalState& /*state*/) const { return false; }
+
+  /// What formulas may use of the component: "angle", "angle.rate", "reaction.x".
+  virtual std::vector<std::string> measure_names() const { return {}; }
+  /// One of them. @param name  as in the formula: "main.angle" @param measure  one of measure_names
+  virtual std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const;
 
   /// Whether a switched constraint row is in the equations, by the component's memory.
   virtual bool is_on(const LocalState& /*state*/, int /*row*/) const { return true; }

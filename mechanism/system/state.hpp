@@ -122,4 +122,10 @@ class LocalState {
   const Environment& environment_;
 };
 
+/// Velocities of all unknowns of a local state, in its layout: zero for first-order unknowns and multipliers.
+/// @param v  (slots().size())
+void get_local_velocities(const LocalState& state, Eigen::Ref<VectorX> v);
+/// The same of accelerations.
+void get_local_accelerations(const LocalState& state, Eigen::Ref<VectorX> a);
+
 }  // namespace bielle::mechanism

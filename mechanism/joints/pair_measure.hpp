@@ -38,7 +38,7 @@ struct PairHessian {
   Matrix12 dense() const;
 };
 
-struct Measure {
+struct PairMeasure {
   double value = 0;
   Vector12 gradient = Vector12::Zero();
   Matrix12 second = Matrix12::Zero();
@@ -102,23 +102,23 @@ class AxisPair {
 };
 
 /// The position measure of one axis, with its derivatives.
-Measure measure_position(const NodeState& first, const NodeState& second, const Vector3& e_hat, const Vector3& c_1,
+PairMeasure measure_position(const NodeState& first, const NodeState& second, const Vector3& e_hat, const Vector3& c_1,
                          const Vector3& c_2);
 
 /// The alignment measure, with its derivatives.
-Measure measure_alignment(const NodeState& first, const NodeState& second, const Vector3& a_hat, const Vector3& b_hat);
+PairMeasure measure_alignment(const NodeState& first, const NodeState& second, const Vector3& a_hat, const Vector3& b_hat);
 
 /// Angle atan2(y_A . x_B, x_A . x_B) in (-pi, pi] by which frame B of node 2 has turned beside frame A of node 1 about
 /// their common z axis. @param A,B  axes in the components of their nodes
-Measure measure_angle(const NodeState& first, const NodeState& second, const Matrix3& A, const Matrix3& B);
+PairMeasure measure_angle(const NodeState& first, const NodeState& second, const Matrix3& A, const Matrix3& B);
 
 /// A measure with its rate alone: for what is recorded and remembered at every step.
-struct MeasureRate {
+struct PairMeasureRate {
   double value = 0, rate = 0;
 };
-MeasureRate measure_position_rate(const NodeState& first, const NodeState& second, const Vector3& e_hat,
+PairMeasureRate measure_position_rate(const NodeState& first, const NodeState& second, const Vector3& e_hat,
                                   const Vector3& c_1, const Vector3& c_2);
-MeasureRate measure_angle_rate(const NodeState& first, const NodeState& second, const Matrix3& A, const Matrix3& B);
+PairMeasureRate measure_angle_rate(const NodeState& first, const NodeState& second, const Matrix3& A, const Matrix3& B);
 
 /// `angle` plus the whole turns that bring it nearest to `previous`.
 double unwrap_angle(double angle, double previous);

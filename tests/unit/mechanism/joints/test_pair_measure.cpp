@@ -1,7 +1,7 @@
 // What is recorded of a joint at every step is what its measures with all their derivatives say.
 #include <catch2/catch.hpp>
 
-#include "mechanism/joints/measure.hpp"
+#include "mechanism/joints/pair_measure.hpp"
 #include "tests/support/random.hpp"
 
 using namespace bielle::mechanism;
@@ -18,7 +18,7 @@ NodeState random_node(Random& random) {
   return node;
 }
 
-void check_same(const MeasureRate& alone, const Measure& whole, const NodeState& first, const NodeState& second) {
+void check_same(const PairMeasureRate& alone, const PairMeasure& whole, const NodeState& first, const NodeState& second) {
   CHECK_THAT(alone.value, Catch::WithinAbs(whole.value, 1e-14));
   CHECK_THAT(alone.rate, Catch::WithinAbs(whole.rate(pair_rate(first, second)), 1e-12));
 }

@@ -1,4 +1,4 @@
-#include "mechanism/joints/measure.hpp"
+#include "mechanism/joints/pair_measure.hpp"
 
 #include <cmath>
 
@@ -118,7 +118,7 @@ void AxisPair::add_second(double factor, PairHessian& S) const {
   S.W += factor * skew_product(b_hat_, a_2_);
 }
 
-Measure measure_position(const NodeState& first, const NodeState& second, const Vector3& e_hat, const Vector3& c_1,
+PairMeasure measure_position(const NodeState& first, const NodeState& second, const Vector3& e_hat, const Vector3& c_1,
                          const Vector3& c_2) {
   const PointPair pair(first, second, first.R.transpose() * second.R, c_2);
   PairHessian S;
@@ -126,23 +126,23 @@ Measure measure_position(const NodeState& first, const NodeState& second, const 
   return {pair.value(e_hat, c_1), pair.gradient(e_hat), S.dense()};
 }
 
-Measure measure_alignment(const NodeState& first, const NodeState& second, const Vector3& a_hat, const Vector3& b_hat) {
+PairMeasure measure_alignment(const NodeState& first, const NodeState& second, const Vector3& a_hat, const Vector3& b_hat) {
   const Matrix3 R_12 = first.R.transpose() * second.R;
   const AxisPair pair(R_12, a_hat, b_hat);
   PairHessian S;
   pair.add_second(1, S);
-  Measure m{pair.value(), Vector12::Zero(), S.dense()};
+  PairMeasure m{pair.value(), Vector12::Zero(), S.dense()};
   m.gradient.segment<3>(3) = pair.first_gradient();
   m.gradient.segment<3>(9) = pair.second_gradient();
   return m;
 }
 
-Measure measure_angle(const NodeState& first, const NodeState& second, const Matrix3& A, const Matrix3& B) {
-  const Measure s = measure_alignment(first, second, A.col(1), B.col(0));
-  const Measure c = measure_alignment(first, second, A.col(0), B.col(0));
+PairMeasure measure_angle(const NodeState& first, const NodeState& second, const Matrix3& A, const Matrix3& B) {
+  const PairMeasure s = measure_alignment(first, second, A.col(1), B.col(0));
+  const PairMeasure c = measure_alignment(first, second, A.col(0), B.col(0));
   // theta = atan2(s, c): dtheta = (c ds - s dc)/w, w = s^2 + c^2; dw = 2 (s ds + c dc)
   const double w = s.value * s.value + c.value * c.value;
-  Measure m;
+  PairMeasure m;
   m.value = std::atan2(s.value, c.value);
   m.gradient = (c.value * s.gradient - s.value * c.gradient) / w;
   const Vector12 dw = 2 * (s.value * s.gradient + c.value * c.gradient);
@@ -152,7 +152,7 @@ Measure measure_angle(const NodeState& first, const NodeState& second, const Mat
   return m;
 }
 
-MeasureRate measure_position_rate(const NodeState& first, const NodeState& second, const Vector3& e_hat,
+PairMeasureRate measure_position_rate(const NodeState& first, const NodeState& second, const Vector3& e_hat,
                                   const Vector3& c_1, const Vector3& c_2) {
   const Vector3 s = first.R.transpose() * (second.x + second.R * c_2 - first.x);
   const Vector3 s_rate =
@@ -160,7 +160,7 @@ MeasureRate measure_position_rate(const NodeState& first, const NodeState& secon
   return {e_hat.dot(s - c_1), e_hat.dot(s_rate)};
 }
 
-MeasureRate measure_angle_rate(const NodeState& first, const NodeState& second, const Matrix3& A, const Matrix3& B) {
+PairMeasureRate measure_angle_rate(const NodeState& first, const NodeState& second, const Matrix3& A, const Matrix3& B) {
   const Vector3 b = first.R.transpose() * (second.R * B.col(0));
   const Vector3 relative = first.R.transpose() * (second.R * second.Omega) - first.Omega;
   const Vector3 b_rate = relative.cross(b);

@@ -1,0 +1,117 @@
+// The reaction of a joint in the axes of its frame, from what the joint adds to the equations of its second node.
+//
+// With f and m the rows that the joint adds to the force and moment equations of node 2 (inertial axes, node axes), the
+// joint exerts -f and -m. About the attachment point c on node 2, along the axes of the frame A on node 1:
+//     F = -A^T R_1^T f,     M = A^T R_12 N,   N = -m + c x R_2^T f,   R_12 = R_1^T R_2.
+#include <fmt/format.h>
+
+#include "mechanism/joints/joint.hpp"
+#include "mechanism/joints/joint_measures.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+constexpr int second_node = 6;  ///< first local row
+
+/// The wrench of rows [f; m].
+struct Wrench {
+  Matrix3 A, R_1, R_2, R_12;
+  Vector3 c;
+  Wrench(const JointFrames& frames, const NodeState& first, const NodeState& second)
+      : A(frames.on_first.R),
+        R_1(first.R),
+        R_2(second.R),
+        R_12(first.R.transpose() * second.R),
+        c(frames.on_second.x) {}
+  Vector3 moment_on_second(const Vector3& f, const Vector3& m) const { return -m + c.cross(R_2.transpose() * f); }
+  Vector6 of(const Vector6& rows) const {
+    Vector6 wrench;
+    wrench << -A.transpose() * (R_1.transpose() * rows.head<3>()),
+        A.transpose() * (R_12 * moment_on_second(rows.head<3>(), rows.tail<3>()));
+    return wrench;
+  }
+};
+
+/// The joint's K, in which columns of multipliers hold B^T.
+Eigen::Map<MatrixX> stiffness(const Joint& joint, const LocalState& state) {
+  thread_local std::vector<double> buffer;
+  const int n = state.slots().size();
+  buffer.assign(static_cast<std::size_t>(n) * static_cast<std::size_t>(n), 0.0);
+  Eigen::Map<MatrixX> K(buffer.data(), n, n);
+  MatrixX none(0, 0);
+  LocalTangent tangent{K, none, none, true, false, false};
+  joint.add_tangent(state, tangent);
+  return K;
+}
+
+}  // namespace
+
+MatrixX Joint::reaction_of_multipliers(const LocalState& state) const {
+  const Slots& slots = state.slots();
+  const Eigen::Map<MatrixX> K = stiffness(*this, state);
+  const Wrench wrench(frames_, state.node(0), state.node(1));
+  MatrixX result(6, slots.multipliers);
+  for (int k = 0; k < slots.multipliers; ++k)
+    result.col(k) = wrench.of(K.block<6, 1>(second_node, slots.multiplier_row() + k));
+  return result;
+}
+
+Vector6 Joint::calc_reaction(const LocalState& state) const {
+  if (state.global().reaction.size() > 0) return reaction_of_multipliers(state) * state.reaction();
+  thread_local VectorX r;
+  r.setZero(state.slots().size());
+  add_residual(state, r);
+  return Wrench(frames_, state.node(0), state.node(1)).of(r.segment<6>(second_node));
+}
+
+Vector6 Joint::calc_reaction(const LocalState& state, MatrixX& derivatives) const {
+  const Slots& slots = state.slots();
+  const Eigen::Map<MatrixX> K = stiffness(*this, state);
+  const Wrench w(frames_, state.node(0), state.node(1));
+  const Vector6 rows =
+      K.block(second_node, slots.multiplier_row(), 6, slots.multipliers) * state.reaction();
+  const Vector3 f = rows.head<3>(), N = w.moment_on_second(f, rows.tail<3>());
+  const Vector3 f_1 = w.R_1.transpose() * f, f_2 = w.R_2.transpose() * f;
+  const auto df = K.middleRows<3>(second_node), dm = K.middleRows<3>(second_node + 3);
+  // d(R_1^T f) = R_1^T df + f_1~ dTheta_1
+  derivatives.resize(6, slots.size());
+  auto dF = derivatives.topRows<3>();
+  dF.noalias() = -w.R_1.transpose() * df;
+  dF.middleCols<3>(3) -= skew(f_1);
+  // dN = -dm + c~ (R_2^T df + f_2~ dTheta_2);   d(R_12 N) = R_12 (dN - N~ dTheta_2) + (R_12 N)~ dTheta_1
+  auto dM = derivatives.bottomRows<3>();
+  dM = -dm;
+  dM.noalias() += skew(w.c) * w.R_2.transpose() * df;
+  dM.middleCols<3>(9) += skew(w.c) * skew(f_2) - skew(N);
+  dM = (w.R_12 * dM).eval();
+  dM.middleCols<3>(3) += skew(w.R_12 * N);
+  derivatives.topRows<3>() = (w.A.transpose() * derivatives.topRows<3>()).eval();
+  derivatives.bottomRows<3>() = (w.A.transpose() * derivatives.bottomRows<3>()).eval();
+  return w.of(rows);
+}
+
+namespace {
+constexpr const char* directions[] = {"x", "y", "z", "rx", "ry", "rz"};
+}  // namespace
+
+std::vector<std::string> Joint::measure_names() const {
+  std::vector<std::string> names;
+  for (const JointCoordinate& each : coordinates_) {
+    names.push_back(each.name);
+    names.push_back(each.name + ".rate");
+  }
+  for (const char* direction : directions) names.push_back(std::string("reaction.") + direction);
+  return names;
+}
+
+std::unique_ptr<Measure> Joint::make_measure(const std::string& name, const std::string& measure) const {
+  for (std::size_t k = 0; k < coordinates_.size(); ++k) {
+    if (measure == coordinates_[k].name) return std::make_unique<CoordinateMeasure>(name, *this, k);
+    if (measure == coordinates_[k].name + ".rate") return std::make_unique<CoordinateRateMeasure>(name, *this, k);
+  }
+  for (int k = 0; k < 6; ++k)
+    if (measure == std::string("reaction.") + directions[k]) return std::make_unique<ReactionMeasure>(name, *this, k);
+  return Component::make_measure(name, measure);
+}
+
+}  // namespace bielle::mechanism
