@@ -23,6 +23,20 @@ struct Expression::Implementation {
     throw ComputationError(
         fmt::format("formula '{}'{}{}: {}", text, arguments.empty() ? "" : " at ", arguments, message));
   }
+  [[noreturn]] void fail_without_derivative(int order, std::span<const double> values) const {
+    fail(fmt::format("there is no finite {} derivative", order == 1 ? "first" : "second"), values);
+  }
+
+  template <class Evaluate>
+  auto evaluated(std::span<const double> values, Evaluate&& evaluate) const {
+    try {
+      return evaluate(tree);
+    } catch (const FormulaError& error) {
+      fail(error.what(), values);
+    } catch (const ComputationError& error) {
+      fail(error.what(), values);
+    }
+  }
 };
 
 Expression::Expression() {
@@ -50,27 +64,26 @@ Expression::Expression(const std::string& text, const std::vector<std::string>& 
 }
 
 double Expression::operator()(std::span<const double> values) const {
-  try {
-    return implementation_->tree.value(values);
-  } catch (const FormulaError& error) {
-    implementation_->fail(error.what(), values);
-  } catch (const ComputationError& error) {
-    implementation_->fail(error.what(), values);
-  }
+  return implementation_->evaluated(values, [&](const FormulaTree& tree) { return tree.value(values); });
 }
 
 double Expression::derivative(std::span<const double> values, std::size_t argument, int order) const {
-  try {
-    const Jet jet = implementation_->tree.jet(values, argument);
-    const double result = order == 1 ? jet.first : jet.second;
-    if (std::isfinite(result)) return result;
-  } catch (const FormulaError& error) {
-    implementation_->fail(error.what(), values);
-  } catch (const ComputationError& error) {
-    implementation_->fail(error.what(), values);
-  }
-  implementation_->fail(fmt::format("there is no finite {} derivative", order == 1 ? "first" : "second"), values);
+  const Jet jet =
+      implementation_->evaluated(values, [&](const FormulaTree& tree) { return tree.jet(values, argument); });
+  const double result = order == 1 ? jet.first : jet.second;
+  if (!std::isfinite(result)) implementation_->fail_without_derivative(order, values);
+  return result;
 }
+
+double Expression::value_and_gradient(std::span<const double> values, std::span<double> gradient) const {
+  const double value = implementation_->evaluated(
+      values, [&](const FormulaTree& tree) { return tree.value_and_gradient(values, gradient); });
+  for (const double slope : gradient)
+    if (!std::isfinite(slope)) implementation_->fail_without_derivative(1, values);
+  return value;
+}
+
+bool Expression::uses(std::size_t argument) const { return implementation_->tree.uses(static_cast<int>(argument)); }
 
 bool Expression::is_constant() const { return implementation_->tree.is_constant(); }
 

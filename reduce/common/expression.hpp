@@ -45,6 +45,14 @@ class Expression {
     return derivative(std::span<const double>(&value, 1), 0, order);
   }
 
+  /// The value and, in the same pass, the first derivative with respect to every variable: those of `derivative`, at a
+  /// kink as well, where it costs as much as asking for each. No memory is allocated.
+  /// @param gradient  one entry for each variable
+  double value_and_gradient(std::span<const double> values, std::span<double> gradient) const;
+
+  /// Whether the formula depends on a variable, as far as can be told without its value: `0*t` uses t, `if(1 > 2, t,
+  /// 3)` does not.
+  bool uses(std::size_t argument) const;
   bool is_constant() const;  ///< uses none of its variables
   const std::string& text() const;
   /// Values of one argument at which the function or one of its first three derivatives may jump, ascending. Found
