@@ -7,14 +7,15 @@
 
 #include "reduce/common/error.hpp"
 #include "reduce/common/formula_parser.hpp"
+#include "reduce/common/formula_references.hpp"
 
 namespace bielle {
 
 /// Immutable, hence shared by all copies.
 struct Expression::Implementation {
   FormulaTree tree;
-  std::string text;
-  std::vector<std::string> variables;
+  std::string text;                    ///< as the user wrote it
+  std::vector<std::string> variables;  ///< as the user calls them
 
   [[noreturn]] void fail(const std::string& message, std::span<const double> values) const {
     std::string arguments;
@@ -52,14 +53,23 @@ Expression::Expression(double constant) {
 }
 
 Expression::Expression(const std::string& text, const std::vector<std::string>& variables, const Parameters& constants,
+                       const std::string& folder)
+    : Expression(FormulaText{text, text, {}}, variables, constants, folder) {}
+
+Expression::Expression(const FormulaText& text, const std::vector<std::string>& variables, const Parameters& constants,
                        const std::string& folder) {
+  std::vector<std::string> names = variables, shown = variables;
+  for (const FormulaReference& reference : text.references) {
+    names.push_back(reference.identifier);
+    shown.push_back(reference.text);
+  }
   try {
     implementation_ = std::make_shared<const Implementation>(
-        Implementation{parse_formula(text, variables, constants, folder), text, variables});
+        Implementation{parse_formula(text.replaced, names, shown, constants, folder), text.written, shown});
   } catch (const InputError& error) {
-    throw InputError(fmt::format("in '{}': {}", text, error.what()));
+    throw InputError(fmt::format("in '{}': {}", text.written, error.what()));
   } catch (const ComputationError& error) {  // a table asked outside its range by constants
-    throw InputError(fmt::format("in '{}': {}", text, error.what()));
+    throw InputError(fmt::format("in '{}': {}", text.written, error.what()));
   }
 }
 
