@@ -99,6 +99,8 @@ bool Expression::is_constant() const { return implementation_->tree.is_constant(
 
 const std::string& Expression::text() const { return implementation_->text; }
 
+const FormulaTree& Expression::tree() const { return implementation_->tree; }
+
 std::vector<double> Expression::break_points(std::size_t argument) const {
   std::vector<double> points;
   implementation_->tree.add_break_points(static_cast<int>(argument), points);

@@ -10,6 +10,7 @@
 
 namespace bielle {
 
+class FormulaTree;
 struct FormulaText;
 
 /// Named constants that formulas may use, in SI.
@@ -65,6 +66,7 @@ class Expression {
   /// where what is compared depends on this argument alone and linearly (`2*t > 1`, `step(t, 0, 0.1)`, the points of a
   /// table), not in `sin(t) > 0`, `mod(t, 1)` or `floor(t)`, which break infinitely often.
   std::vector<double> break_points(std::size_t argument = 0) const;
+  const FormulaTree& tree() const;  ///< for what reads its structure
 
  private:
   struct Implementation;

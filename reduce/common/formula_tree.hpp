@@ -73,6 +73,13 @@ enum class Operation {
 
 class FormulaTree {
  public:
+  struct Term {
+    Operation operation;
+    std::array<int, 3> operand;
+    double number = 0;  ///< of a constant
+    int index = 0;      ///< of an argument or interpolation
+  };
+
   /// Each returns the index of the new term; operands are indices of earlier ones.
   int add_constant(double value);
   int add_argument(int index);
@@ -94,13 +101,13 @@ class FormulaTree {
   /// this argument alone, and linearly.
   void add_break_points(int argument, std::vector<double>& points) const { add_break_points(root_, argument, points); }
 
+  // -- structure. Constant parts are constant terms, save within branches that may never be taken.
+  int root() const { return root_; }
+  const Term& term(int index) const { return terms_[static_cast<std::size_t>(index)]; }
+  bool depends_on_arguments(int index) const { return depends_on(index, any_argument); }
+  double constant_value(int index) const;  ///< of a part without arguments. @throws FormulaError
+
  private:
-  struct Term {
-    Operation operation;
-    std::array<int, 3> operand;
-    double number = 0;  ///< of a constant
-    int index = 0;      ///< of an argument or interpolation
-  };
   struct Linear {
     bool valid;
     double slope, offset;
@@ -109,10 +116,7 @@ class FormulaTree {
   template <class Number>
   struct Evaluation;
 
-  const Term& term(int index) const { return terms_[static_cast<std::size_t>(index)]; }
   static void check_transition(double t0, double t1);
-  double constant_value(int index) const;
-  bool depends_on_arguments(int index) const { return depends_on(index, any_argument); }
   bool depends_on(int index, int argument) const;
   void fold(int index);
   Linear linear_in(int index, int argument) const;
