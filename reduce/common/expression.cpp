@@ -7,14 +7,15 @@
 
 #include "reduce/common/error.hpp"
 #include "reduce/common/formula_parser.hpp"
+#include "reduce/common/formula_references.hpp"
 
 namespace bielle {
 
 /// Immutable, hence shared by all copies.
 struct Expression::Implementation {
   FormulaTree tree;
-  std::string text;
-  std::vector<std::string> variables;
+  std::string text;                    ///< as the user wrote it
+  std::vector<std::string> variables;  ///< as the user calls them
 
   [[noreturn]] void fail(const std::string& message, std::span<const double> values) const {
     std::string arguments;
@@ -22,6 +23,20 @@ struct Expression::Implementation {
       arguments += fmt::format("{}{} = {}", i == 0 ? "" : ", ", variables[i], values[i]);
     throw ComputationError(
         fmt::format("formula '{}'{}{}: {}", text, arguments.empty() ? "" : " at ", arguments, message));
+  }
+  [[noreturn]] void fail_without_derivative(int order, std::span<const double> values) const {
+    fail(fmt::format("there is no finite {} derivative", order == 1 ? "first" : "second"), values);
+  }
+
+  template <class Evaluate>
+  auto evaluated(std::span<const double> values, Evaluate&& evaluate) const {
+    try {
+      return evaluate(tree);
+    } catch (const FormulaError& error) {
+      fail(error.what(), values);
+    } catch (const ComputationError& error) {
+      fail(error.what(), values);
+    }
   }
 };
 
@@ -38,43 +53,53 @@ Expression::Expression(double constant) {
 }
 
 Expression::Expression(const std::string& text, const std::vector<std::string>& variables, const Parameters& constants,
+                       const std::string& folder)
+    : Expression(FormulaText{text, text, {}}, variables, constants, folder) {}
+
+Expression::Expression(const FormulaText& text, const std::vector<std::string>& variables, const Parameters& constants,
                        const std::string& folder) {
+  std::vector<std::string> names = variables, shown = variables;
+  for (const FormulaReference& reference : text.references) {
+    names.push_back(reference.identifier);
+    shown.push_back(reference.text);
+  }
   try {
     implementation_ = std::make_shared<const Implementation>(
-        Implementation{parse_formula(text, variables, constants, folder), text, variables});
+        Implementation{parse_formula(text.replaced, names, shown, constants, folder), text.written, shown});
   } catch (const InputError& error) {
-    throw InputError(fmt::format("in '{}': {}", text, error.what()));
+    throw InputError(fmt::format("in '{}': {}", text.written, error.what()));
   } catch (const ComputationError& error) {  // a table asked outside its range by constants
-    throw InputError(fmt::format("in '{}': {}", text, error.what()));
+    throw InputError(fmt::format("in '{}': {}", text.written, error.what()));
   }
 }
 
 double Expression::operator()(std::span<const double> values) const {
-  try {
-    return implementation_->tree.value(values);
-  } catch (const FormulaError& error) {
-    implementation_->fail(error.what(), values);
-  } catch (const ComputationError& error) {
-    implementation_->fail(error.what(), values);
-  }
+  return implementation_->evaluated(values, [&](const FormulaTree& tree) { return tree.value(values); });
 }
 
 double Expression::derivative(std::span<const double> values, std::size_t argument, int order) const {
-  try {
-    const Jet jet = implementation_->tree.jet(values, argument);
-    const double result = order == 1 ? jet.first : jet.second;
-    if (std::isfinite(result)) return result;
-  } catch (const FormulaError& error) {
-    implementation_->fail(error.what(), values);
-  } catch (const ComputationError& error) {
-    implementation_->fail(error.what(), values);
-  }
-  implementation_->fail(fmt::format("there is no finite {} derivative", order == 1 ? "first" : "second"), values);
+  const Jet jet =
+      implementation_->evaluated(values, [&](const FormulaTree& tree) { return tree.jet(values, argument); });
+  const double result = order == 1 ? jet.first : jet.second;
+  if (!std::isfinite(result)) implementation_->fail_without_derivative(order, values);
+  return result;
 }
+
+double Expression::value_and_gradient(std::span<const double> values, std::span<double> gradient) const {
+  const double value = implementation_->evaluated(
+      values, [&](const FormulaTree& tree) { return tree.value_and_gradient(values, gradient); });
+  for (const double slope : gradient)
+    if (!std::isfinite(slope)) implementation_->fail_without_derivative(1, values);
+  return value;
+}
+
+bool Expression::uses(std::size_t argument) const { return implementation_->tree.uses(static_cast<int>(argument)); }
 
 bool Expression::is_constant() const { return implementation_->tree.is_constant(); }
 
 const std::string& Expression::text() const { return implementation_->text; }
+
+const FormulaTree& Expression::tree() const { return implementation_->tree; }
 
 std::vector<double> Expression::break_points(std::size_t argument) const {
   std::vector<double> points;

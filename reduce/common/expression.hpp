@@ -10,6 +10,9 @@
 
 namespace bielle {
 
+class FormulaTree;
+struct FormulaText;
+
 /// Named constants that formulas may use, in SI.
 using Parameters = std::map<std::string, double>;
 
@@ -32,6 +35,11 @@ class Expression {
   Expression(const std::string& text, const std::vector<std::string>& variables, const Parameters& constants = {},
              const std::string& folder = ".");
 
+  /// A formula with references to other things, which are further arguments behind the variables, in the order of
+  /// `text.references`. Messages call them as the user does.
+  Expression(const FormulaText& text, const std::vector<std::string>& variables, const Parameters& constants = {},
+             const std::string& folder = ".");
+
   /// @param values  one for each variable. No memory is allocated.
   /// @throws ComputationError when the value, or any part of the formula that is needed for it, is not finite, naming
   ///         the formula and the arguments
@@ -45,12 +53,20 @@ class Expression {
     return derivative(std::span<const double>(&value, 1), 0, order);
   }
 
-  bool is_constant() const;  ///< uses none of its variables
-  const std::string& text() const;
+  /// The value and, in the same pass, the first derivative with respect to every variable: those of `derivative`, at a
+  /// kink as well, where it costs as much as asking for each. No memory is allocated.
+  /// @param gradient  one entry for each variable
+  double value_and_gradient(std::span<const double> values, std::span<double> gradient) const;
+
+  /// Whether the formula depends on a variable, as far as can be told without its value: `0*t` uses t.
+  bool uses(std::size_t argument) const;
+  bool is_constant() const;         ///< uses none of its variables
+  const std::string& text() const;  ///< as the user wrote it
   /// Values of one argument at which the function or one of its first three derivatives may jump, ascending. Found
   /// where what is compared depends on this argument alone and linearly (`2*t > 1`, `step(t, 0, 0.1)`, the points of a
   /// table), not in `sin(t) > 0`, `mod(t, 1)` or `floor(t)`, which break infinitely often.
   std::vector<double> break_points(std::size_t argument = 0) const;
+  const FormulaTree& tree() const;  ///< for what reads its structure
 
  private:
   struct Implementation;

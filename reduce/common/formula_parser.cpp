@@ -175,13 +175,32 @@ std::string without_quoted(std::string text) {
   return text;
 }
 
+/// Where the name or number that begins at `i` ends.
+std::size_t end_of_word(const std::string& text, std::size_t i) {
+  while (i < text.size() && is_name_character(text[i])) ++i;
+  return i;
+}
+
 std::vector<std::string> names_in(const std::string& text) {
   std::vector<std::string> names;
   for (std::size_t i = 0, end = 0; i < text.size(); i = end + 1) {
-    for (end = i; end < text.size() && is_name_character(text[end]);) ++end;
+    end = end_of_word(text, i);
     if (end > i && !std::isdigit(static_cast<unsigned char>(text[i]))) names.push_back(text.substr(i, end - i));
   }
   return names;
+}
+
+/// A part of the formula as the user wrote it: with what stands for the variables.
+std::string as_shown(const std::string& text, const std::vector<std::string>& variables,
+                     const std::vector<std::string>& shown) {
+  std::string result;
+  for (std::size_t i = 0, end = 0; i < text.size(); i = end) {
+    end = std::max(end_of_word(text, i), i + 1);
+    const std::string word = text.substr(i, end - i);
+    const auto variable = std::find(variables.begin(), variables.end(), word);
+    result += variable == variables.end() ? word : shown[static_cast<std::size_t>(variable - variables.begin())];
+  }
+  return result;
 }
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
@@ -198,8 +217,8 @@ std::string known_names(const std::string& name, const std::vector<std::string>&
   return did_you_mean(name, own) + "; pi; or a function (sin, sqrt, step, ...)";
 }
 
-std::string explanation(const mu::ParserError& error, const std::vector<std::string>& names) {
-  std::string token = error.GetToken();
+/// @param token  the part of the formula that the error is about
+std::string explanation(const mu::ParserError& error, std::string token, const std::vector<std::string>& names) {
   token.erase(token.find_last_not_of(' ') + 1);
   const auto place = [&] { return error.GetPos() < 0 ? "" : fmt::format(" at character {}", error.GetPos() + 1); };
   switch (error.GetCode()) {
@@ -248,9 +267,9 @@ std::string explanation(const mu::ParserError& error, const std::vector<std::str
 class Vocabulary {
  public:
   Vocabulary(mu::Parser& parser, Building& mine, const std::vector<std::string>& variables,
-             const std::map<std::string, double>& constants, const std::vector<std::string>& used) {
-    names_ = function_names();
-    names_.emplace_back("pi");
+             const std::vector<std::string>& shown, const std::map<std::string, double>& constants,
+             const std::vector<std::string>& used) {
+    names_ = built_in_names();
     parser.DefineConst("pi", mine.tree.add_constant(std::numbers::pi));
     for (const auto& [name, value] : constants) {
       if (!contains(used, name)) {
@@ -266,8 +285,8 @@ class Vocabulary {
       parser.DefineConst(name, mine.tree.add_constant(value));
     }
     handles_.reserve(variables.size());
+    names_.insert(names_.end(), shown.begin(), shown.end());
     for (const std::string& name : variables) {
-      names_.push_back(name);
       handles_.push_back(mine.tree.add_argument(static_cast<int>(handles_.size())));
       parser.DefineVar(name, &handles_.back());
     }
@@ -281,8 +300,18 @@ class Vocabulary {
 
 }  // namespace
 
+const std::vector<std::string>& built_in_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all = function_names();
+    all.emplace_back("pi");
+    return all;
+  }();
+  return names;
+}
+
 FormulaTree parse_formula(const std::string& text, const std::vector<std::string>& variables,
-                          const std::map<std::string, double>& constants, const std::string& folder) {
+                          const std::vector<std::string>& shown, const std::map<std::string, double>& constants,
+                          const std::string& folder) {
   // muParser knows double quotes only, and evaluates `c ? a : b` by jumps that a tree cannot follow.
   std::string quoted = text;
   std::replace(quoted.begin(), quoted.end(), '\'', '"');
@@ -295,7 +324,7 @@ FormulaTree parse_formula(const std::string& text, const std::vector<std::string
   std::vector<std::string> known = function_names();
   try {
     define_language(parser);
-    const Vocabulary vocabulary(parser, mine, variables, constants, names_in(unquoted));
+    const Vocabulary vocabulary(parser, mine, variables, shown, constants, names_in(unquoted));
     known = vocabulary.names();
     parser.SetExpr(quoted);
     int results = 0;
@@ -304,7 +333,7 @@ FormulaTree parse_formula(const std::string& text, const std::vector<std::string
       throw InputError("expected one value, found several separated by ','; a decimal point is written '.'");
     mine.tree.set_root(index_of(handles[0]));
   } catch (const mu::ParserError& error) {
-    throw InputError(explanation(error, known));
+    throw InputError(explanation(error, as_shown(error.GetToken(), variables, shown), known));
   } catch (const FormulaError& error) {
     throw InputError(error.what());
   }

@@ -9,9 +9,14 @@
 
 namespace bielle {
 
+/// @param shown   what messages call the variables, one name for each
 /// @param folder  where `table('file.csv', t)` looks for relative file names
 /// @throws InputError: what is wrong, at which character (counted from 1)
 FormulaTree parse_formula(const std::string& text, const std::vector<std::string>& variables,
-                          const std::map<std::string, double>& constants, const std::string& folder);
+                          const std::vector<std::string>& shown, const std::map<std::string, double>& constants,
+                          const std::string& folder);
+
+/// Functions and `pi`.
+const std::vector<std::string>& built_in_names();
 
 }  // namespace bielle

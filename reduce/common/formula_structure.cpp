@@ -15,14 +15,12 @@ void FormulaTree::set_root(int root) {
   fold(root);
 }
 
-bool FormulaTree::is_constant() const { return !depends_on_arguments(root_); }
-
-bool FormulaTree::depends_on_arguments(int index) const {
+bool FormulaTree::depends_on(int index, int argument) const {
   if (index < 0) return false;
   const Term& t = term(index);
-  if (t.operation == Operation::argument) return true;
+  if (t.operation == Operation::argument) return argument == any_argument || t.index == argument;
   for (const int operand : t.operand)
-    if (depends_on_arguments(operand)) return true;
+    if (depends_on(operand, argument)) return true;
   return false;
 }
 

@@ -1,8 +1,11 @@
 #include "reduce/common/formula_tree.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <type_traits>
+
+#include "reduce/common/dual.hpp"
 
 namespace bielle {
 
@@ -126,12 +129,17 @@ int FormulaTree::add(Operation operation, int first, int second, int third) {
   return static_cast<int>(terms_.size()) - 1;
 }
 
-/// One evaluation of the tree; `Number` is double or Jet.
+/// One evaluation of the tree; `Number` is double, Jet or Dual.
+///
+/// With Duals, what stands exactly at a border is decided as it is for the value, and `at_kink` remembers that the
+/// slopes may belong to the wrong piece.
 template <class Number>
 struct FormulaTree::Evaluation {
   const FormulaTree& tree;
   std::span<const double> arguments;
-  std::size_t along;
+  std::size_t along = 0;         ///< the argument that a Jet follows, or the first one that Duals do
+  std::size_t count = 0;         ///< how many arguments Duals follow
+  mutable bool at_kink = false;  ///< of Duals
 
   Number of(int index) const {
     const Number result = unchecked(tree.term(index));
@@ -140,19 +148,58 @@ struct FormulaTree::Evaluation {
   }
 
  private:
-  static Number constant(double value) {
-    if constexpr (std::is_same_v<Number, double>)
-      return value;
-    else
-      return {value, 0, 0};
-  }
+  static constexpr bool is_dual = std::is_same_v<Number, Dual>;
+
+  static Number constant(double value) { return Number(value); }
   static Number truth(bool value) { return constant(value ? 1 : 0); }
 
   Number argument(std::size_t index) const {
+    const double value = arguments[index];
     if constexpr (std::is_same_v<Number, double>)
-      return arguments[index];
+      return value;
+    else if constexpr (is_dual)
+      return index >= along && index < along + count ? argument_of_dual(value, index - along, count) : Dual(value);
     else
-      return {arguments[index], index == along ? 1.0 : 0.0, 0};
+      return {value, index == along ? 1.0 : 0.0, 0};
+  }
+
+  /// Sign of x - border on the right of the point of evaluation.
+  double side(const Number& x, const Number& border) const {
+    if constexpr (is_dual) {
+      at_kink |= x.value == border.value && (varies(x) || varies(border));
+      return jets::sign_of(x.value - border.value);
+    } else {
+      return jets::sign_of(minus(x, border));
+    }
+  }
+  double sign_of(const Number& x) const {
+    if constexpr (is_dual) {
+      at_kink |= x.value == 0 && varies(x);
+      return jets::sign_of(x.value);
+    } else {
+      return jets::sign_of(x);
+    }
+  }
+  double floor_of(const Number& x) const {
+    if constexpr (is_dual) {
+      const double whole = std::floor(x.value);
+      at_kink |= whole == x.value && varies(x);
+      return whole;
+    } else {
+      return jets::floor_of(x);
+    }
+  }
+  Number interpolated(const Interpolation& function, const Number& x) const {
+    bool from_right = true;
+    if constexpr (is_dual) {
+      const auto points = function.points();
+      at_kink |= function.kind() == Interpolation::Kind::linear && varies(x) &&
+                 std::binary_search(points.begin(), points.end(), x.value);
+    } else {
+      from_right = rises(x);
+    }
+    const Interpolation::Values values = function(value_of(x), from_right);
+    return chain(x, values.value, values.slope, values.curvature);
   }
 
   bool is_true(int index) const { return sign_of(of(index)) != 0; }
@@ -160,7 +207,7 @@ struct FormulaTree::Evaluation {
   Number unchecked(const Term& term) const {
     const auto operand = [&](int k) { return of(term.operand[static_cast<std::size_t>(k)]); };
     const auto truth_of = [&](int k) { return is_true(term.operand[static_cast<std::size_t>(k)]); };
-    const auto difference = [&] { return sign_of(minus(operand(0), operand(1))); };
+    const auto difference = [&] { return side(operand(0), operand(1)); };
     switch (term.operation) {
       case Operation::constant:
         return constant(term.number);
@@ -182,12 +229,8 @@ struct FormulaTree::Evaluation {
         return constant(-floor_of(scale(-1, operand(0))));
       case Operation::round:
         return constant(floor_of(plus(operand(0), constant(0.5))));
-      case Operation::interpolate: {
-        const Number x = operand(0);
-        const Interpolation& function = *tree.functions_[static_cast<std::size_t>(term.index)];
-        const Interpolation::Values values = function(value_of(x), rises(x));
-        return chain(x, values.value, values.slope, values.curvature);
-      }
+      case Operation::interpolate:
+        return interpolated(*tree.functions_[static_cast<std::size_t>(term.index)], operand(0));
       case Operation::add:
         return plus(operand(0), operand(1));
       case Operation::subtract:
@@ -207,7 +250,7 @@ struct FormulaTree::Evaluation {
       case Operation::minimum:
       case Operation::maximum: {
         const Number a = operand(0), b = operand(1);
-        const bool first_is_greater = sign_of(minus(a, b)) > 0;
+        const bool first_is_greater = side(a, b) > 0;
         return first_is_greater == (term.operation == Operation::maximum) ? a : b;
       }
       case Operation::less:
@@ -237,9 +280,14 @@ struct FormulaTree::Evaluation {
     }
   }
 
-  static Number power_of(const Number& x, const Number& n) {
+  Number power_of(const Number& x, const Number& n) const {
     if (value_of(x) == 0 && value_of(n) < 0) throw FormulaError("division by zero");
     if (!varies(n)) return power(x, value_of(n));
+    if constexpr (is_dual) {
+      at_kink |= !(x.value > 0);  // whether there is a logarithm is up to the jets
+      const double f = std::pow(x.value, n.value);
+      return chain(f, x, n.value * std::pow(x.value, n.value - 1), n, f * std::log(x.value));
+    }
     return elementary(Operation::exp, times(n, elementary(Operation::ln, x)));
   }
 
@@ -248,6 +296,8 @@ struct FormulaTree::Evaluation {
     const double angle = std::atan2(value_of(y), value_of(x));
     if constexpr (std::is_same_v<Number, double>) {
       return angle;
+    } else if constexpr (is_dual) {
+      return chain(angle, y, x.value / r2, x, -y.value / r2);
     } else {
       // d angle = (x dy - y dx) / r2
       const Jet s = plus(times(x, x), times(y, y));
@@ -256,10 +306,10 @@ struct FormulaTree::Evaluation {
     }
   }
 
-  static Number transition(Operation operation, const Number& t, const Number& t0, const Number& t1) {
+  Number transition(Operation operation, const Number& t, const Number& t0, const Number& t1) const {
     check_transition(value_of(t0), value_of(t1));
     // On the border, the piece on the right of the argument decides.
-    const double after_start = sign_of(minus(t, t0)), after_end = sign_of(minus(t, t1));
+    const double after_start = side(t, t0), after_end = side(t, t1);
     if (operation == Operation::pulse) return truth(after_start >= 0 && after_end < 0);
     if (after_start <= 0) return constant(0);
     if (after_end >= 0) return constant(1);
@@ -270,14 +320,33 @@ struct FormulaTree::Evaluation {
   }
 };
 
-double FormulaTree::constant_value(int index) const { return Evaluation<double>{*this, {}, 0}.of(index); }
+double FormulaTree::constant_value(int index) const { return Evaluation<double>{*this, {}}.of(index); }
 
 double FormulaTree::value(std::span<const double> arguments) const {
-  return Evaluation<double>{*this, arguments, 0}.of(root_);
+  return Evaluation<double>{*this, arguments}.of(root_);
 }
 
 Jet FormulaTree::jet(std::span<const double> arguments, std::size_t along) const {
   return Evaluation<Jet>{*this, arguments, along}.of(root_);
+}
+
+double FormulaTree::value_and_gradient(std::span<const double> arguments, std::span<double> gradient) const {
+  if (gradient.empty()) return value(arguments);
+  double result = 0;
+  for (std::size_t first = 0; first < gradient.size(); first += Dual::capacity) {
+    const std::span<double> part = gradient.subspan(first, std::min(Dual::capacity, gradient.size() - first));
+    const Evaluation<Dual> evaluation{*this, arguments, first, part.size()};
+    const Dual dual = evaluation.of(root_);
+    result = dual.value;
+    bool as_jets = evaluation.at_kink;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      part[i] = varies(dual) ? dual.slope[i] : 0;
+      as_jets |= !std::isfinite(part[i]);  // a jet knows what does not vary, whatever it is multiplied by
+    }
+    if (as_jets)
+      for (std::size_t i = 0; i < part.size(); ++i) part[i] = jet(arguments, first + i).first;
+  }
+  return result;
 }
 
 }  // namespace bielle

@@ -2,7 +2,8 @@
 //
 // Derivatives are carried forward as jets (f, df/dx, d2f/dx2) along one argument x, so that they are as exact as the
 // value. Where the formula has a kink or a jump, the jet is the one on the right: a comparison or |a| at a = 0 takes
-// the sign that its argument assumes for x + 0.
+// the sign that its argument assumes for x + 0. First derivatives along all arguments come from one evaluation with
+// dual numbers, save at a kink.
 #pragma once
 
 #include <array>
@@ -72,6 +73,13 @@ enum class Operation {
 
 class FormulaTree {
  public:
+  struct Term {
+    Operation operation;
+    std::array<int, 3> operand;
+    double number = 0;  ///< of a constant
+    int index = 0;      ///< of an argument or interpolation
+  };
+
   /// Each returns the index of the new term; operands are indices of earlier ones.
   int add_constant(double value);
   int add_argument(int index);
@@ -85,29 +93,31 @@ class FormulaTree {
   /// @throws FormulaError
   double value(std::span<const double> arguments) const;
   Jet jet(std::span<const double> arguments, std::size_t along) const;
-  bool is_constant() const;
+  /// The value and its first derivatives along the first arguments, as many as `gradient` has entries: those of `jet`.
+  double value_and_gradient(std::span<const double> arguments, std::span<double> gradient) const;
+  bool is_constant() const { return !depends_on_arguments(root_); }
+  bool uses(int argument) const { return depends_on(root_, argument); }
   /// Values of one argument at which a kink or jump can be told in advance: those where what is compared depends on
   /// this argument alone, and linearly.
   void add_break_points(int argument, std::vector<double>& points) const { add_break_points(root_, argument, points); }
 
+  // -- structure. Constant parts are constant terms, save within branches that may never be taken.
+  int root() const { return root_; }
+  const Term& term(int index) const { return terms_[static_cast<std::size_t>(index)]; }
+  bool depends_on_arguments(int index) const { return depends_on(index, any_argument); }
+  double constant_value(int index) const;  ///< of a part without arguments. @throws FormulaError
+
  private:
-  struct Term {
-    Operation operation;
-    std::array<int, 3> operand;
-    double number = 0;  ///< of a constant
-    int index = 0;      ///< of an argument or interpolation
-  };
   struct Linear {
     bool valid;
     double slope, offset;
   };
+  static constexpr int any_argument = -1;
   template <class Number>
   struct Evaluation;
 
-  const Term& term(int index) const { return terms_[static_cast<std::size_t>(index)]; }
   static void check_transition(double t0, double t1);
-  double constant_value(int index) const;
-  bool depends_on_arguments(int index) const;
+  bool depends_on(int index, int argument) const;
   void fold(int index);
   Linear linear_in(int index, int argument) const;
   void add_break_points(int index, int argument, std::vector<double>& points) const;

@@ -289,8 +289,24 @@ Eigen::MatrixXd YamlValue::matrix(Eigen::Index rows, Eigen::Index columns) const
 
 Expression YamlValue::expression(const std::vector<std::string>& variables) const {
   if (!is_scalar()) fail("expected a number or a formula");
+  return expression(variables, {node_->Scalar(), node_->Scalar(), {}});
+}
+
+FormulaText YamlValue::formula_text(const std::vector<std::string>& variables,
+                                    const std::vector<std::string>& functions) const {
+  if (!is_scalar()) fail("expected a number or a formula");
+  std::vector<std::string> plain_names = variables;
+  for (const auto& [name, value] : document_->parameters) plain_names.push_back(name);
   try {
-    return Expression(node_->Scalar(), variables, document_->parameters,
+    return find_references(node_->Scalar(), plain_names, functions);
+  } catch (const InputError& error) {
+    fail(fmt::format("in '{}': {}", node_->Scalar(), error.what()));
+  }
+}
+
+Expression YamlValue::expression(const std::vector<std::string>& variables, const FormulaText& formula) const {
+  try {
+    return Expression(formula, variables, document_->parameters,
                       std::filesystem::path(document_->file).parent_path().string());
   } catch (const InputError& error) {
     fail(error.what());

@@ -12,6 +12,7 @@
 
 #include "reduce/common/error.hpp"
 #include "reduce/common/expression.hpp"
+#include "reduce/common/formula_references.hpp"
 
 namespace YAML {
 class Node;
@@ -61,7 +62,7 @@ class YamlValue {
   double non_negative_number() const;  ///< >= 0
   int integer() const;
   bool boolean() const;
-  std::string text() const;
+  std::string text() const;  ///< as it is written, numbers too
   /// One of the given words; the message offers the nearest. @param what  in words with its article: "a joint type"
   std::string word(const std::vector<std::string>& allowed, const std::string& what) const;
   Eigen::VectorXd vector() const;
@@ -72,6 +73,10 @@ class YamlValue {
   Eigen::MatrixXd matrix(Eigen::Index rows, Eigen::Index columns) const;
   /// A formula of the given variables beside the parameters (e.g. {"t"}).
   Expression expression(const std::vector<std::string>& variables) const;
+  /// The text of a number or formula with its references found; `variables` and the parameters are plain names.
+  FormulaText formula_text(const std::vector<std::string>& variables, const std::vector<std::string>& functions) const;
+  /// The formula of such a text of this value: of the variables, then of the references.
+  Expression expression(const std::vector<std::string>& variables, const FormulaText& formula) const;
   /// Reads a file name: relative to the folder of this input file.
   std::string file_path() const;
 
