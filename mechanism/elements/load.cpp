@@ -4,26 +4,35 @@
 #include <optional>
 #include <utility>
 
+#include "mechanism/measures/read_measure.hpp"
+
 namespace bielle::mechanism {
 
-Load::Load(std::string name, int node, FormulaVector force, FormulaVector moment, const Vector3& at, bool follower)
-    : Component("load", std::move(name)),
-      node_(node),
-      force_(std::move(force)),
-      moment_(std::move(moment)),
-      c_(at),
-      follower_(follower) {}
+Load::Load(std::string name, int node, const Vector3& at, bool follower)
+    : Component("load", std::move(name)), node_(node), c_(at), follower_(follower) {}
+
+void Load::read(const YamlValue& components, bool moment, Model& model) {
+  if (!components.is_sequence() || components.size() != 3)
+    components.fail("expected three components, numbers or expressions of t");
+  for (std::size_t k = 0; k < 3; ++k)
+    components_[(moment ? 3 : 0) + k] = read_state_formula(components.at(k), {"t"}, model, references_);
+}
 
 void Load::declare(Declaration& declaration) const {
   declaration.nodes = {node_};
   declaration.stiffness = true;
+  references_.declare(declaration);
+  for (const StateFormula& component : components_) {
+    if (component.reads_state()) declaration.damping = true;
+    if (component.reads_reactions()) declaration.reads_reactions = true;
+  }
 }
 
 void Load::evaluate(const LocalState& state, Vector3& F, Vector3& m) const {
-  for (std::size_t k = 0; k < 3; ++k) {
-    F[static_cast<Eigen::Index>(k)] = state.environment().load_factor * force_[k](state.time());
-    m[static_cast<Eigen::Index>(k)] = state.environment().load_factor * moment_[k](state.time());
-  }
+  const double t = state.time();
+  for (std::size_t k = 0; k < 6; ++k)
+    (k < 3 ? F : m)[static_cast<Eigen::Index>(k % 3)] =
+        state.environment().load_factor * components_[k].value(state, {&t, 1});
 }
 
 void Load::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
@@ -39,8 +48,29 @@ void Load::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
   }
 }
 
+Vector6 Load::direction(const LocalState& state, std::size_t component) const {
+  const Vector3 e = Vector3::Unit(static_cast<Eigen::Index>(component % 3));
+  const Matrix3& R = state.node(0).R;
+  const Vector3 in_node = follower_ ? e : Vector3(R.transpose() * e);
+  Vector6 direction;
+  if (component < 3)
+    direction << (follower_ ? Vector3(R * e) : e), c_.cross(in_node);
+  else
+    direction << Vector3::Zero(), in_node;
+  return direction;
+}
+
 // Column dTheta:  follower K = [ R F~ ; 0 ],   dead K = [ 0 ; -c~ (R^T F)~ - (R^T m)~ ]
 void Load::add_tangent(const LocalState& state, LocalTangent& tangent) const {
+  const double t = state.time();
+  for (std::size_t k = 0; k < 6; ++k) {
+    if (!components_[k].reads_state()) continue;
+    thread_local FormulaGradient gradient;
+    components_[k].calc(state, {&t, 1}, gradient);
+    const Vector6 by_component = -state.environment().load_factor * direction(state, k);
+    if (tangent.wants_K) tangent.K.topRows<6>() += by_component * gradient.by_state.position().transpose();
+    if (tangent.wants_C) tangent.C.topRows<6>() += by_component * gradient.by_state.rate().transpose();
+  }
   if (!tangent.wants_K) return;
   const Matrix3& R = state.node(0).R;
   Vector3 F, m;
@@ -60,7 +90,7 @@ void Load::add_energy(const LocalState& state, Energy& energy) const {
 }
 
 void Load::add_break_points(std::vector<double>& times) const {
-  for (const FormulaVector* vector : {&force_, &moment_}) mechanism::add_break_points(*vector, 0, times);
+  for (const StateFormula& component : components_) component.add_break_points(0, times);
 }
 
 void read_load(const std::string& name, const YamlValue& entry, Model& model) {
@@ -70,13 +100,13 @@ void read_load(const std::string& name, const YamlValue& entry, Model& model) {
              follower = entry.find("follower");
   if (!force && !moment) entry.fail("a load needs `force` or `moment`");
   if (at && !force) at->fail("`at` is the point where a `force` acts, and there is none");
-  const auto formulas = [](const std::optional<YamlValue>& value) {
-    return value ? read_formula_vector(*value, {"t"}, "three components, numbers or expressions of t")
-                 : FormulaVector{};
-  };
-  model.add(std::make_unique<Load>(name, node, formulas(force), formulas(moment), at ? at->vector3() : Vector3::Zero(),
-                                   follower && follower->boolean()),
-            "");
+  auto load =
+      std::make_unique<Load>(name, node, at ? at->vector3() : Vector3::Zero(), follower && follower->boolean());
+  model.when_read(Model::Stage::formulas, [load = load.get(), force, moment, &model] {
+    if (force) load->read(*force, false, model);
+    if (moment) load->read(*moment, true, model);
+  });
+  model.add(std::move(load), "");
 }
 
 }  // namespace bielle::mechanism

@@ -6,21 +6,23 @@
 // tangent is unsymmetric. Loads are multiplied by the environment's load factor.
 #pragma once
 
+#include <array>
 #include <string>
 
-#include "mechanism/elements/formula_vector.hpp"
-#include "mechanism/system/component.hpp"
+#include "mechanism/measures/state_formula.hpp"
 #include "mechanism/system/model.hpp"
 
 namespace bielle::mechanism {
 
-/// A force [N] and a moment [N m] as functions of time at a point of a node, fixed in space or turning with the node.
+/// A force [N] and a moment [N m], formulas of time and measures, at a point of a node, fixed in space or turning with the node.
 /// Its power is counted as input.
 class Load : public Component {
  public:
-  /// @param force,moment  components along the inertial axes, or along the node's axes if `follower`
-  /// @param at            point of application [m], node axes
-  Load(std::string name, int node, FormulaVector force, FormulaVector moment, const Vector3& at, bool follower);
+  /// @param at        point of application [m], node axes
+  /// @param follower  components are along the node's axes, not along the inertial ones
+  Load(std::string name, int node, const Vector3& at, bool follower);
+  /// Takes the components, once the model is read: three formulas each. @param moment  of the moment, not of the force
+  void read(const YamlValue& components, bool moment, Model& model);
 
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
@@ -32,8 +34,12 @@ class Load : public Component {
   /// Force and moment along the axes in which they are given, with the load factor.
   void evaluate(const LocalState& state, Vector3& F, Vector3& m) const;
 
+  /// What a component of the force or moment makes of the residual.
+  Vector6 direction(const LocalState& state, std::size_t component) const;
+
   int node_;
-  FormulaVector force_, moment_;
+  std::array<StateFormula, 6> components_;  ///< of the force, of the moment
+  References references_;
   Vector3 c_;
   bool follower_;
 };

@@ -1,73 +1,16 @@
 #include "mechanism/elements/spring_damper.hpp"
 
-#include <array>
 #include <cmath>
 #include <memory>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "mechanism/measures/read_measure.hpp"
+
 namespace bielle::mechanism {
-namespace {
-
-/// Gauss-Legendre with five points: exact for polynomials up to degree nine.
-double gauss5(const Expression& N, double from, double to) {
-  static constexpr std::array<double, 3> point{0, 0.5384693101056831, 0.9061798459386640};
-  static constexpr std::array<double, 3> weight{0.5688888888888889, 0.4786286704993665, 0.2369268850561891};
-  const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
-  double sum = 0;
-  for (std::size_t k = 0; k < 3; ++k)
-    for (int sign : {-1, 1}) {
-      if (k == 0 && sign < 0) continue;
-      const std::array<double, 2> e_v{middle + sign * half * point[k], 0};
-      sum += weight[k] * N(e_v);
-    }
-  return half * sum;
-}
-
-/// Halves the interval until both halves agree with the whole: formulas may have kinks.
-double integral(const Expression& N, double from, double to, double whole, int depth) {
-  const double middle = 0.5 * (from + to);
-  const double left = gauss5(N, from, middle), right = gauss5(N, middle, to);
-  if (depth == 0 || std::abs(left + right - whole) <= 1e-12 * (std::abs(left) + std::abs(right))) return left + right;
-  return integral(N, from, middle, left, depth - 1) + integral(N, middle, to, right, depth - 1);
-}
-
-}  // namespace
-
-TensionLaw TensionLaw::linear(double stiffness, double damping) {
-  TensionLaw law;
-  law.stiffness_ = stiffness;
-  law.damping_ = damping;
-  return law;
-}
-
-TensionLaw TensionLaw::formula(const Expression& of_e_v) {
-  TensionLaw law;
-  law.formula_ = of_e_v;
-  return law;
-}
-
-TensionLaw TensionLaw::timed_formula(const Expression& of_e_v_t) {
-  TensionLaw law = formula(of_e_v_t);
-  law.timed_ = true;
-  return law;
-}
-
-Tension TensionLaw::at(double e, double v, double t) const {
-  if (is_linear()) return {stiffness_ * e + damping_ * v, stiffness_, damping_};
-  const std::array<double, 3> arguments{e, v, t};
-  const std::span<const double> used(arguments.data(), timed_ ? 3 : 2);
-  return {(*formula_)(used), formula_->derivative(used, 0), formula_->derivative(used, 1)};
-}
-
-double TensionLaw::elastic_energy(double e) const {
-  if (is_linear()) return 0.5 * stiffness_ * e * e;
-  return integral(*formula_, 0, e, gauss5(*formula_, 0, e), 30);
-}
-
 SpringDamper::SpringDamper(std::string name, int node_a, int node_b, const Vector3& at_a, const Vector3& at_b,
-                           double length, TensionLaw law)
+                           double length, ForceLaw law)
     : Component("spring_damper", std::move(name)),
       node_a_(node_a),
       node_b_(node_b),
@@ -79,15 +22,25 @@ SpringDamper::SpringDamper(std::string name, int node_a, int node_b, const Vecto
 void SpringDamper::declare(Declaration& declaration) const {
   declaration.nodes = {node_a_, node_b_};
   declaration.stiffness = true;
-  declaration.damping = !law_.is_linear() || law_.damping() > 0;
+  declaration.damping = law_.has_damping();
+  declaration.reads_reactions = law_.reads_reactions();
+  references_.declare(declaration);
+}
+
+void SpringDamper::read(const YamlValue& formula, Model& model) {
+  law_.add(read_state_formula(formula, {"e", "v", "t"}, model, references_));
 }
 
 struct SpringDamper::Line {
   double l, v;
   Vector3 u, sdot;
-  Tension tension;
-  double N_over_l;
 };
+
+/// Below this the direction is made of rounding errors of the positions.
+double SpringDamper::smallest_length(const LocalState& state) const {
+  return 1e-12 * (state.node(0).x.cwiseAbs().maxCoeff() + state.node(1).x.cwiseAbs().maxCoeff() +
+                  c_a_.cwiseAbs().maxCoeff() + c_b_.cwiseAbs().maxCoeff());
+}
 
 SpringDamper::Line SpringDamper::line(const LocalState& state) const {
   const NodeState &A = state.node(0), &B = state.node(1);
@@ -95,10 +48,7 @@ SpringDamper::Line SpringDamper::line(const LocalState& state) const {
   Line line;
   line.sdot = B.v + B.R * B.Omega.cross(c_b_) - A.v - A.R * A.Omega.cross(c_a_);
   line.l = s.norm();
-  // Below this the direction is made of rounding errors of the positions.
-  const double smallest = 1e-12 * (A.x.cwiseAbs().maxCoeff() + B.x.cwiseAbs().maxCoeff() + c_a_.cwiseAbs().maxCoeff() +
-                                   c_b_.cwiseAbs().maxCoeff());
-  if (line.l <= smallest) {
+  if (line.l <= smallest_length(state)) {
     if (!(law_.is_linear() && length_ == 0 && law_.damping() == 0))
       throw ComputationError(fmt::format(
           "t = {:.6g} s: the ends of spring_damper '{}' have met: its force has no direction", state.time(), name()));
@@ -107,14 +57,12 @@ SpringDamper::Line SpringDamper::line(const LocalState& state) const {
     line.u = s / line.l;
   }
   line.v = line.u.dot(line.sdot);
-  line.tension = law_.at(line.l - length_, line.v, state.time());
-  line.N_over_l = line.l > smallest ? line.tension.N / line.l : line.tension.N_e;
   return line;
 }
 
 void SpringDamper::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
   const Line L = line(state);
-  const Vector3 f = L.tension.N * L.u;
+  const Vector3 f = law_.force(state, L.l - length_, L.v) * L.u;
   r.segment<3>(0) -= f;
   r.segment<3>(3) -= c_a_.cross(state.node(0).R.transpose() * f);
   r.segment<3>(6) += f;
@@ -129,33 +77,50 @@ void SpringDamper::add_tangent(const LocalState& state, LocalTangent& tangent) c
   if (!tangent.wants_K && !tangent.wants_C) return;
   const NodeState &A = state.node(0), &B = state.node(1);
   const Line L = line(state);
+  const LawForce law = law_.calc(state, L.l - length_, L.v, false);
   Eigen::Matrix<double, 3, 12> J;
   J << -Matrix3::Identity(), A.R * skew(c_a_), Matrix3::Identity(), -B.R * skew(c_b_);
   const Eigen::Matrix<double, 12, 1> Ju = J.transpose() * L.u;
-  if (tangent.wants_C) tangent.C.topLeftCorner<12, 12>() += L.tension.N_v * Ju * Ju.transpose();
+  if (law_.reads_state()) law_.add_measures(state, L.l - length_, L.v, Ju, 0, tangent);
+  if (tangent.wants_C) tangent.C.topLeftCorner<12, 12>() += law.N_v * Ju * Ju.transpose();
   if (!tangent.wants_K) return;
   const Matrix3 Q = Matrix3::Identity() - L.u * L.u.transpose();
   Eigen::Matrix<double, 12, 1> v_gradient = Eigen::Matrix<double, 12, 1>::Zero();
-  v_gradient.segment<3>(3) = skew(A.Omega.cross(c_a_)).transpose() * A.R.transpose() * L.u;
-  v_gradient.segment<3>(9) = -skew(B.Omega.cross(c_b_)).transpose() * B.R.transpose() * L.u;
   // Where the ends meet (allowed without damper only) the quotient has no meaning and no effect.
-  if (L.tension.N_v != 0) v_gradient += J.transpose() * (Q * L.sdot) / L.l;
-  const Vector3 f = L.tension.N * L.u;
+  if (law.N_v != 0) v_gradient = calc_elongation(state).v_gradient;
+  const Vector3 f = law.N * L.u;
+  const double N_over_l = L.l > smallest_length(state) ? law.N / L.l : law.N_x;
   auto K = tangent.K.topLeftCorner<12, 12>();
-  K += Ju * (L.tension.N_e * Ju + L.tension.N_v * v_gradient).transpose() + L.N_over_l * J.transpose() * Q * J;
+  K += Ju * (law.N_x * Ju + law.N_v * v_gradient).transpose() + N_over_l * J.transpose() * Q * J;
   K.block<3, 3>(3, 3) -= skew(c_a_) * skew(A.R.transpose() * f);
   K.block<3, 3>(9, 9) += skew(c_b_) * skew(B.R.transpose() * f);
 }
 
+std::pair<double, double> SpringDamper::elongation(const LocalState& state) const {
+  const Line L = line(state);
+  return {L.l - length_, L.v};
+}
+
+SpringDamper::Gradients SpringDamper::calc_elongation(const LocalState& state) const {
+  const NodeState &A = state.node(0), &B = state.node(1);
+  const Line L = line(state);
+  Eigen::Matrix<double, 3, 12> J;
+  J << -Matrix3::Identity(), A.R * skew(c_a_), Matrix3::Identity(), -B.R * skew(c_b_);
+  Gradients g{L.l - length_, L.v, J.transpose() * L.u, J.transpose() * ((L.sdot - L.u * L.v) / L.l)};
+  g.v_gradient.segment<3>(3) += skew(A.Omega.cross(c_a_)).transpose() * A.R.transpose() * L.u;
+  g.v_gradient.segment<3>(9) -= skew(B.Omega.cross(c_b_)).transpose() * B.R.transpose() * L.u;
+  return g;
+}
+
 void SpringDamper::add_energy(const LocalState& state, Energy& energy) const {
   const Line L = line(state);
-  if (law_.is_timed()) {
-    energy.input -= L.tension.N * L.v;
+  const double e = L.l - length_, N = law_.force(state, e, L.v);
+  if (law_.is_actuator()) {
+    energy.input -= N * L.v;
     return;
   }
-  const double e = L.l - length_;
-  energy.elastic += law_.elastic_energy(e);
-  energy.dissipation += (L.tension.N - law_.at(e, 0, state.time()).N) * L.v;
+  energy.elastic += law_.elastic_energy(state, e);
+  energy.dissipation += (N - law_.force(state, e, 0)) * L.v;
 }
 
 std::vector<OutputField> SpringDamper::output_fields() const {
@@ -168,27 +133,54 @@ void SpringDamper::write_output(const LocalState& state, double* values) const {
   const Line L = line(state);
   values[0] = L.l;
   values[1] = L.v;
-  values[2] = L.tension.N;
+  values[2] = law_.force(state, L.l - length_, L.v);
 }
 
 namespace {
 
-TensionLaw read_law(const YamlValue& entry) {
-  if (const auto force = entry.find("force")) {
+/// "spring.elongation", "spring.elongation.rate"
+class ElongationMeasure final : public Measure {
+ public:
+  ElongationMeasure(std::string name, const SpringDamper& spring, bool rate)
+      : Measure(std::move(name)), spring_(spring), rate_(rate) {}
+  std::string units() const override { return rate_ ? "m/s" : "m"; }
+  double value(const LocalState& state) const override {
+    const auto [e, v] = spring_.elongation(state.of(0));
+    return rate_ ? v : e;
+  }
+  double calc(const LocalState& state, MeasureGradient& gradient) const override {
+    gradient.prepare(state.slots().size());
+    const SpringDamper::Gradients g = spring_.calc_elongation(state.of(0));
+    const int row = state.slots().reference_row(0);
+    gradient.position().segment<12>(row) = rate_ ? g.v_gradient : g.e_gradient;
+    if (rate_) gradient.rate().segment<12>(row) = g.e_gradient;
+    return rate_ ? g.v : g.e;
+  }
+
+ private:
+  void declare_subjects(Declaration& declaration) const override { declaration.references = {&spring_}; }
+  const SpringDamper& spring_;
+  bool rate_;
+};
+
+}  // namespace
+
+std::unique_ptr<Measure> SpringDamper::make_measure(const std::string& name, const std::string& measure) const {
+  return std::make_unique<ElongationMeasure>(name, *this, measure != "elongation");
+}
+
+namespace {
+
+/// What `stiffness` and `damping` say; a formula `force` is read later.
+ForceLaw read_linear(const YamlValue& entry) {
+  const auto stiffness = entry.find("stiffness"), damping = entry.find("damping");
+  if (entry.has("force")) {
     for (const char* key : {"stiffness", "damping"})
       if (const auto other = entry.find(key)) other->fail("give either `force` or `stiffness` and `damping`");
-    Expression timed = force->expression({"e", "v", "t"});
-    // A formula that can do without t is a spring and damper; one that cannot is an actuator.
-    try {
-      return TensionLaw::formula(force->expression({"e", "v"}));
-    } catch (const InputError&) {
-      return TensionLaw::timed_formula(timed);
-    }
+    return {};
   }
-  const auto stiffness = entry.find("stiffness"), damping = entry.find("damping");
   if (!stiffness && !damping) entry.fail("a spring_damper needs `stiffness`, `damping` or `force`");
-  return TensionLaw::linear(stiffness ? stiffness->non_negative_number() : 0,
-                            damping ? damping->non_negative_number() : 0);
+  return {stiffness ? stiffness->non_negative_number() : 0, damping ? damping->non_negative_number() : 0};
 }
 
 }  // namespace
@@ -208,11 +200,16 @@ void read_spring_damper(const std::string& name, const YamlValue& entry, Model& 
   const double placed = (B.x + B.R * at_b - A.x - A.R * at_a).norm();
   const auto length = entry.find("length");
   const double free_length = length ? length->non_negative_number() : placed;
-  TensionLaw law = read_law(entry);
-  if (placed == 0 && !(law.is_linear() && free_length == 0 && law.damping() == 0))
+  ForceLaw law = read_linear(entry);
+  const auto force = entry.find("force");
+  if (placed == 0 && (force || free_length != 0 || law.damping() != 0))
     node_names.fail("the attachment points coincide: the spring_damper has no direction");
-  model.add(std::make_unique<SpringDamper>(name, nodes[0], nodes[1], at_a, at_b, free_length, std::move(law)),
-            "elements/" + name);
+  auto spring = std::make_unique<SpringDamper>(name, nodes[0], nodes[1], at_a, at_b, free_length, std::move(law));
+  if (force)
+    model.when_read(Model::Stage::formulas, [spring = spring.get(), formula = *force, &model] {
+      spring->read(formula, model);
+    });
+  model.add(std::move(spring), "elements/" + name);
 }
 
 }  // namespace bielle::mechanism

@@ -2,57 +2,30 @@
 //
 // With p_k = x_k + R_k c_k, s = p_B - p_A, l = |s|, u = s/l, elongation e = l - l_0 and rate v = ldot = u . sdot, the
 // tension N (positive when it pulls the points together) is
-//     N = k e + c v,   or any function N(e, v, t).
+//     N = k e + c v,   or any function N(e, v, t, measures).
 // It acts on A with +N u and on B with -N u: residual J^T N u, where J = ds/dz = [-I, R_A c_A~, I, -R_B c_B~].
 #pragma once
 
-#include <optional>
 #include <string>
+#include <utility>
 
-#include "mechanism/system/component.hpp"
+#include "mechanism/measures/force_law.hpp"
 #include "mechanism/system/model.hpp"
-#include "reduce/common/expression.hpp"
 
 namespace bielle::mechanism {
-
-/// The tension of a spring_damper and its partial derivatives.
-struct Tension {
-  double N = 0;    ///< [N]
-  double N_e = 0;  ///< [N/m]
-  double N_v = 0;  ///< [N s/m]
-};
-
-/// Law of a spring_damper: linear, or a formula.
-class TensionLaw {
- public:
-  static TensionLaw linear(double stiffness, double damping);   ///< [N/m], [N s/m]
-  static TensionLaw formula(const Expression& of_e_v);          ///< N(e, v): elastic part N(e, 0), the rest dissipates
-  static TensionLaw timed_formula(const Expression& of_e_v_t);  ///< N(e, v, t): counted as input
-
-  Tension at(double e, double v, double t) const;
-  bool is_linear() const { return !formula_; }
-  bool is_timed() const { return timed_; }
-  double damping() const { return damping_; }
-  /// Energy [J] stored from 0 to e: integral of N(e, 0) de.
-  double elastic_energy(double e) const;
-
- private:
-  double stiffness_ = 0, damping_ = 0;
-  std::optional<Expression> formula_;
-  bool timed_ = false;
-};
 
 /// See the head of this file. The direction is undefined where the points coincide: only a linear spring of free length
 /// zero without damper may pass there, any other throws ComputationError. Exact tangents.
 ///
-/// Energies: a linear law and a formula of (e, v) store the integral of N(e, 0) and dissipate (N(e, v) - N(e, 0)) v; a
-/// formula of time is an actuator, whose power -N v is counted as input.
+/// Energies: see measures/force_law.hpp.
 class SpringDamper : public Component {
  public:
   /// @param at_a,at_b  attachment points [m], in the axes of their nodes
   /// @param length     free length l_0 [m]
   SpringDamper(std::string name, int node_a, int node_b, const Vector3& at_a, const Vector3& at_b, double length,
-               TensionLaw law);
+               ForceLaw law);
+  /// Adds a formula of e, v, t and measures to the tension, once the model is read.
+  void read(const YamlValue& formula, Model& model);
 
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
@@ -61,15 +34,30 @@ class SpringDamper : public Component {
   /// `length` [m], `rate` [m/s], `force` [N], tension positive.
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
+  void add_break_points(std::vector<double>& times) const override { law_.add_break_points(times); }
+  std::vector<std::string> measure_names() const override { return {"elongation", "elongation.rate"}; }
+  std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const override;
+
+  /// Elongation [m] and its rate [m/s].
+  std::pair<double, double> elongation(const LocalState& state) const;
+  /// Their gradients over the twelve unknowns of the nodes: of both by positions; by velocities that of the rate is the
+  /// elongation's by positions.
+  struct Gradients {
+    double e, v;
+    Eigen::Matrix<double, 12, 1> e_gradient, v_gradient;
+  };
+  Gradients calc_elongation(const LocalState& state) const;
 
  private:
   struct Line;
-  Line line(const LocalState& state) const;
+  Line line(const LocalState& state) const;  ///< without the tension
+  double smallest_length(const LocalState& state) const;
 
   int node_a_, node_b_;
   Vector3 c_a_, c_b_;
   double length_;
-  TensionLaw law_;
+  ForceLaw law_;
+  References references_;
 };
 
 /// `{type: spring_damper, nodes: [a, b], at, stiffness, damping, length}` or with `force: "N(e, v, t)"` in place of

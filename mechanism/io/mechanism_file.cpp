@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/io/component_table.hpp"
+#include "mechanism/measures/read_measure.hpp"
 #include "mechanism/system/read_frame.hpp"
 
 namespace bielle::mechanism {
@@ -108,7 +109,8 @@ void read_node(const std::string& name, const YamlValue& entry, Model& model) {
 
 MechanismFile read_mechanism(YamlValue root, const std::map<std::string, std::string>& overrides) {
   root.check_keys(
-      {"mechanism", "gravity", "parameters", "nodes", "elements", "joints", "drives", "loads", "analysis", "output"},
+      {"mechanism", "gravity", "parameters", "nodes", "elements", "joints", "drives", "loads", "measures", "analysis",
+       "output"},
       "a mechanism file");
   MechanismFile file;
   file.text = root.source_text();
@@ -124,6 +126,9 @@ MechanismFile read_mechanism(YamlValue root, const std::map<std::string, std::st
     if (!entries) continue;
     for (const auto& [name, entry] : entries->entries()) read_component(section, name, entry, file.model);
   }
+  if (const auto measures = root.find("measures"))
+    for (const auto& [name, entry] : measures->entries()) read_measure(name, entry, file.model);
+  file.model.connect();
   if (file.model.members().empty()) root.fail("the mechanism has no elements, joints or loads");
 
   if (const auto analyses = root.find("analysis"))

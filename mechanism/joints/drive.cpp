@@ -4,91 +4,70 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/measures/read_measure.hpp"
+
 namespace bielle::mechanism {
-// -- what all drives are
-
-Drive::Drive(std::string name, const Joint& joint, std::size_t coordinate, Expression f)
-    : Component("drive", std::move(name)), joint_(joint), coordinate_(coordinate), f_(std::move(f)) {}
-
-PairMeasure Drive::measure(const LocalState& state) const {
-  return joint_.calc_coordinate(coordinate_, state.node(0), state.node(1));
-}
-
-void Drive::declare_nodes(Declaration& declaration) const {
-  declaration.nodes = {joint_.frames().first, joint_.frames().second};
-  declaration.stiffness = true;
-}
-
 namespace {
-std::string force_units_along(const JointCoordinate& coordinate) {
-  return coordinate.kind == JointCoordinate::Kind::displacement ? "N" : "N m";
+
+/// The row of a multiplier that keeps a coordinate, in K: B and B^T along the joint's local rows, and d(B^T lambda).
+void add_row(CoordinateJet::VectorMap gradient, CoordinateJet::MatrixMap slope, double lambda, int row,
+             LocalTangent& tangent) {
+  const auto n = gradient.size();
+  tangent.K.block(row, row, n, n) += lambda * slope;
+  tangent.K.block(row, 0, n, 1) += gradient;
 }
+
 }  // namespace
 
-std::string Drive::force_units() const { return force_units_along(coordinate()); }
-
 std::vector<OutputField> Drive::output_fields() const {
-  std::string units;
-  for (const JointCoordinate& each : joint_.coordinates())
-    units += (units.empty() ? "" : ", ") + force_units_along(each);
-  return {{"drive_force",
-           {joint_.coordinates().size()},
-           units,
-           "force or torque of the drives along the joint's coordinates; zero where none acts",
-           true}};
+  return {force_field("drive_force",
+                      "force or torque of the drives along the joint's coordinates; zero where none acts")};
 }
 
-void Drive::write_output(const LocalState& state, double* values) const {
-  for (std::size_t k = 0; k < joint_.coordinates().size(); ++k) values[k] = k == coordinate_ ? force(state) : 0.0;
-}
-
-void Drive::add_break_points(std::vector<double>& times) const {
+void MotionDrive::add_break_points(std::vector<double>& times) const {
   const std::vector<double> points = f_.break_points();
   times.insert(times.end(), points.begin(), points.end());
 }
 
 // -- position
 
-PairMeasure PositionDrive::distance(const LocalState& state) const {
-  PairMeasure m = measure(state);
+double PositionDrive::distance(const LocalState& state, double principal) const {
   const double target = state.motion_factor() * law()(state.time());
   // An angle is wanted modulo turns: the drive counts them by time, not by memory, so that steps of any size and
   // restarts find the same. Whole turns are taken off the target by itself: rounding of large angles would otherwise
   // keep Newton's method from its tolerance.
   if (coordinate().kind == JointCoordinate::Kind::angle)
-    m.value = std::remainder(m.value - std::remainder(target, 2 * M_PI), 2 * M_PI);
-  else
-    m.value -= target;
-  return m;
+    return std::remainder(principal - std::remainder(target, 2 * M_PI), 2 * M_PI);
+  return principal - target;
 }
 
-double PositionDrive::force(const LocalState& state) const { return -state.multiplier()[0]; }
-
 void PositionDrive::declare(Declaration& declaration) const {
-  declare_nodes(declaration);
-  declaration.multipliers.push_back({coordinate().name, force_units()});
+  declare_references(declaration);
+  declaration.multipliers.push_back({coordinate().name, coordinate().force_units()});
 }
 
 void PositionDrive::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
-  const PairMeasure m = distance(state);
-  r.head<12>() += state.multiplier()[0] * m.gradient;
-  r[12] += m.value;
+  CoordinateJet& jet = calc(state);
+  r.segment(row(state), jet.g().size()) += state.multiplier()[0] * jet.g();
+  r[0] += distance(state, jet.principal);
 }
 
 void PositionDrive::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   if (!tangent.wants_K) return;
-  const PairMeasure m = distance(state);
-  tangent.K.topLeftCorner<12, 12>() += state.multiplier()[0] * m.second;
-  tangent.K.block<12, 1>(0, 12) += m.gradient;
-  tangent.K.block<1, 12>(12, 0) += m.gradient.transpose();
+  CoordinateJet& jet = calc(state);
+  add_row(jet.g(), jet.S(), state.multiplier()[0], row(state), tangent);
+  tangent.K.block(0, row(state), 1, jet.g().size()) += jet.g().transpose();
 }
 
 void PositionDrive::add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
                                          Eigen::Ref<VectorX> acceleration) const {
-  const PairMeasure m = measure(state);
-  const Vector12 v = pair_rate(state.node(0), state.node(1)), a = pair_acceleration(state.node(0), state.node(1));
-  velocity[0] += m.rate(v) - law().derivative(state.time(), 1);
-  acceleration[0] += m.acceleration(v, a) - law().derivative(state.time(), 2);
+  CoordinateJet& jet = calc(state);
+  const LocalState of_joint = state.of(0);
+  VectorX v(of_joint.slots().size()), a(v.size());
+  get_local_velocities(of_joint, v);
+  get_local_accelerations(of_joint, a);
+  velocity[0] += jet.g().dot(v) - law().derivative(state.time(), 1);
+  acceleration[0] += jet.g().dot(a) + v.dot(jet.S() * v) - law().derivative(state.time(), 2);
 }
 
 void PositionDrive::add_energy(const LocalState& state, Energy& energy) const {
@@ -97,37 +76,39 @@ void PositionDrive::add_energy(const LocalState& state, Energy& energy) const {
 
 // -- rate
 
-double RateDrive::force(const LocalState& state) const { return -state.multiplier()[0]; }
-
 void RateDrive::declare(Declaration& declaration) const {
-  declare_nodes(declaration);
+  declare_references(declaration);
   declaration.damping = true;
-  declaration.multipliers.push_back({coordinate().name + " rate", force_units(), 0, ConstraintKind::nonholonomic});
+  declaration.multipliers.push_back(
+      {coordinate().name + " rate", coordinate().force_units(), 0, ConstraintKind::nonholonomic});
 }
 
 void RateDrive::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
-  const PairMeasure m = measure(state);
-  r.head<12>() += state.multiplier()[0] * m.gradient;
-  r[12] += m.rate(pair_rate(state.node(0), state.node(1))) - law()(state.time());
+  CoordinateJet& jet = calc(state);
+  r.segment(row(state), jet.w().size()) += state.multiplier()[0] * jet.w();
+  r[0] += jet.rate - law()(state.time());
 }
 
 void RateDrive::add_tangent(const LocalState& state, LocalTangent& tangent) const {
-  const PairMeasure m = measure(state);
+  CoordinateJet& jet = calc(state);
+  const int at = row(state);
+  const auto n = jet.w().size();
   if (tangent.wants_K) {
-    tangent.K.topLeftCorner<12, 12>() += state.multiplier()[0] * m.second;
-    tangent.K.block<12, 1>(0, 12) += m.gradient;
-    // d(g . v) = v . S dz at fixed v
-    tangent.K.block<1, 12>(12, 0) += pair_rate(state.node(0), state.node(1)).transpose() * m.second;
+    add_row(jet.w(), jet.W(), state.multiplier()[0], at, tangent);
+    tangent.K.block(0, at, 1, n) += rate_slope(state, jet).transpose();
   }
-  if (tangent.wants_C) tangent.C.block<1, 12>(12, 0) += m.gradient.transpose();
+  if (tangent.wants_C) tangent.C.block(0, at, 1, n) += jet.w().transpose();
 }
 
 void RateDrive::add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
                                      Eigen::Ref<VectorX> acceleration) const {
-  const PairMeasure m = measure(state);
-  const Vector12 v = pair_rate(state.node(0), state.node(1)), a = pair_acceleration(state.node(0), state.node(1));
-  velocity[0] += m.rate(v) - law()(state.time());
-  acceleration[0] += m.acceleration(v, a) - law().derivative(state.time(), 1);
+  CoordinateJet& jet = calc(state);
+  const LocalState of_joint = state.of(0);
+  VectorX v(of_joint.slots().size()), a(v.size());
+  get_local_velocities(of_joint, v);
+  get_local_accelerations(of_joint, a);
+  velocity[0] += jet.rate - law()(state.time());
+  acceleration[0] += jet.w().dot(a) + v.dot(jet.W() * v) - law().derivative(state.time(), 1);
 }
 
 void RateDrive::add_energy(const LocalState& state, Energy& energy) const {
@@ -136,22 +117,43 @@ void RateDrive::add_energy(const LocalState& state, Energy& energy) const {
 
 // -- force
 
-double ForceDrive::force(const LocalState& state) const {
-  return state.environment().load_factor * law()(state.time());
+void ForceDrive::read(const YamlValue& law, Model& model) {
+  law_ = read_state_formula(law, {"t"}, model, references());
 }
 
-void ForceDrive::declare(Declaration& declaration) const { declare_nodes(declaration); }
+double ForceDrive::force(const LocalState& state) const {
+  const double t = state.time();
+  return state.environment().load_factor * law_.value(state, {&t, 1});
+}
+
+void ForceDrive::declare(Declaration& declaration) const {
+  declare_references(declaration);
+  declaration.damping = law_.reads_state();
+  declaration.reads_reactions = law_.reads_reactions();
+}
 
 void ForceDrive::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
-  r.head<12>() -= force(state) * measure(state).gradient;
+  CoordinateJet& jet = calc(state);
+  r.segment(row(state), jet.w().size()) -= force(state) * jet.w();
 }
 
 void ForceDrive::add_tangent(const LocalState& state, LocalTangent& tangent) const {
-  if (tangent.wants_K) tangent.K.topLeftCorner<12, 12>() -= force(state) * measure(state).second;
+  if (!tangent.wants_K && !(tangent.wants_C && law_.reads_state())) return;
+  const double t = state.time(), factor = state.environment().load_factor;
+  thread_local FormulaGradient gradient;
+  law_.calc(state, {&t, 1}, gradient);
+  CoordinateJet& jet = calc(state);
+  const int at = row(state);
+  const auto n = jet.w().size();
+  if (tangent.wants_K) tangent.K.block(at, at, n, n) -= factor * gradient.value * jet.W();
+  if (!law_.reads_state()) return;
+  if (tangent.wants_K)
+    tangent.K.middleRows(at, n) -= factor * jet.w() * gradient.by_state.position().transpose();
+  if (tangent.wants_C) tangent.C.middleRows(at, n) -= factor * jet.w() * gradient.by_state.rate().transpose();
 }
 
 void ForceDrive::add_energy(const LocalState& state, Energy& energy) const {
-  energy.input += force(state) * measure(state).rate(pair_rate(state.node(0), state.node(1)));
+  energy.input += force(state) * value(state).rate;
 }
 
 // -- reader
@@ -175,10 +177,9 @@ void read_drive(const std::string& name, const YamlValue& entry, Model& model) {
         "a drive needs one of angle, rate, torque (turning joints) or displacement, speed, force (sliding joints)");
 
   const bool turning = law == "angle" || law == "rate" || law == "torque";
-  const auto wanted = turning ? JointCoordinate::Kind::angle : JointCoordinate::Kind::displacement;
   std::vector<std::string> names;
   for (const JointCoordinate& coordinate : joint->coordinates())
-    if (coordinate.kind == wanted) names.push_back(coordinate.name);
+    if ((coordinate.kind != JointCoordinate::Kind::displacement) == turning) names.push_back(coordinate.name);
   if (names.empty())
     entry.at(law).fail(fmt::format("a {} joint has no {} to drive", joint->type(), turning ? "angle" : "displacement"));
   if (names.size() > 1 && !entry.has("coordinate"))
@@ -187,23 +188,27 @@ void read_drive(const std::string& name, const YamlValue& entry, Model& model) {
   const std::string chosen = entry.has("coordinate")
                                  ? entry.at("coordinate").word(names, fmt::format("a coordinate for '{}'", law))
                                  : names.front();
-  std::size_t index = 0;
-  while (joint->coordinates()[index].name != chosen) ++index;
+  const std::size_t index = joint->coordinate_index(chosen);
 
   const std::string group = "joints/" + joint->name();
   for (const Component* other : model.components_in(group))
     if (const auto* driver = dynamic_cast<const Drive*>(other); driver && driver->coordinate().name == chosen)
       entry.fail(fmt::format("the {} of joint '{}' is driven by '{}' already", chosen, joint->name(), driver->name()));
 
-  Expression f = entry.at(law).expression({"t"});
+  const YamlValue value = entry.at(law);
+  if (law == "torque" || law == "force") {
+    auto drive = std::make_unique<ForceDrive>(name, *joint, index);
+    model.when_read(Model::Stage::formulas, [drive = drive.get(), value, &model] { drive->read(value, model); });
+    model.add(std::move(drive), group);
+    return;
+  }
+  Expression f = value.expression({"t"});
   if (law == "angle") joint->start_at(index, f(0));
   std::unique_ptr<Component> drive;
   if (law == "angle" || law == "displacement")
     drive = std::make_unique<PositionDrive>(name, *joint, index, std::move(f));
-  else if (law == "rate" || law == "speed")
-    drive = std::make_unique<RateDrive>(name, *joint, index, std::move(f));
   else
-    drive = std::make_unique<ForceDrive>(name, *joint, index, std::move(f));
+    drive = std::make_unique<RateDrive>(name, *joint, index, std::move(f));
   model.add(std::move(drive), group);
 }
 

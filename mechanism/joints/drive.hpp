@@ -4,43 +4,48 @@
 //                               coordinate, negated (the residual holds + B^T lambda). On the way of statics: c = s
 //                               f(t) with the part s of the motion that is made
 //   rate or speed (t):          constraint cdot - f(t) = 0, non-holonomic; in statics the joint stays where it is
-//   torque or force (t):        generalised force f(t) along +c: the second node is pushed, the first pulled
+//   torque or force:            generalised force f(t, measures) along +c: the second node is pushed, the first pulled
 //
 // A position drive begins where f(t_start) says: the assembly moves the joint there, and the joint counts turns from
 // there.
 #pragma once
 
-#include "mechanism/joints/joint.hpp"
+#include "mechanism/joints/coordinate_action.hpp"
+#include "mechanism/measures/state_formula.hpp"
 
 namespace bielle::mechanism {
 
-/// What all drives are: a law f(t) on one coordinate of a joint. Drives of one joint record their forces together.
-class Drive : public Component {
+/// What all drives are: a law on one coordinate of a joint. Drives of one joint record their forces together.
+class Drive : public CoordinateAction {
  public:
-  Drive(std::string name, const Joint& joint, std::size_t coordinate, Expression f);
-  const JointCoordinate& coordinate() const { return joint_.coordinates()[coordinate_]; }
+  Drive(std::string name, const Joint& joint, std::size_t coordinate)
+      : CoordinateAction("drive", std::move(name), joint, coordinate) {}
   std::vector<OutputField> output_fields() const final;
-  void write_output(const LocalState& state, double* values) const final;
+  void write_output(const LocalState& state, double* values) const final { write_force(force(state), values); }
+
+ protected:
+  virtual double force(const LocalState& state) const = 0;  ///< along the coordinate [N] or [N m]
+};
+
+/// What drives by motion are: a function of time, kept by a multiplier.
+class MotionDrive : public Drive {
+ public:
+  MotionDrive(std::string name, const Joint& joint, std::size_t coordinate, Expression f)
+      : Drive(std::move(name), joint, coordinate), f_(std::move(f)) {}
   void add_break_points(std::vector<double>& times) const final;
 
  protected:
-  PairMeasure measure(const LocalState& state) const;           ///< the joint's coordinate
-  void declare_nodes(Declaration& declaration) const;       ///< those of the joint, with a stiffness
-  std::string force_units() const;                          ///< of the driven coordinate
-  virtual double force(const LocalState& state) const = 0;  ///< along the coordinate [N] or [N m]
-
   const Expression& law() const { return f_; }
+  double force(const LocalState& state) const final { return -state.multiplier()[0]; }
 
  private:
-  const Joint& joint_;
-  std::size_t coordinate_;
   Expression f_;
 };
 
 /// Prescribes a coordinate: c = f(t).
-class PositionDrive final : public Drive {
+class PositionDrive final : public MotionDrive {
  public:
-  using Drive::Drive;
+  using MotionDrive::MotionDrive;
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
@@ -49,36 +54,37 @@ class PositionDrive final : public Drive {
   void add_energy(const LocalState& state, Energy& energy) const override;
 
  private:
-  PairMeasure distance(const LocalState& state) const;  ///< from where the law wants the coordinate
-  double force(const LocalState& state) const override;
+  /// From where the law wants the coordinate.
+  double distance(const LocalState& state, double principal) const;
 };
 
 /// Prescribes a coordinate's rate: cdot = f(t).
-class RateDrive final : public Drive {
+class RateDrive final : public MotionDrive {
  public:
-  using Drive::Drive;
+  using MotionDrive::MotionDrive;
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   void add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
                             Eigen::Ref<VectorX> acceleration) const override;
   void add_energy(const LocalState& state, Energy& energy) const override;
-
- private:
-  double force(const LocalState& state) const override;
 };
 
-/// Acts along a coordinate with a given force or torque.
+/// Acts along a coordinate with a force or torque, a formula of time and measures.
 class ForceDrive final : public Drive {
  public:
   using Drive::Drive;
+  /// Takes its law, once the model is read. @param law  of t and measures
+  void read(const YamlValue& law, Model& model);
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   void add_energy(const LocalState& state, Energy& energy) const override;
+  void add_break_points(std::vector<double>& times) const override { law_.add_break_points(0, times); }
 
  private:
   double force(const LocalState& state) const override;
+  StateFormula law_;
 };
 
 /// Reads an entry of `drives`: `{joint: main, angle: "speed*t"}`.

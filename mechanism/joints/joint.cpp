@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "mechanism/joints/pair_rotation.hpp"
+#include "mechanism/measures/pair_rotation.hpp"
 
 namespace bielle::mechanism {
 

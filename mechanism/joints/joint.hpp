@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "mechanism/joints/coordinate.hpp"
-#include "mechanism/joints/pair_measure.hpp"
+#include "mechanism/measures/coordinate.hpp"
+#include "mechanism/measures/pair_measure.hpp"
 #include "mechanism/system/model.hpp"
 
 namespace bielle::mechanism {

@@ -1,5 +1,7 @@
 #include "mechanism/joints/lower_pairs.hpp"
 
+#include "mechanism/joints/joint_actions.hpp"
+
 namespace bielle::mechanism {
 
 LowerPair::LowerPair(std::string type, std::string name, JointFrames frames, std::vector<JointCoordinate> coordinates,
@@ -163,10 +165,14 @@ namespace {
 void read_lower_pair(const std::string& type, const std::string& words, const std::string& name, const YamlValue& entry,
                      Model& model, AxisNeed need, std::vector<JointCoordinate> coordinates,
                      const LockedMotions& locked) {
-  entry.check_keys(joint_frame_keys(), words);
-  model.add(std::make_unique<LowerPair>(type, name, read_joint_frames(entry, model, need), std::move(coordinates),
-                                        locked, model),
-            "joints/" + name);
+  std::vector<std::string> keys = joint_frame_keys(), actions = joint_action_keys();
+  keys.insert(keys.end(), actions.begin(), actions.end());
+  entry.check_keys(keys, words);
+  auto joint = std::make_unique<LowerPair>(type, name, read_joint_frames(entry, model, need), std::move(coordinates),
+                                           locked, model);
+  const LowerPair& added = *joint;
+  model.add(std::move(joint), "joints/" + name);
+  read_joint_actions(entry, added, model);
 }
 
 using Rotation = LockedMotions::Rotation;

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/system/measure.hpp"
+
 namespace bielle::mechanism {
 
 Model::Model() {
@@ -63,6 +65,61 @@ std::vector<Component*> Model::components_in(const std::string& group) {
   for (const Member& member : members_)
     if (member.group == group) components.push_back(member.component.get());
   return components;
+}
+
+std::vector<Component*> Model::components_named(const std::string& name) const {
+  std::vector<Component*> components;
+  for (const Member& member : members_)
+    if (member.group == "elements/" + name || member.group == "joints/" + name)
+      components.push_back(member.component.get());
+  return components;
+}
+
+void Model::when_read(Stage stage, std::function<void()> action) {
+  waiting_[static_cast<std::size_t>(stage)].push_back(std::move(action));
+}
+
+void Model::connect() {
+  for (auto& stage : waiting_) {
+    // An action may add others.
+    for (std::size_t k = 0; k < stage.size(); ++k) {
+      const std::function<void()> action = stage[k];
+      action();
+    }
+    stage.clear();
+  }
+  for (std::size_t k = 0; k < announced_.size(); ++k) find_measure(announced_[k].name);
+}
+
+void Model::announce_measure(const std::string& name, std::function<void()> make) {
+  announced_.push_back({name, std::move(make), false});
+}
+
+Measure& Model::add_measure(std::unique_ptr<Measure> measure, bool recorded) {
+  Measure& added = *measure;
+  measures_[added.name()] = &added;
+  add(std::move(measure), recorded ? "measures" : "");
+  return added;
+}
+
+const Measure* Model::find_measure(const std::string& name) {
+  if (const auto found = measures_.find(name); found != measures_.end()) return found->second;
+  for (std::size_t k = 0; k < announced_.size(); ++k) {
+    if (announced_[k].name != name) continue;
+    if (announced_[k].under_way)
+      throw InputError(fmt::format("the measure '{}' refers to itself, at once or through others", name));
+    announced_[k].under_way = true;
+    const std::function<void()> make = announced_[k].make;
+    make();
+    return measures_.at(name);
+  }
+  return nullptr;
+}
+
+std::vector<std::string> Model::announced_measures() const {
+  std::vector<std::string> names;
+  for (const AnnouncedMeasure& each : announced_) names.push_back(each.name);
+  return names;
 }
 
 Component& Model::component_named_by(const YamlValue& value, const std::string& section) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -72,6 +73,24 @@ class Model {
   /// The components recorded in a group ("elements/shaft").
   std::vector<Component*> components_in(const std::string& group);
 
+  /// The elements and joints of a name, in the order of the file.
+  std::vector<Component*> components_named(const std::string& name) const;
+
+  /// What entries of the input file need of others is looked up when all of them are read: first what components are
+  /// made of others, then formulas and measures.
+  enum class Stage { connections, formulas };
+  void when_read(Stage stage, std::function<void()> action);
+  /// All entries are read: does what waits. @throws what it throws
+  void connect();
+
+  /// A measure that the user has named: made when somebody asks for it, at the latest by connect().
+  void announce_measure(const std::string& name, std::function<void()> make);
+  /// @param recorded  among the results, under its name
+  Measure& add_measure(std::unique_ptr<Measure> measure, bool recorded);
+  /// A measure by its name, made now if it is announced, or nullptr. @throws InputError when it is being made already
+  const Measure* find_measure(const std::string& name);
+  std::vector<std::string> announced_measures() const;
+
   /// Takes a results group ("nodes/pin", "joints/main", "elements/shaft") out of what is recorded.
   void leave_out(const std::string& group) { left_out_.insert(group); }
   bool records(const std::string& group) const { return !left_out_.contains(group); }
@@ -86,6 +105,14 @@ class Model {
   std::vector<Member> members_;
   std::vector<Chain> chains_;
   std::set<std::string> left_out_;
+  std::array<std::vector<std::function<void()>>, 2> waiting_;  ///< by stage
+  struct AnnouncedMeasure {
+    std::string name;
+    std::function<void()> make;
+    bool under_way = false;
+  };
+  std::vector<AnnouncedMeasure> announced_;
+  std::map<std::string, const Measure*> measures_;
 };
 
 /// Reads one entry of a section of the mechanism file (`name: {type: ..., ...}`) into the model. Each component type

@@ -5,7 +5,7 @@
 //     dpsi = T^-T(psi) dphi,   relative angular velocity along A's axes: omega = J [Omega_1; Omega_2].
 #pragma once
 
-#include "mechanism/joints/coordinate.hpp"
+#include "mechanism/measures/coordinate.hpp"
 #include "mechanism/math/se3.hpp"
 #include "mechanism/system/state.hpp"
 

@@ -1,4 +1,4 @@
-#include "mechanism/joints/pair_rotation.hpp"
+#include "mechanism/measures/pair_rotation.hpp"
 
 namespace bielle::mechanism {
 

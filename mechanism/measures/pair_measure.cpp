@@ -1,4 +1,4 @@
-#include "mechanism/joints/pair_measure.hpp"
+#include "mechanism/measures/pair_measure.hpp"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 // What is recorded of a joint at every step is what its measures with all their derivatives say.
 #include <catch2/catch.hpp>
 
-#include "mechanism/joints/pair_measure.hpp"
+#include "mechanism/measures/pair_measure.hpp"
 #include "tests/support/random.hpp"
 
 using namespace bielle::mechanism;

@@ -1,0 +1,75 @@
+#include "mechanism/joints/joint_lock.hpp"
+
+#include <cmath>
+
+namespace bielle::mechanism {
+
+void JointLock::declare(Declaration& declaration) const {
+  declare_references(declaration);
+  Declaration::Scalar row{coordinate().name + " locked", coordinate().force_units()};
+  row.switched = true;
+  declaration.multipliers.push_back(row);
+  declaration.memory = {open, 0};  // status, and the value of the coordinate that is kept
+  if (std::isfinite(times_.release)) declaration.crossings = {{"the release", Crossing::Direction::rising}};
+}
+
+double JointLock::distance(const LocalState& state, double value) const {
+  const double away = value - state.memory()[1];
+  return coordinate().kind == JointCoordinate::Kind::angle ? std::remainder(away, 2 * M_PI) : away;
+}
+
+void JointLock::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
+  CoordinateJet& jet = calc(state);
+  r.segment(row(state), jet.g().size()) += state.multiplier()[0] * jet.g();
+  r[0] += distance(state, jet.principal);
+}
+
+void JointLock::add_tangent(const LocalState& state, LocalTangent& tangent) const {
+  if (!tangent.wants_K) return;
+  CoordinateJet& jet = calc(state);
+  const int at = row(state);
+  const auto n = jet.g().size();
+  tangent.K.block(at, at, n, n) += state.multiplier()[0] * jet.S();
+  tangent.K.block(at, 0, n, 1) += jet.g();
+  tangent.K.block(0, at, 1, n) += jet.g().transpose();
+}
+
+void JointLock::add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
+                                     Eigen::Ref<VectorX> acceleration) const {
+  CoordinateJet& jet = calc(state);
+  const LocalState of_joint = state.of(0);
+  VectorX v(of_joint.slots().size()), a(v.size());
+  get_local_velocities(of_joint, v);
+  get_local_accelerations(of_joint, a);
+  velocity[0] += jet.g().dot(v);
+  acceleration[0] += jet.g().dot(a) + v.dot(jet.S() * v);
+}
+
+std::vector<OutputField> JointLock::output_fields() const {
+  return {force_field("lock_force", "force or torque of the lock along the joint's coordinates")};
+}
+
+void JointLock::write_output(const LocalState& state, double* values) const {
+  write_force(-state.multiplier()[0], values);
+}
+
+void JointLock::add_break_points(std::vector<double>& times) const {
+  for (const double time : {times_.from, times_.to})
+    if (std::isfinite(time)) times.push_back(time);
+}
+
+void JointLock::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const {
+  if (values.size() > 0) values[0] = std::abs(state.multiplier()[0]) - times_.release;
+}
+
+void JointLock::begin_branch(const LocalState& state, std::span<const int> crossed, Eigen::Ref<VectorX> memory) const {
+  if (!crossed.empty()) memory[0] = released;
+  if (memory[0] == released) return;
+  const bool now = state.time() >= times_.from && state.time() < times_.to;
+  if (now && memory[0] == open) memory[1] = value(state).value;
+  memory[0] = now ? locked : open;
+}
+
+bool JointLock::is_on(const LocalState& state, int /*row*/) const { return state.memory()[0] == locked; }
+
+}  // namespace bielle::mechanism

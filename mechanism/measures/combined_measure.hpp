@@ -1,0 +1,25 @@
+// A measure that a formula makes of others: `lag: "main.angle - motor.angle"`.
+#pragma once
+
+#include "mechanism/measures/state_formula.hpp"
+
+namespace bielle::mechanism {
+
+class CombinedMeasure final : public Measure {
+ public:
+  /// @param formula  of t and the measures referred to
+  CombinedMeasure(std::string name, References references, StateFormula formula, std::string units);
+  std::string units() const override { return units_; }
+  double value(const LocalState& state) const override;
+  double calc(const LocalState& state, MeasureGradient& gradient) const override;
+  bool reads_reactions() const override { return formula_.reads_reactions(); }
+  void add_break_points(std::vector<double>& times) const override { formula_.add_break_points(0, times); }
+
+ private:
+  void declare_subjects(Declaration& declaration) const override { references_.declare(declaration); }
+  References references_;
+  StateFormula formula_;
+  std::string units_;
+};
+
+}  // namespace bielle::mechanism

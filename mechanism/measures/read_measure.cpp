@@ -1,0 +1,225 @@
+#include "mechanism/measures/read_measure.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "mechanism/measures/combined_measure.hpp"
+#include "mechanism/measures/node_measures.hpp"
+#include "reduce/common/units.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+const std::vector<std::string> functions = {"distance", "angle"};
+
+/// A reference of a formula, looked up in the model.
+class Lookup {
+ public:
+  Lookup(const YamlValue& value, Model& model) : value_(value), model_(model) {}
+
+  const Measure& find(const FormulaReference& reference) {
+    const std::string name = reference.function.empty() ? dotted(reference) : called(reference);
+    if (const Measure* known = model_.find_measure(name)) return *known;
+    return model_.add_measure(reference.function.empty() ? make_dotted(reference, name) : make_called(reference, name),
+                              false);
+  }
+
+  const Measure* named(const std::string& name) {
+    try {
+      return model_.find_measure(name);
+    } catch (const InputError& error) {
+      if (std::string(error.what()).rfind("the measure", 0) != 0) throw;  // located already
+      value_.fail(error.what());
+    }
+  }
+
+ private:
+  static std::string dotted(const FormulaReference& reference) {
+    return fmt::format("{}.{}", reference.subjects.front(), fmt::join(reference.path, "."));
+  }
+  static std::string called(const FormulaReference& reference) {
+    return fmt::format("{}({})", reference.function, fmt::join(reference.subjects, ", "));
+  }
+
+  int node(const std::string& name) const {
+    if (const auto index = model_.find_node(name)) return *index;
+    value_.fail(fmt::format("there is no node '{}'{}", name, did_you_mean(name, node_names())));
+  }
+
+  std::vector<std::string> node_names() const {
+    std::vector<std::string> names;
+    for (const Node& each : model_.nodes())
+      if (!each.internal) names.push_back(each.name);
+    return names;
+  }
+
+  std::unique_ptr<Measure> make_called(const FormulaReference& reference, const std::string& name) const {
+    if (!reference.path.empty())
+      value_.fail(fmt::format("'{}': {} is a number, nothing can follow it", reference.text, name));
+    if (reference.subjects.size() != 2)
+      value_.fail(fmt::format("'{}': expected two nodes, as in {}(a, b)", reference.text, reference.function));
+    const NodePair pair{node(reference.subjects[0]), node(reference.subjects[1]), Vector3::Zero(), Vector3::Zero()};
+    if (pair.first == pair.second)
+      value_.fail(fmt::format("'{}': expected two different nodes", reference.text));
+    return reference.function == "angle" ? make_angle(name, pair) : make_distance(name, pair);
+  }
+
+  std::unique_ptr<Measure> make_dotted(const FormulaReference& reference, const std::string& name) const {
+    const std::string& subject = reference.subjects.front();
+    const std::string wanted = fmt::format("{}", fmt::join(reference.path, "."));
+    const auto has = [&](const std::vector<std::string>& names) {
+      return std::find(names.begin(), names.end(), wanted) != names.end();
+    };
+    std::vector<std::string> available;
+    const auto offer = [&](const std::vector<std::string>& names) {
+      available.insert(available.end(), names.begin(), names.end());
+    };
+    for (const Component* component : model_.components_named(subject)) {
+      if (has(component->measure_names())) return component->make_measure(name, wanted);
+      offer(component->measure_names());
+    }
+    if (const auto index = model_.find_node(subject)) {
+      if (has(node_measure_names())) return make_node_measure(name, model_, *index, wanted);
+      offer(node_measure_names());
+    }
+    if (available.empty()) {
+      std::vector<std::string> subjects = node_names();
+      for (const char* section : {"joints", "elements"})
+        for (const std::string& each : model_.names_in(section)) subjects.push_back(each);
+      if (!model_.components_named(subject).empty())
+        value_.fail(fmt::format("'{}': '{}' has nothing that can be measured", reference.text, subject));
+      value_.fail(fmt::format("'{}': there is no joint, node or element '{}'{}", reference.text, subject,
+                              did_you_mean(subject, subjects)));
+    }
+    value_.fail(fmt::format("'{}': '{}' has no '{}'{}", reference.text, subject, wanted,
+                            did_you_mean(wanted, available)));
+  }
+
+  const YamlValue& value_;
+  Model& model_;
+};
+
+/// Names in a formula, in the order in which they appear, each once.
+std::vector<std::string> words_in(const std::string& text) {
+  std::vector<std::string> words;
+  const auto inside = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+  for (std::size_t begin = 0, end = 0; begin < text.size(); begin = end + 1) {
+    for (end = begin; end < text.size() && inside(text[end]);) ++end;
+    if (end == begin || std::isdigit(static_cast<unsigned char>(text[begin]))) continue;
+    std::string word = text.substr(begin, end - begin);
+    if (std::find(words.begin(), words.end(), word) == words.end()) words.push_back(std::move(word));
+  }
+  return words;
+}
+
+struct ReadFormula {
+  Expression expression;
+  std::vector<const Measure*> measures;
+};
+
+ReadFormula read_formula(const YamlValue& value, const std::vector<std::string>& variables, Model& model) {
+  Lookup lookup(value, model);
+  const std::vector<std::string> announced = model.announced_measures();
+  FormulaText formula = value.formula_text(variables, functions);
+  const auto is_in = [](const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  ReadFormula result;
+  std::vector<std::string> names = variables;
+  for (const std::string& word : words_in(formula.replaced)) {
+    if (!is_in(announced, word) || is_in(variables, word) || value.parameters().count(word)) continue;
+    names.push_back(word);
+    result.measures.push_back(lookup.named(word));
+  }
+  for (const FormulaReference& reference : formula.references) result.measures.push_back(&lookup.find(reference));
+  result.expression = value.expression(names, formula);
+  return result;
+}
+
+std::vector<StateFormula::Argument> refer_to(const std::vector<const Measure*>& measures, References& references) {
+  std::vector<StateFormula::Argument> arguments;
+  for (const Measure* measure : measures) arguments.push_back({measure, references.add(*measure)});
+  return arguments;
+}
+
+std::unique_ptr<Measure> read_combined(const std::string& name, const YamlValue& formula,
+                                       const std::optional<YamlValue>& units, Model& model) {
+  const ReadFormula read = read_formula(formula, {"t"}, model);
+  if (read.measures.empty())
+    formula.fail("a measure is a formula of the state: of joints (main.angle), nodes (pin.position.x), other measures");
+  std::vector<std::string> argument_units = {"s"};
+  for (const Measure* measure : read.measures) argument_units.push_back(measure->units());
+  std::string inferred = units ? units->text() : units_of(read.expression, argument_units);
+  References references;
+  StateFormula of_state(read.expression, 1, refer_to(read.measures, references));
+  return std::make_unique<CombinedMeasure>(name, std::move(references), std::move(of_state), std::move(inferred));
+}
+
+std::unique_ptr<Measure> read_of_node(const std::string& name, const YamlValue& entry, const Model& model) {
+  entry.check_keys({"node", "relative_to", "quantity", "direction", "at"}, "the measure of a node");
+  NodePair pair;
+  pair.second = model.node_named_by(entry.at("node"));
+  if (const auto relative = entry.find("relative_to")) pair.first = model.node_named_by(*relative);
+  if (pair.first == pair.second) entry.at("node").fail("a node relative to itself does not move");
+  NodeQuantity quantity = NodeQuantity::position;
+  if (const auto word = entry.find("quantity")) {
+    const std::vector<std::string> words = {"position", "velocity", "rotation", "angular_velocity"};
+    const std::string chosen = word->word(words, "a quantity");
+    quantity = static_cast<NodeQuantity>(std::find(words.begin(), words.end(), chosen) - words.begin());
+  }
+  if (const auto at = entry.find("at")) {
+    if (quantity == NodeQuantity::rotation || quantity == NodeQuantity::angular_velocity)
+      at->fail("a rotation is that of the whole node: it has no point");
+    if (at->is_sequence() && at->size() == 2 && at->at(std::size_t{0}).is_sequence()) {
+      pair.at_first = at->at(std::size_t{0}).vector3();
+      pair.at_second = at->at(std::size_t{1}).vector3();
+    } else {
+      pair.at_second = at->vector3();
+    }
+  }
+  const YamlValue direction = entry.at("direction");
+  const Vector3 axis = direction.is_sequence()
+                           ? Vector3(direction.direction())
+                           : Vector3::Unit(direction.word({"x", "y", "z"}, "a direction (x, y, z or a vector)")[0] - 'x');
+  return make_node_measure(name, model, pair, quantity, axis);
+}
+
+}  // namespace
+
+StateFormula read_state_formula(const YamlValue& value, const std::vector<std::string>& variables, Model& model,
+                                References& references) {
+  const ReadFormula read = read_formula(value, variables, model);
+  return {read.expression, variables.size(), refer_to(read.measures, references)};
+}
+
+void read_measure(const std::string& name, const YamlValue& entry, Model& model) {
+  if (name == "t" || entry.parameters().count(name))
+    entry.fail(fmt::format("'{}' is {} already; choose another name", name, name == "t" ? "the time" : "a parameter"));
+  if (words_in(name) != std::vector{name})
+    entry.fail("the name of a measure is one of formulas: letters, digits and '_', no digit first");
+  if (entry.is_map() && !entry.has("formula") && !entry.has("node"))
+    entry.fail("expected a formula, `formula` with `units`, or a `node`");
+  model.announce_measure(name, [name, entry, &model] {
+    std::unique_ptr<Measure> measure;
+    if (!entry.is_map()) {
+      measure = read_combined(name, entry, {}, model);
+    } else if (entry.has("node")) {
+      measure = read_of_node(name, entry, model);
+    } else {
+      entry.check_keys({"formula", "units"}, "a measure");
+      measure = read_combined(name, entry.at("formula"), entry.find("units"), model);
+    }
+    model.add_measure(std::move(measure), true);
+  });
+}
+
+const Measure& measure_named_by(const YamlValue& value, Model& model) {
+  read_formula(value, {"t"}, model);  // what is only one measure is known by its text then
+  if (const Measure* known = Lookup(value, model).named(value.text())) return *known;
+  return model.add_measure(read_combined(value.text(), value, {}, model), false);
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,29 @@
+// Measures and formulas of the state in input files: names are looked up in the model once all of it is read.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mechanism/measures/state_formula.hpp"
+#include "mechanism/system/model.hpp"
+#include "reduce/common/yaml_file.hpp"
+
+namespace bielle::mechanism {
+
+/// The formula that a value holds, of the component's own variables, the parameters, and whatever can be measured:
+///     <joint>.<coordinate>  <joint>.<coordinate>.rate  <joint>.reaction.x  <node>.position.x  <node>.velocity.x
+///     <spring>.elongation   distance(<node>, <node>)   angle(<node>, <node>)   <named measure>
+/// @param variables   the component's own, e.g. {"t"}
+/// @param references  of the component that owns the formula; the measures are added
+/// @throws InputError with the nearest name
+StateFormula read_state_formula(const YamlValue& value, const std::vector<std::string>& variables, Model& model,
+                                References& references);
+
+/// Reads an entry of `measures`: a formula; `{formula, units}`; or `{node, relative_to, quantity, direction, at}`.
+/// @throws InputError also where measures refer to each other in a circle
+void read_measure(const std::string& name, const YamlValue& entry, Model& model);
+
+/// The measure that a value names or, as a formula, makes.
+const Measure& measure_named_by(const YamlValue& value, Model& model);
+
+}  // namespace bielle::mechanism

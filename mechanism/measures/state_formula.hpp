@@ -1,0 +1,60 @@
+// A user's formula of time, a component's own variables and measures of the state: of a force, a torque, a spring, a
+// load, a valve.
+//
+// The component that owns the formula refers to its measures (References): their gradients stand in the component's
+// local layout, and the formula's own are f_m dm added up.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mechanism/system/measure.hpp"
+#include "mechanism/system/references.hpp"
+#include "reduce/common/expression.hpp"
+
+namespace bielle::mechanism {
+
+/// Value of a formula with its derivatives. Reused from call to call: takes memory only when it grows.
+class FormulaGradient {
+ public:
+  static constexpr std::size_t most_variables = 8;
+  double value = 0;
+  std::array<double, most_variables> by_variable{};  ///< of the component's own variables
+  /// Derivatives by measures, over the component's local layout: by positions, amplitudes, first-order unknowns and
+  /// multipliers, and by velocities and rates. Empty where the formula has no measures.
+  MeasureGradient by_state;
+};
+
+class StateFormula {
+ public:
+  StateFormula() = default;  ///< zero
+  explicit StateFormula(double constant) : expression_(constant) {}
+  /// @param expression  of `own` variables, and of the measures
+  /// @param measures    with their numbers among the references of the component that owns the formula
+  struct Argument {
+    const Measure* measure;
+    int reference;
+  };
+  StateFormula(Expression expression, std::size_t own, std::vector<Argument> measures);
+
+  bool reads_state() const { return !measures_.empty(); }
+  bool reads_reactions() const;
+  bool uses(std::size_t variable) const { return variable < own_ && expression_.uses(variable); }
+  bool is_constant() const { return expression_.is_constant(); }
+
+  /// @param state  of the component that owns the formula @param variables  its own, in the order of the reader
+  double value(const LocalState& state, std::span<const double> variables) const;
+  void calc(const LocalState& state, std::span<const double> variables, FormulaGradient& gradient) const;
+  /// Values of one of the own variables at which the formula may have kinks.
+  void add_break_points(std::size_t variable, std::vector<double>& points) const;
+
+ private:
+  static constexpr std::size_t most_arguments = 64;
+  Expression expression_;
+  std::size_t own_ = 0;
+  std::vector<Argument> measures_;
+};
+
+}  // namespace bielle::mechanism
