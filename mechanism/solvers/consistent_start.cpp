@@ -1,5 +1,6 @@
 #include "mechanism/solvers/consistent_start.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -189,9 +190,11 @@ void assemble_positions(const System& system, const Environment& environment, St
       if (system.kind(i) == Kind::translation) motion = std::max(motion, std::abs(dq[i]) / length);
     }
     motion = std::max(motion, largest_turn);
-    if (largest_turn > most_turn) dq *= most_turn / largest_turn;
+    const double part = largest_turn > most_turn ? most_turn / largest_turn : 1;
+    dq *= part;
     const State base = state;
     system.displace(state, base, dq);
+    for (const int k : system.algebraic()) state.first_order[k] += part * step[system.dofs() + k];
   }
   if (const std::string wrong = system.wrong_branch(state, environment); !wrong.empty())
     throw ComputationError(
@@ -223,30 +226,137 @@ void make_velocities_consistent(const System& system, const Environment& environ
   system.set_rates(state, v, a);
 }
 
-void make_accelerations_consistent(const System& system, const Environment& environment, State& state) {
-  const int n = system.dofs(), y = system.first_orders(), m = system.multipliers();
-  VectorX v(n), a(n);
-  system.get_rates(state, v, a);
-  state.multiplier.setZero();
-  state.first_order_rate.setZero();
-  system.set_rates(state, v, VectorX::Zero(n));
-  VectorX r(system.size()), velocity(m), acceleration(m), step(system.size());
-  system.residual(state, environment, r);
-  system.constraint_rates(state, environment, velocity, acceleration);
-  r.tail(m) = acceleration;
-  for (const int multiplier : system.set_aside()) r[n + y + multiplier] = 0;
-  LinearStep linear(system);
-  const VectorX floor = factor_mass_saddle(system, environment, state, linear);
-  linear.solve(r, step);
-  if ((floor.array() > 0).any()) {
+namespace {
+
+/// The equations of accelerations, multipliers, first-order rates and algebraic unknowns, positions and velocities
+/// being given. All but the algebraic unknowns enter linearly, or nearly so.
+class AccelerationEquations {
+ public:
+  AccelerationEquations(const System& system, const Environment& environment, State& state)
+      : system_(system),
+        environment_(environment),
+        state_(state),
+        linear_(system),
+        v_(system.dofs()),
+        a_(system.dofs()),
+        r_(system.size()),
+        step_(system.size()),
+        largest_(system.algebraic().size(), 0.0) {
+    system.get_rates(state, v_, a_);
+    a_.setZero();
+    state.multiplier.setZero();
+    state.first_order_rate.setZero();
+    system.set_rates(state, v_, a_);
+    evaluate();
+  }
+
+  void factor() { floor_ = factor_mass_saddle(system_, environment_, state_, linear_); }
+
+  /// The step of Newton's method with the last factors.
+  void solve() {
+    linear_.solve(r_, step_);
+    if (!(floor_.array() > 0).any()) return;
     // Forces that nothing but the floor balances would be accelerations without end. They equal floor times
     // acceleration (to the size of the floor everywhere else): take them out.
-    r.head(n) += floor.cwiseProduct(step.head(n));
-    linear.solve(r, step);
+    r_.head(system_.dofs()) += floor_.cwiseProduct(step_.head(system_.dofs()));
+    linear_.solve(r_, step_);
   }
-  system.set_rates(state, v, step.head(n));
-  state.first_order_rate = step.segment(n, y);
-  state.multiplier = step.tail(m);
+
+  void move(double part) {
+    const int n = system_.dofs();
+    a_ += part * step_.head(n);
+    system_.set_rates(state_, v_, a_);
+    state_.first_order_rate += part * step_.segment(n, system_.first_orders());
+    for (const int k : system_.algebraic()) {
+      state_.first_order_rate[k] = 0;
+      state_.first_order[k] += part * step_[n + k];
+    }
+    state_.multiplier += part * step_.tail(system_.multipliers());
+  }
+
+  void solve_for_algebraic() {
+    constexpr int most = 50;
+    constexpr double accurate = 1e-9;  // the step: what is left behind it is its square
+    for (int iteration = 0;; ++iteration) {
+      const double size = size_of_step();
+      if (size <= accurate) return move(1);
+      if (iteration == most || !std::isfinite(size)) throw_unsolved(iteration);
+      shorten(size);
+      factor();
+      solve();
+    }
+  }
+
+ private:
+  void evaluate() {
+    const int m = system_.multipliers();
+    VectorX velocity(m), acceleration(m);
+    system_.residual(state_, environment_, r_);
+    system_.constraint_rates(state_, environment_, velocity, acceleration);
+    r_.tail(m) = acceleration;
+    for (const int multiplier : system_.set_aside()) r_[system_.size() - m + multiplier] = 0;
+  }
+
+  /// Of the algebraic unknowns, beside their scales and what they have been on the way.
+  double size_of_step() {
+    double most = 0;
+    for (std::size_t j = 0; j < largest_.size(); ++j) {
+      const int k = system_.algebraic()[j], unknown = system_.dofs() + k;
+      const double step = std::abs(step_[unknown]);
+      largest_[j] = std::max({largest_[j], std::abs(state_.first_order[k]), step, system_.scale(unknown)});
+      const double size = largest_[j] > 0 ? step / largest_[j] : step;
+      if (size <= most) continue;
+      most = size;
+      worst_ = unknown;
+      if (!std::isfinite(size)) break;
+    }
+    return most;
+  }
+
+  /// Moves by as much of the step as makes the next one, with the same factors, shorter (P. Deuflhard, Newton Methods
+  /// for Nonlinear Problems, 2004, 3.3): nothing else compares residuals of different units.
+  void shorten(double size) {
+    const State base = state_;
+    const VectorX a = a_, step = step_;
+    for (double part = 1; part > 1e-3; part /= 2) {
+      state_ = base;
+      a_ = a;
+      step_ = step;
+      move(part);
+      evaluate();
+      solve();
+      if (size_of_step() <= (1 - part / 4) * size) return evaluate();
+    }
+    evaluate();
+  }
+
+  [[noreturn]] void throw_unsolved(int iterations) {
+    evaluate();
+    throw ComputationError(
+        fmt::format("t = {:.6g} s: no value was found for {} that satisfies its equation; {:.2g} {} are left after {} "
+                    "iterations of Newton's method",
+                    state_.time, system_.unknown_name(worst_), r_[worst_], system_.equation_units(worst_), iterations));
+  }
+
+  const System& system_;
+  const Environment& environment_;
+  State& state_;
+  LinearStep linear_;
+  VectorX v_, a_, r_, step_, floor_;
+  std::vector<double> largest_;  ///< of each algebraic unknown
+  int worst_ = 0;
+};
+
+}  // namespace
+
+void make_accelerations_consistent(const System& system, const Environment& environment, State& state) {
+  AccelerationEquations equations(system, environment, state);
+  equations.factor();
+  equations.solve();
+  if (system.algebraic().empty())
+    equations.move(1);
+  else
+    equations.solve_for_algebraic();
 }
 
 StartReport make_consistent(const System& system, const Environment& environment, State& state) {

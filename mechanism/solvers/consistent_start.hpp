@@ -6,6 +6,10 @@
 //                   free of stress in the end as they were drawn
 //   velocities:     [M B^T; B 0][dv; mu] = [0; -dPhi/dt]          the least change in the kinetic energy's norm
 //   accelerations:  [M B^T; B 0][a; lambda] = [-g; -d2Phi/dt2 at a = 0],  first-order rates from their own equations
+//
+// Algebraic unknowns y, whose equations f(y, q, v, t) = 0 hold no rates, are found together with the accelerations,
+// whose forces may depend on them: in [M B^T; B 0] there are then columns of y, with dg/dy, and rows of df/d(y, lambda,
+// ...).
 #pragma once
 
 #include <functional>
@@ -15,8 +19,8 @@
 
 namespace bielle::mechanism {
 
-/// Factorises [M B^T; B 0] at a state. Where dofs without mass make it singular, they get a floor of 1e-12 of their
-/// kind's mean.
+/// Factorises [M B^T; B 0] at a state, with the rows and columns of first-order rates and algebraic unknowns. Where
+/// dofs without mass make it singular, they get a floor of 1e-12 of their kind's mean.
 /// @returns the floor (dofs), zero where none was needed
 /// @throws ComputationError naming an unknown that has no mass and that nothing holds
 VectorX factor_mass_saddle(const System& system, const Environment& environment, const State& state,
@@ -48,9 +52,10 @@ void assemble_positions(const System& system, const Environment& environment, St
 void make_velocities_consistent(const System& system, const Environment& environment, State& state,
                                 StartReport& report);
 
-/// Accelerations, multipliers and first-order rates in equilibrium with the state's positions and velocities. What has
-/// neither mass nor constraint (a node between two springs) has no acceleration of its own: it gets zero.
-/// @throws ComputationError naming an unknown without mass
+/// Accelerations, multipliers, first-order rates and algebraic unknowns in equilibrium with the state's positions and
+/// velocities. What has neither mass nor constraint (a node between two springs) has no acceleration of its own: it
+/// gets zero.
+/// @throws ComputationError naming an unknown without mass, or an algebraic one that its equation does not determine
 void make_accelerations_consistent(const System& system, const Environment& environment, State& state);
 
 /// All three, in that order; with them, directions without mass are balanced (massless_balance.hpp).

@@ -293,6 +293,8 @@ State TimeIntegration::interpolated(double time) const {
   system_.set_rates(state, v, (1 - s) * a_before + s * a_);
   state.first_order = before.first_order + f0 * h * before.first_order_rate +
                       f1 * (after.first_order - before.first_order) + f2 * h * after.first_order_rate;
+  for (const int k : system_.algebraic())
+    state.first_order[k] = (1 - s) * before.first_order[k] + s * after.first_order[k];
   state.first_order_rate = (1 - s) * before.first_order_rate + s * after.first_order_rate;
   state.multiplier = (1 - s) * before.multiplier + s * after.multiplier;
   return state;
