@@ -63,7 +63,7 @@ void Convergence::measure_highest_rates(const LinearStep& linear, const State& s
 }
 
 void Convergence::measure_terms(const LinearStep& linear, const State& state) {
-  constexpr double little = 1e-3;
+  constexpr double steps = 1e3;
   const int first_amplitude = system_.kinematics().unknowns(), first = system_.dofs();
   for (const Own& own : own_) {
     const bool amplitude = own.equation < first;
@@ -72,8 +72,9 @@ void Convergence::measure_terms(const LinearStep& linear, const State& state) {
     const double rate = std::abs((amplitude ? state.amplitude_acceleration : state.first_order_rate)[k]);
     const double weight = amplitude ? linear.weights().mass : linear.weights().first_order;
     const double all = linear.diagonal(own.equation), rest = all - weight * own.rate;
-    double terms = std::max(
-        {std::abs(rest) * std::max(value, own.scale), std::abs(own.rate) * rate, little * std::abs(all) * own.scale});
+    const double slow = own.scale / (amplitude ? steps * steps : steps);
+    double terms =
+        std::max({std::abs(rest) * std::max(value, own.scale), std::abs(own.rate) * rate, std::abs(all) * slow});
     if (terms == 0) terms = own.rounding / rounding_of_a_sum;
     floor_[own.equation] = own.rounding + options_.tolerance * terms;
   }

@@ -8,11 +8,11 @@
 //
 // The equation of an amplitude or first-order unknown u that has a scale s is judged by nothing but itself, however
 // large other unknowns of its kind are. Its residual is small beside the largest of its own terms,
-//     k max(|u|, s),   m |u'|   and   j s/1000,
+//     k max(|u|, s),   m |u'|   and   j s/n,
 // j the diagonal of the tangent, m its part by the highest rate u' (d2u/dt2 of an amplitude, du/dt else), and k the
-// rest: what it takes to hold u at its size, what it takes to change it as fast as it does, and, where both vanish, to
-// change it by a thousandth of its scale within a step. Where the equation does not hold u at all (j = 0), what the
-// scales of all others make of it counts: sum_j |J_ij| s_j.
+// rest: what it takes to hold u at its size, what it takes to change it as fast as it does, and, where both vanish,
+// what it takes to go over its scale within a thousand steps (n = 10^3, or 10^6 of an amplitude). Where the equation
+// does not hold u at all (j = 0), what the scales of all unknowns make of it counts: sum_j |J_ij| s_j.
 #pragma once
 
 #include <array>

@@ -6,9 +6,12 @@
 
 #include "mechanism/io/mechanism_file.hpp"
 #include "mechanism/solvers/time_integration.hpp"
+#include "tests/support/orifices_in_series.hpp"
+#include "tests/support/second_order.hpp"
 #include "tests/support/series_strut.hpp"
 
 using namespace bielle::mechanism;
+using bielle::test::OrificesInSeries;
 using bielle::test::SeriesStrut;
 
 namespace {
@@ -160,4 +163,24 @@ TEST_CASE(
     // Corrected velocities are not those of the step's equations: h^2 B c of some m/s.
     CHECK(y_error < (each.form == ConstraintForm::corrected ? 1e-7 : 1e-12));
   }
+}
+
+TEST_CASE("a chamber empties through a junction without volume: both pressures are of order 2") {
+  constexpr double p = 1e7, end = 0.032;
+  const OrificesInSeries::Law orifices{1e-12, 1e-7, 2e-7, 1e2};
+  MechanismFile file = read_mechanism_text(R"yaml(
+nodes: {mass: {position: [0, 0, 0]}}
+elements: {mass: {type: rigid_body, node: mass, mass: 1, inertia: [1, 1, 1]}}
+)yaml",
+                                           "chamber.yaml");
+  file.model.add(std::make_unique<OrificesInSeries>("chamber", orifices, p, 0), "");
+  const System system(file.model);
+  const double root = std::sqrt(p) - 2e-7 / std::sqrt(5.0) / (2 * orifices.capacity) * end;
+  const auto error = [&](double h) -> Eigen::VectorXd {
+    TimeIntegration integration(system, file.model.environment, Scheme::generalized_alpha(0.8), system.start(0));
+    integration.start(h);
+    for (long k = 0; k < std::lround(end / h); ++k) integration.step(h);
+    return integration.state().first_order - root * root * Eigen::Vector2d(1, 0.2);
+  };
+  bielle::test::check_second_order(error, 4e-3, 4);
 }

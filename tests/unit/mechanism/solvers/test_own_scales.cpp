@@ -5,10 +5,11 @@
 
 #include "mechanism/io/mechanism_file.hpp"
 #include "mechanism/solvers/march.hpp"
-#include "tests/support/messages.hpp"
+#include "tests/support/scalar_amplitude.hpp"
 #include "tests/support/scalar_equation.hpp"
 
 using namespace bielle::mechanism;
+using bielle::test::ScalarAmplitude;
 using bielle::test::ScalarEquation;
 using Catch::Contains;
 
@@ -99,6 +100,36 @@ TEST_CASE("Newton's method solves for a bristle as well beside a pressure as alo
     CHECK(largest_difference(values(together, options), exact) / bristle_size < allowed);
     CHECK(largest_difference(values(both, options), exact_pressure) / pressure_size < allowed_pressure);
   }
+}
+
+TEST_CASE("Newton's method solves for small amplitudes as well beside large ones as alone, with mass and without") {
+  const auto amplitude = [](double size, double mass) {
+    const Declaration::Scalar unknown{"value", "m", 0, ConstraintKind::holonomic, size};
+    return std::make_unique<ScalarAmplitude>("amplitude", unknown, ScalarAmplitude::Law{mass, 1, 1e3, size, 30});
+  };
+  const auto run = [](const Ready& model, const NewtonOptions& options) {
+    TimeIntegration integration = model.integration(options);
+    integration.start(1e-3);
+    std::vector<double> result;
+    for (int k = 0; k < 100; ++k) {
+      integration.step(1e-3);
+      result.push_back(integration.state().amplitude[0]);
+    }
+    return result;
+  };
+  constexpr double small = 1e-6, large = 1e3;
+  for (const double mass : {0.0, 1e-2})
+    for (const bool reuse : {false, true}) {
+      CAPTURE(mass, reuse);
+      NewtonOptions options, strict;
+      options.reuse_tangent = strict.reuse_tangent = reuse;
+      strict.tolerance = 1e-13;
+      const Ready alone(amplitude(small, mass)), together(amplitude(small, mass), amplitude(large, 10));
+      const std::vector<double> exact = run(alone, strict);
+      // 1e-9 of its forces in each of 100 steps.
+      CHECK(largest_difference(run(alone, options), exact) / small < 1e-7);
+      CHECK(largest_difference(run(together, options), exact) / small < 1e-7);
+    }
 }
 
 TEST_CASE("adaptive steps keep the error of a bristle to its tolerance beside a pressure") {
