@@ -241,7 +241,8 @@ class AccelerationEquations {
         a_(system.dofs()),
         r_(system.size()),
         step_(system.size()),
-        largest_(system.algebraic().size(), 0.0) {
+        begin_(state.first_order),
+        size_(system.algebraic().size(), 0.0) {
     system.get_rates(state, v_, a_);
     a_.setZero();
     state.multiplier.setZero();
@@ -278,6 +279,7 @@ class AccelerationEquations {
     constexpr int most = 50;
     constexpr double accurate = 1e-9;  // the step: what is left behind it is its square
     for (int iteration = 0;; ++iteration) {
+      measure();
       const double size = size_of_step();
       if (size <= accurate) return move(1);
       if (iteration == most || !std::isfinite(size)) throw_unsolved(iteration);
@@ -297,14 +299,22 @@ class AccelerationEquations {
     for (const int multiplier : system_.set_aside()) r_[system_.size() - m + multiplier] = 0;
   }
 
-  /// Of the algebraic unknowns, beside their scales and what they have been on the way.
+  /// What steps of the algebraic unknowns are small beside: their scales, where the search began, where it is. (From
+  /// zero, without a scale, the step is no smaller than itself.)
+  void measure() {
+    for (std::size_t j = 0; j < size_.size(); ++j) {
+      const int k = system_.algebraic()[j];
+      size_[j] = std::max({std::abs(state_.first_order[k]), std::abs(begin_[k]), system_.scale(system_.dofs() + k)});
+      if (size_[j] == 0) size_[j] = std::abs(step_[system_.dofs() + k]);
+    }
+  }
+
   double size_of_step() {
     double most = 0;
-    for (std::size_t j = 0; j < largest_.size(); ++j) {
-      const int k = system_.algebraic()[j], unknown = system_.dofs() + k;
-      const double step = std::abs(step_[unknown]);
-      largest_[j] = std::max({largest_[j], std::abs(state_.first_order[k]), step, system_.scale(unknown)});
-      const double size = largest_[j] > 0 ? step / largest_[j] : step;
+    for (std::size_t j = 0; j < size_.size(); ++j) {
+      const int unknown = system_.dofs() + system_.algebraic()[j];
+      if (step_[unknown] == 0) continue;
+      const double size = std::abs(step_[unknown]) / size_[j];
       if (size <= most) continue;
       most = size;
       worst_ = unknown;
@@ -323,9 +333,13 @@ class AccelerationEquations {
       a_ = a;
       step_ = step;
       move(part);
-      evaluate();
-      solve();
-      if (size_of_step() <= (1 - part / 4) * size) return evaluate();
+      try {
+        evaluate();
+        solve();
+      } catch (const ComputationError&) {
+        continue;  // refused by a component
+      }
+      if (size_of_step() <= (1 - part / 4) * size) break;
     }
     evaluate();
   }
@@ -343,7 +357,8 @@ class AccelerationEquations {
   State& state_;
   LinearStep linear_;
   VectorX v_, a_, r_, step_, floor_;
-  std::vector<double> largest_;  ///< of each algebraic unknown
+  VectorX begin_;             ///< first-order unknowns
+  std::vector<double> size_;  ///< of each algebraic unknown
   int worst_ = 0;
 };
 

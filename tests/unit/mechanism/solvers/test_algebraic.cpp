@@ -115,6 +115,21 @@ TEST_CASE("an algebraic unknown without a solution is named, and so is one that 
   CHECK_THAT(any, Contains("singular at pressure of element 'tee': no equation determines it there"));
 }
 
+TEST_CASE("an algebraic unknown without a scale is found from zero as well, however small it is") {
+  for (const double root : {0.0, 1e-12, -1e12}) {
+    CAPTURE(root);
+    Ready model(mass_alone);
+    const Declaration::Scalar unknown{"value", "m", 0, ConstraintKind::holonomic, 0, "", true};
+    model.add(std::make_unique<ScalarEquation>("bend", unknown, [=](double y, double) -> ScalarEquation::Law {
+      const double b = std::max(std::abs(root), 1e-300);
+      return {std::sinh((y - root) / b), std::cosh((y - root) / b) / b, 0};
+    }));
+    State state = model.ready().start(0);
+    make_consistent(*model.system, model.environment(), state);
+    CHECK(std::abs(state.first_order[0] - root) <= 1e-14 * std::abs(root));
+  }
+}
+
 TEST_CASE("statics find algebraic unknowns with the positions") {
   for (const bool eliminated : {false, true}) {
     Ready model(R"yaml(
