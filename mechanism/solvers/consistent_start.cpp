@@ -299,7 +299,7 @@ class AccelerationEquations {
     for (const int multiplier : system_.set_aside()) r_[system_.size() - m + multiplier] = 0;
   }
 
-  /// What steps of the algebraic unknowns are small beside: their scales, where the search began, where it is. (From
+  /// What steps of the algebraic unknowns are compared with: their scales, where the search began, where it is. (From
   /// zero, without a scale, the step is no smaller than itself.)
   void measure() {
     for (std::size_t j = 0; j < size_.size(); ++j) {

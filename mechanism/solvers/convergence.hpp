@@ -7,7 +7,7 @@
 // contribution), nothing is left to be small beside in the end: there it is rounding that decides.
 //
 // The equation of an amplitude or first-order unknown u that has a scale s is judged by nothing but itself, however
-// large other unknowns of its kind are. Its residual is small beside the largest of its own terms,
+// large other unknowns of its kind are. Its residual is compared with the largest of its own terms,
 //     k max(|u|, s),   m |u'|   and   j s/n,
 // j the diagonal of the tangent, m its part by the highest rate u' (d2u/dt2 of an amplitude, du/dt else), and k the
 // rest: what it takes to hold u at its size, what it takes to change it as fast as it does, and, where both vanish,

@@ -24,7 +24,8 @@ VectorX column_sums(const System& system, const State& state, const Environment&
   return sums;
 }
 
-/// What it takes to hold amplitudes that bring their scale at it: what their forces are small beside. Zero of all else.
+/// What it takes to hold amplitudes that bring their scale at it: what their forces are compared with. Zero of all
+/// else.
 VectorX own_forces(const System& system, const State& state, const Environment& environment) {
   std::vector<double> values;
   system.tangent(state, environment, TangentWeights{1, 0, 0, 0, 0}, nullptr, values);
@@ -111,8 +112,8 @@ class Balance {
         r_[i] = 0;
         continue;
       }
-      const double beside = own_forces_[i] > 0 ? own_forces_[i] : scale_[system_.kind(i)];
-      const double size = std::abs(r_[i]) / (balanced * beside);
+      const double whole = own_forces_[i] > 0 ? own_forces_[i] : scale_[system_.kind(i)];
+      const double size = std::abs(r_[i]) / (balanced * whole);
       if (!(size > 1) || size <= size_) continue;
       size_ = size;
       worst_ = i;

@@ -28,7 +28,7 @@ struct Declaration {
     std::string units;  ///< of the unknown (amplitudes: of the modal amplitude; multipliers: "N" or "N m")
     double start = 0;   ///< initial value
     ConstraintKind kind = ConstraintKind::holonomic;  ///< multipliers only
-    /// A typical size of the unknown, in its units: what is small beside it does not matter. 0: not known; sizes of all
+    /// A typical size of the unknown, in its units: what is much smaller does not matter. 0: not known; sizes of all
     /// unknowns of its kind then stand for it.
     double scale = 0;
     std::string equation_units = {};  ///< of its equation; empty: as System::equation_units says

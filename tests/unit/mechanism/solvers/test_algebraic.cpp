@@ -1,5 +1,5 @@
-// First-order unknowns whose equations hold no rates, beside closed forms and their elimination: the start, statics and
-// paths. (Time integration: tests/order/test_algebraic_unknown.cpp.)
+// First-order unknowns whose equations hold no rates, compared with closed forms and their elimination: the start,
+// statics and paths. (Time integration: tests/order/test_algebraic_unknown.cpp.)
 #include <cmath>
 
 #include <catch2/catch.hpp>

@@ -74,7 +74,7 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
 struct March01 {
   TimeIntegration integration;
   March march;
-  double worst = 0;  ///< error of the first unknown beside the closed form, in its scale
+  double worst = 0;  ///< error of the first unknown by the closed form, in its scale
   explicit March01(const Ready& model, double tolerance, double h = 1e-4)
       : integration(model.integration()), march(integration, 0, 0.1, {h, tolerance, 0.01, {}}) {
     while (!march.done()) {
@@ -94,7 +94,7 @@ TEST_CASE("Newton's method solves for a bristle as well beside a pressure as alo
     strict.tolerance = 1e-13;
     const Ready alone(bristle()), together(bristle(), pressure()), other(pressure()), both(pressure(), bristle());
     const std::vector<double> exact = values(alone, strict), exact_pressure = values(other, strict);
-    // 1e-9 of the terms of its equation, in each of 100 steps. Beside 1/h, 1/tau is 0.1 and 1e-4.
+    // 1e-9 of the terms of its equation, in each of 100 steps. Relative to 1/h, 1/tau is 0.1 and 1e-4.
     const double allowed = 100 * 0.1 * options.tolerance, allowed_pressure = 100 * 1e-4 * options.tolerance;
     CHECK(largest_difference(values(alone, options), exact) / bristle_size < allowed);
     CHECK(largest_difference(values(together, options), exact) / bristle_size < allowed);
@@ -144,7 +144,7 @@ TEST_CASE("adaptive steps keep the error of a bristle to its tolerance beside a 
   }
 }
 
-TEST_CASE("what is small beside its scale does not make steps small") {
+TEST_CASE("what is much smaller than its scale does not make steps small") {
   // A bristle that fades from a thousandth of a millionth of its scale within a thousandth of the time.
   const auto fading = [](double scale) {
     const Declaration::Scalar unknown{"value", "m", 1e-9 * bristle_size, ConstraintKind::holonomic, scale};
@@ -159,7 +159,7 @@ TEST_CASE("what is small beside its scale does not make steps small") {
 }
 
 TEST_CASE("an unknown that brings its scale starts from zero without small steps") {
-  // Beside the largest value so far, which is as small as the step, any error would be large.
+  // Relative to the largest value so far, which is as small as the step, any error would be large.
   const auto log = [](double scale) {
     const Ready model(growing("bristle", "m", bristle_size, 0.01, 0, scale));
     return March01(model, 1e-4, 1e-3).march.log();
