@@ -116,7 +116,8 @@ class Run {
     AnalysisSummary summary;
     summary.name = analysis.name;
     assemble_positions(system_, environment_, state_, summary.start);
-    make_velocities_consistent(system_, environment_, state_, summary.start);
+    MassSaddle saddle(system_);
+    make_velocities_consistent(system_, environment_, state_, summary.start, saddle);
     system_.accept(state_, environment_);
     loaded_.motions = 1;
     EnergyBalance books;

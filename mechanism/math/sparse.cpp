@@ -176,6 +176,33 @@ void SparseLU::solve(Eigen::Ref<VectorX> b) const {
   b.array() *= factors_->right.array();
 }
 
+namespace {
+
+/// Sign of a permutation.
+int sign_of(const int* permutation, int size) {
+  std::vector<bool> seen(static_cast<std::size_t>(size), false);
+  int sign = 1;
+  for (int begin = 0; begin < size; ++begin) {
+    int length = 0;
+    for (int k = begin; !seen[static_cast<std::size_t>(k)]; k = permutation[k], ++length)
+      seen[static_cast<std::size_t>(k)] = true;
+    if (length > 0 && length % 2 == 0) sign = -sign;
+  }
+  return sign;
+}
+
+}  // namespace
+
+int SparseLU::determinant_sign() const {
+  if (pattern_.size() == 0) return 1;
+  const Factors& f = *factors_;
+  int sign = sign_of(f.numeric->Pnum, pattern_.size()) * sign_of(f.symbolic->Q, pattern_.size());
+  const auto* pivots = static_cast<const double*>(f.numeric->Udiag);
+  for (int k = 0; k < pattern_.size(); ++k)
+    if (pivots[k] < 0) sign = -sign;
+  return sign;
+}
+
 double SparseLU::reciprocal_condition() const {
   if (pattern_.size() == 0) return 1;
   klu_rcond(factors_->symbolic, factors_->numeric, &factors_->common);

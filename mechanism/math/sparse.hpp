@@ -51,6 +51,8 @@ class SparseLU {
   void solve(Eigen::Ref<VectorX> b) const;
   /// Column (an unknown) at which the last factorisation found no pivot, or -1.
   int singular_column() const { return singular_column_; }
+  /// Sign of the determinant of the matrix last factorised: -1 or 1. Its rows must be scaled by positive numbers.
+  int determinant_sign() const;
   /// Cheap estimate of the reciprocal condition number of the scaled matrix: smallest over largest pivot.
   double reciprocal_condition() const;
 

@@ -1,5 +1,6 @@
 #include "mechanism/solvers/consistent_start.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -11,35 +12,6 @@
 
 namespace bielle::mechanism {
 namespace {
-
-/// A fraction of the mean diagonal of each kind of dof. A kind without any takes it from the other by the model's
-/// length: inertia = mass * length^2.
-VectorX small_diagonal(const System& system, const LinearStep& linear, const State& state, double fraction) {
-  std::array<double, kind_count> mean{}, count{};
-  for (int i = 0; i < system.dofs(); ++i) {
-    const auto kind = static_cast<std::size_t>(system.kind(i));
-    mean[kind] += std::abs(linear.diagonal(i));
-    count[kind] += 1;
-  }
-  for (std::size_t kind = 0; kind < kind_count; ++kind)
-    if (count[kind] > 0) mean[kind] /= count[kind];
-  double &translation = mean[static_cast<std::size_t>(Kind::translation)],
-         &rotation = mean[static_cast<std::size_t>(Kind::rotation)];
-  const double area = model_length(state) * model_length(state);
-  if (translation == 0) translation = rotation > 0 ? rotation / area : 1;
-  if (rotation == 0) rotation = translation * area;
-  VectorX diagonal(system.dofs());
-  for (int i = 0; i < system.dofs(); ++i) {
-    const double own = mean[static_cast<std::size_t>(system.kind(i))];
-    diagonal[i] = fraction * (own > 0 ? own : 1.0);
-  }
-  return diagonal;
-}
-
-[[noreturn]] void throw_massless(const std::string& what, const char* lack) {
-  throw ComputationError(fmt::format(
-      "{}: it has no mass, and nothing holds it; hold it (`fixed`), join it, or give it a body with {}", what, lack));
-}
 
 /// Refuses motions of nodes that nothing but a sum of rows shows to have neither mass nor anything that holds them.
 void check_massless_directions(const System& system, const State& state) {
@@ -90,30 +62,6 @@ void StartReport::add(const StartReport& later) {
     balanced_node = later.balanced_node;
   }
   if (!later.unbalanced.empty()) unbalanced = later.unbalanced;
-}
-
-VectorX factor_mass_saddle(const System& system, const Environment& environment, const State& state,
-                           LinearStep& linear) {
-  const TangentWeights weights{0, 0, 1, 1, 1, true};
-  const auto regular = [&](const VectorX* extra) {
-    return linear.try_factor(state, environment, weights, nullptr, extra) && !linear.nearly_singular();
-  };
-  if (regular(nullptr)) return VectorX::Zero(system.dofs());
-  // Any small mass gives the same multipliers to its own size. Masses that there are stay as they are, if that helps.
-  constexpr double floor = 1e-12;
-  const VectorX everywhere = small_diagonal(system, linear, state, floor);
-  VectorX extra = everywhere;
-  for (int i = 0; i < system.dofs(); ++i)
-    if (linear.diagonal(i) > 0) extra[i] = 0;
-  // A dof without mass, stiffness, damping and constraint has no equation at all.
-  linear.try_factor(state, environment, TangentWeights{1, 1, 1, 1, 1}, nullptr);
-  VectorX sums(system.size());
-  linear.row_sums(VectorX::Ones(system.size()), sums);
-  for (int i = 0; i < system.dofs(); ++i)
-    if (sums[i] == 0) throw_massless(system.unknown_name(i), system.kind(i) == Kind::rotation ? "inertia" : "mass");
-  if (linear.try_factor(state, environment, weights, nullptr, &extra)) return extra;
-  if (!linear.try_factor(state, environment, weights, nullptr, &everywhere)) linear.throw_singular(state.time);
-  return everywhere;
 }
 
 void note_farthest(const System& system, const State& from, const State& to, double& distance, std::string& node) {
@@ -189,9 +137,11 @@ void assemble_positions(const System& system, const Environment& environment, St
       if (system.kind(i) == Kind::translation) motion = std::max(motion, std::abs(dq[i]) / length);
     }
     motion = std::max(motion, largest_turn);
-    if (largest_turn > most_turn) dq *= most_turn / largest_turn;
+    const double part = largest_turn > most_turn ? most_turn / largest_turn : 1;
+    dq *= part;
     const State base = state;
     system.displace(state, base, dq);
+    for (const int k : system.algebraic()) state.first_order[k] += part * step[system.dofs() + k];
   }
   if (const std::string wrong = system.wrong_branch(state, environment); !wrong.empty())
     throw ComputationError(
@@ -203,7 +153,7 @@ void assemble_positions(const System& system, const Environment& environment, St
 }
 
 void make_velocities_consistent(const System& system, const Environment& environment, State& state,
-                                StartReport& report) {
+                                StartReport& report, MassSaddle& saddle) {
   VectorX v(system.dofs()), a(system.dofs());
   system.get_rates(state, v, a);
   if (system.multipliers() > 0) {
@@ -212,9 +162,8 @@ void make_velocities_consistent(const System& system, const Environment& environ
     VectorX r = VectorX::Zero(system.size()), step(system.size());
     r.tail(system.multipliers()) = rate;
     system.for_each_idle(state, [&](int k) { r[system.size() - system.multipliers() + k] = 0; });
-    LinearStep linear(system);
-    factor_mass_saddle(system, environment, state, linear);
-    linear.solve(r, step);
+    saddle.factor(environment, state);
+    saddle.solve(r, step);
     for (int i = 0; i < system.dofs(); ++i)
       if (system.kind(i) == Kind::translation)
         report.velocity_change = std::max(report.velocity_change, std::abs(step[i]));
@@ -228,32 +177,6 @@ void make_velocities_consistent(const System& system, const Environment& environ
   system.set_rates(state, v, a);
 }
 
-void make_accelerations_consistent(const System& system, const Environment& environment, State& state) {
-  const int n = system.dofs(), y = system.first_orders(), m = system.multipliers();
-  VectorX v(n), a(n);
-  system.get_rates(state, v, a);
-  state.multiplier.setZero();
-  state.first_order_rate.setZero();
-  system.set_rates(state, v, VectorX::Zero(n));
-  VectorX r(system.size()), velocity(m), acceleration(m), step(system.size());
-  system.residual(state, environment, r);
-  system.constraint_rates(state, environment, velocity, acceleration);
-  r.tail(m) = acceleration;
-  system.for_each_idle(state, [&](int k) { r[n + y + k] = 0; });
-  LinearStep linear(system);
-  const VectorX floor = factor_mass_saddle(system, environment, state, linear);
-  linear.solve(r, step);
-  if ((floor.array() > 0).any()) {
-    // Forces that nothing but the floor balances would be accelerations without end. They equal floor times
-    // acceleration (to the size of the floor everywhere else): take them out.
-    r.head(n) += floor.cwiseProduct(step.head(n));
-    linear.solve(r, step);
-  }
-  system.set_rates(state, v, step.head(n));
-  state.first_order_rate = step.segment(n, y);
-  state.multiplier = step.tail(m);
-}
-
 StartReport make_consistent(const System& system, const Environment& environment, State& state) {
   StartReport report;
   assemble_positions(system, environment, state, report);
@@ -261,8 +184,9 @@ StartReport make_consistent(const System& system, const Environment& environment
   set_redundant_aside(system, environment, state);
   check_set_aside(system, environment, state);
   check_massless_directions(system, state);
-  make_velocities_consistent(system, environment, state, report);
-  make_accelerations_consistent(system, environment, state);
+  MassSaddle saddle(system);
+  make_velocities_consistent(system, environment, state, report, saddle);
+  make_accelerations_consistent(system, environment, state, saddle);
   balance_massless(system, environment, state, report);
   return report;
 }

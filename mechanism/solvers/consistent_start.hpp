@@ -6,21 +6,20 @@
 //                   free of stress in the end as they were drawn
 //   velocities:     [M B^T; B 0][dv; mu] = [0; -dPhi/dt]          the least change in the kinetic energy's norm
 //   accelerations:  [M B^T; B 0][a; lambda] = [-g; -d2Phi/dt2 at a = 0],  first-order rates from their own equations
+//
+// Algebraic unknowns y, whose equations f(y, q, v, t) = 0 hold no rates, are found together with the accelerations,
+// whose forces may depend on them: in [M B^T; B 0] there are then columns of y, with dg/dy, and rows of df/d(y, lambda,
+// ...). Forces that depend on multipliers make the equations nonlinear: Newton's method then has
+// [M B^T + df/dlambda; B 0], while velocities and everything else go by the constraints' own B^T.
 #pragma once
 
 #include <functional>
 #include <string>
 
 #include "mechanism/solvers/convergence.hpp"
+#include "mechanism/solvers/mass_saddle.hpp"
 
 namespace bielle::mechanism {
-
-/// Factorises [M B^T; B 0] at a state. Where dofs without mass make it singular, they get a floor of 1e-12 of their
-/// kind's mean.
-/// @returns the floor (dofs), zero where none was needed
-/// @throws ComputationError naming an unknown that has no mass and that nothing holds
-VectorX factor_mass_saddle(const System& system, const Environment& environment, const State& state,
-                           LinearStep& linear);
 
 /// What the start had to change.
 struct StartReport {
@@ -46,12 +45,19 @@ void note_farthest(const System& system, const State& from, const State& to, dou
 void assemble_positions(const System& system, const Environment& environment, State& state, StartReport& report);
 
 /// Projects the state's velocities on the constraints.
-void make_velocities_consistent(const System& system, const Environment& environment, State& state,
-                                StartReport& report);
+/// @param saddle  holds the factors of these positions behind it
+void make_velocities_consistent(const System& system, const Environment& environment, State& state, StartReport& report,
+                                MassSaddle& saddle);
 
-/// Accelerations, multipliers and first-order rates in equilibrium with the state's positions and velocities. What has
-/// neither mass nor constraint (a node between two springs) has no acceleration of its own: it gets zero.
-/// @throws ComputationError naming an unknown without mass
+/// Accelerations, multipliers, first-order rates and algebraic unknowns in equilibrium with the state's positions and
+/// velocities. What has neither mass nor constraint (a node between two springs) has no acceleration of its own: it
+/// gets zero.
+/// Where forces depend on multipliers (friction on reactions), Newton's method finds them.
+/// @param saddle  factors that serve are used, with refinement; otherwise they are made
+/// @throws ComputationError naming an unknown without mass, an algebraic one that its equation does not determine, or
+///         reactions for which there is no solution, or more than one (Painleve's paradox)
+void make_accelerations_consistent(const System& system, const Environment& environment, State& state,
+                                   MassSaddle& saddle);
 void make_accelerations_consistent(const System& system, const Environment& environment, State& state);
 
 /// All three, in that order; with them, directions without mass are balanced (massless_balance.hpp).

@@ -1,13 +1,22 @@
-// When a Newton iteration is good enough: per kind of equation, independent of units.
+// When a Newton iteration is good enough: per kind of equation, or each equation by itself; independent of units.
 //
 // An equation of forces is satisfied when its residual is small beside the largest contribution of any component to the
 // equations of its kind, or has reached what rounding of the unknowns makes of it (sum_j |J_ij| s_j eps). A constraint
 // is satisfied when it would change the forces by no more than that: |Phi| k <= tolerance * forces, k the tangent's
 // size. Where all that acts comes from one component (a body in free flight, whose inertia and weight are one
 // contribution), nothing is left to be small beside in the end: there it is rounding that decides.
+//
+// The equation of an amplitude or first-order unknown u that has a scale s is judged by nothing but itself, however
+// large other unknowns of its kind are. Its residual is compared with the largest of its own terms,
+//     k max(|u|, s),   m |u'|   and   j s/n,
+// j the diagonal of the tangent, m its part by the highest rate u' (d2u/dt2 of an amplitude, du/dt else), and k the
+// rest: what it takes to hold u at its size, what it takes to change it as fast as it does, and, where both vanish,
+// what it takes to go over its scale within a thousand steps (n = 10^3, or 10^6 of an amplitude). Where the equation
+// does not hold u at all (j = 0), what the scales of all unknowns make of it counts: sum_j |J_ij| s_j.
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "mechanism/solvers/linear_step.hpp"
 
@@ -25,11 +34,12 @@ struct NewtonOptions {
 
 class Convergence {
  public:
-  Convergence(const System& system, const NewtonOptions& options)
-      : system_(system), options_(options), floor_(VectorX::Zero(system.size())) {}
+  Convergence(const System& system, const NewtonOptions& options);
 
-  /// Renews the rounding floor from the last tangent.
+  /// Renews the rounding floor from the last tangent, and the terms of equations that are judged by themselves.
   void measure_rounding(const LinearStep& linear, const State& state);
+  /// Those terms alone: cheap.
+  void measure_terms(const LinearStep& linear, const State& state);
   /// @param r  residual (size) with its scale
   bool reached(const Eigen::Ref<const VectorX>& r, const ResidualScale& scale);
   /// Whether a residual of the given size (by `size_of`) is certain not to be small enough at this scale: to be asked
@@ -48,14 +58,29 @@ class Convergence {
   double worst_ratio() const { return worst_ratio_; }  ///< residual over tolerance
 
  private:
-  /// Of the residuals of each kind, rounding left out.
-  std::array<double, kind_count> tolerances(const ResidualScale& scale) const;
+  static constexpr int by_itself = static_cast<int>(kind_count);
+  /// Of the residuals of each kind, rounding left out; none of those that are judged by themselves.
+  using Tolerances = std::array<double, kind_count + 1>;
+  Tolerances tolerances(const ResidualScale& scale) const;
+  void measure_highest_rates(const LinearStep& linear, const State& state);
+
+  /// An equation that is judged by itself.
+  struct Own {
+    int equation;
+    double scale;
+    double rate = 0;      ///< m: the tangent's part by the highest rate, without the weight that the step gives it
+    double rounding = 0;  ///< of its residual
+  };
 
   const System& system_;
   NewtonOptions options_;
-  VectorX floor_, unknown_scale_, measure_;
-  std::array<double, kind_count> measured_by_{};  ///< tolerances in `measure_`, rounding left out
-  bool measured_ = false;                         ///< `measure_` is of the present rounding floor
+  std::vector<int> judged_by_;  ///< of each equation: its kind, or `by_itself`
+  std::vector<Own> own_;
+  VectorX floor_;  ///< rounding of each equation; of those judged by themselves with their tolerances
+  VectorX unknown_scale_, measure_;
+  std::vector<double> highest_rates_;  ///< values of a tangent
+  Tolerances measured_by_{};           ///< tolerances in `measure_`, rounding left out
+  bool measured_ = false;              ///< `measure_` is of the present rounding floor
   double scale_ = 1;
   int worst_ = -1;
   double worst_residual_ = 0, worst_ratio_ = 0;

@@ -7,7 +7,11 @@
 
 namespace bielle::mechanism {
 ErrorNorm::ErrorNorm(const System& system, const Environment& environment, const State& state)
-    : system_(system), length_(model_extent(state)), largest_first_order_(state.first_order.cwiseAbs()) {
+    : system_(system),
+      length_(model_extent(state)),
+      largest_first_order_(state.first_order.cwiseAbs()),
+      algebraic_(static_cast<std::size_t>(system.first_orders()), false) {
+  for (const int k : system.algebraic()) algebraic_[static_cast<std::size_t>(k)] = true;
   std::vector<double> values;
   system.tangent(state, environment, TangentWeights{0, 0, 1, 0, 0}, nullptr, values);
   mass_.setZero(system.dofs());
@@ -37,8 +41,13 @@ double ErrorNorm::operator()(const TimeIntegration& integration) {
   if (inertia_sum_ > 0) error = std::max(error, std::sqrt(rotation / inertia_sum_));
   const VectorX e_y = integration.first_order_error();
   largest_first_order_ = largest_first_order_.cwiseMax(integration.state().first_order.cwiseAbs());
-  for (Eigen::Index i = 0; i < e_y.size(); ++i)
-    if (largest_first_order_[i] > 0) error = std::max(error, std::abs(e_y[i]) / largest_first_order_[i]);
+  for (int i = 0; i < system_.first_orders(); ++i) {
+    if (algebraic_[static_cast<std::size_t>(i)]) continue;
+    const double scale = system_.scale(system_.dofs() + i);
+    const double size =
+        scale > 0 ? std::max(scale, std::abs(integration.state().first_order[i])) : largest_first_order_[i];
+    if (size > 0) error = std::max(error, std::abs(e_y[i]) / size);
+  }
   return error;
 }
 

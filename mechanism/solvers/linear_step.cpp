@@ -1,5 +1,6 @@
 #include "mechanism/solvers/linear_step.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -19,6 +20,8 @@ LinearStep::LinearStep(const System& system) : system_(system), factors_(system.
 void LinearStep::assemble(const State& state, const Environment& environment, const TangentWeights& weights,
                           const VectorX* dq, const VectorX* extra) {
   system_.tangent(state, environment, weights, dq, values_);
+  weights_ = weights;
+  if (weights.stiffness != 1 && !system_.algebraic().empty()) take_algebraic_columns(state, environment);
   if (extra)
     for (int i = 0; i < system_.dofs(); ++i)
       if (const int place = diagonal_[static_cast<std::size_t>(i)]; place >= 0)
@@ -32,6 +35,14 @@ void LinearStep::assemble(const State& state, const Environment& environment, co
     break;
   }
   scales_.tail(system_.multipliers()).setConstant(scale_);
+}
+
+void LinearStep::take_algebraic_columns(const State& state, const Environment& environment) {
+  system_.tangent(state, environment, TangentWeights{1, 0, 0, 0, 0}, nullptr, stiffness_);
+  for (const int k : system_.algebraic()) {
+    const auto column = system_.pattern().column_start().begin() + system_.dofs() + k;
+    std::copy(stiffness_.begin() + column[0], stiffness_.begin() + column[1], values_.begin() + column[0]);
+  }
 }
 
 bool LinearStep::try_factor(const State& state, const Environment& environment, const TangentWeights& weights,
@@ -50,11 +61,12 @@ bool LinearStep::nearly_singular() const { return factors_.reciprocal_condition(
 void LinearStep::throw_singular(double time) const {
   const int column = factors_.singular_column();
   const std::string what = column >= 0 ? system_.unknown_name(column) : "an unknown";
-  const bool multiplier = column >= system_.size() - system_.multipliers();
-  throw ComputationError(
-      fmt::format("t = {:.6g} s: the equations are singular at {}: {}", time, what,
-                  multiplier ? "the constraint repeats what others hold already (redundant)"
-                             : "it has no mass, or nothing holds it, or constraints beside it are redundant"));
+  const char* why = "it has no mass, or nothing holds it, or constraints beside it are redundant";
+  if (column >= system_.size() - system_.multipliers())
+    why = "the constraint repeats what others hold already (redundant)";
+  else if (column >= system_.dofs())
+    why = "no equation determines it there";
+  throw ComputationError(fmt::format("t = {:.6g} s: the equations are singular at {}: {}", time, what, why));
 }
 
 void LinearStep::solve(const Eigen::Ref<const VectorX>& r, Eigen::Ref<VectorX> delta) const {

@@ -11,6 +11,9 @@ namespace bielle::mechanism {
 /// Solves J delta = -r with the rows and columns of multipliers scaled by a number k of the size of the tangent's
 /// diagonal, so that the conditioning depends on neither the step nor the units (Bottasso, Bauchau and Cardona, IJNME
 /// 69 (2007) 498; Bruls, Cardona and Arnold 2012). The multipliers that come back are physical.
+///
+/// Columns of algebraic unknowns hold K whatever the weights: where others are represented by their rates (a consistent
+/// start), these are unknown themselves.
 class LinearStep {
  public:
   explicit LinearStep(const System& system);
@@ -20,6 +23,7 @@ class LinearStep {
   /// Assembles alone: the tangent, its scale and its row sums.
   void assemble(const State& state, const Environment& environment, const TangentWeights& weights, const VectorX* dq,
                 const VectorX* extra = nullptr);
+  const TangentWeights& weights() const { return weights_; }     ///< of the last tangent
   const std::vector<double>& values() const { return values_; }  ///< of the last tangent, in the system's pattern
   /// As `factor`, with `extra` added to the diagonal of the dofs; returns false when singular.
   bool try_factor(const State& state, const Environment& environment, const TangentWeights& weights, const VectorX* dq,
@@ -34,6 +38,7 @@ class LinearStep {
   /// Where the last factorisation found no pivot, or -1.
   int singular_unknown() const { return factors_.singular_column(); }
   double scale() const { return scale_; }  ///< k
+  int determinant_sign() const { return factors_.determinant_sign(); }  ///< of the last (scaled) tangent
   /// Sum over columns |J_ij| s_j of the last (unscaled) tangent: what rounding of the unknowns does to equation i.
   void row_sums(const Eigen::Ref<const VectorX>& unknown_scale, Eigen::Ref<VectorX> sums) const;
   /// Diagonal of the last (unscaled) tangent.
@@ -41,9 +46,12 @@ class LinearStep {
   [[noreturn]] void throw_singular(double time) const;
 
  private:
+  void take_algebraic_columns(const State& state, const Environment& environment);
+
   const System& system_;
   SparseLU factors_;
-  std::vector<double> values_;
+  std::vector<double> values_, stiffness_;
+  TangentWeights weights_;
   std::vector<int> diagonal_;  ///< places of the diagonal among the values, -1 where absent
   /// The scale is of translations; of a system that only turns, of its rotations; and so on.
   static constexpr std::array scaling_kinds{Kind::translation, Kind::rotation, Kind::amplitude};

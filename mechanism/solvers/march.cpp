@@ -238,6 +238,7 @@ MarchStep March::advance() {
       continue;
     }
     const double error = adaptive ? norm_(integration_) / options_.tolerance : 0;
+    const bool error_known = integration_.first_order_error_known();
     if (error > 1) {
       tell(Attempt::Outcome::refused_by_error, error);
       ++too_large;
@@ -273,8 +274,9 @@ MarchStep March::advance() {
       if (step.on_grid) stops_->advance(stops_->time());
       return step;
     }
+    // A step whose error is not known says nothing for a larger one.
     if (adaptive)
-      size_ = std::max(proposed_size(h, error, options_.largest), last ? size_ : 0);
+      size_ = std::max(error_known ? proposed_size(h, error, options_.largest) : h, last ? size_ : 0);
     else
       size_ = std::min(2 * size_, stops_->step_size());
     const bool on_grid = last && stops_->on_grid();

@@ -24,6 +24,18 @@ VectorX column_sums(const System& system, const State& state, const Environment&
   return sums;
 }
 
+/// What it takes to hold amplitudes that bring their scale at it: what their forces are compared with. Zero of all
+/// else.
+VectorX own_forces(const System& system, const State& state, const Environment& environment) {
+  std::vector<double> values;
+  system.tangent(state, environment, TangentWeights{1, 0, 0, 0, 0}, nullptr, values);
+  VectorX forces = VectorX::Zero(system.dofs());
+  for (int i = 0; i < system.dofs(); ++i)
+    if (const int place = system.pattern().find(i, i); place >= 0)
+      forces[i] = std::abs(values[static_cast<std::size_t>(place)]) * system.scale(i);
+  return forces;
+}
+
 class Balance {
  public:
   Balance(const System& system, const Environment& environment, const State& state)
@@ -32,6 +44,7 @@ class Balance {
         linear_(system),
         mass_(column_sums(system, state, environment, TangentWeights{0, 0, 1, 0, 0})),
         damping_(column_sums(system, state, environment, TangentWeights{0, 1, 0, 0, 0})),
+        own_forces_(own_forces(system, state, environment)),
         r_(system.size()),
         step_(system.size()) {
     length_ = model_length(state);
@@ -99,7 +112,8 @@ class Balance {
         r_[i] = 0;
         continue;
       }
-      const double size = std::abs(r_[i]) / (balanced * scale_[system_.kind(i)]);
+      const double whole = own_forces_[i] > 0 ? own_forces_[i] : scale_[system_.kind(i)];
+      const double size = std::abs(r_[i]) / (balanced * whole);
       if (!(size > 1) || size <= size_) continue;
       size_ = size;
       worst_ = i;
@@ -161,7 +175,7 @@ class Balance {
   const System& system_;
   const Environment& environment_;
   LinearStep linear_;
-  VectorX mass_, damping_;
+  VectorX mass_, damping_, own_forces_;
   double length_ = 1;
   VectorX r_, step_;
   ResidualScale scale_;

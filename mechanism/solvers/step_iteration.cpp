@@ -32,6 +32,7 @@ void TimeIntegration::move(double part) {
   }
   next_.first_order += part * delta_.segment(n, y);
   next_.first_order_rate += part * first_order_factor_ * delta_.segment(n, y);
+  still_algebraic();
   next_.multiplier += part * delta_.segment(n + y, m);
   if (stabilised_) {
     const auto change = part * delta_.segment(system_.size(), n);
@@ -52,6 +53,12 @@ void TimeIntegration::move_and_follow(double part) {
   v_new_ = v + rate_factor_ * dq;
   a_new_ = a_ + acceleration_factor_ * dq;
   next_.first_order_rate = state_.first_order_rate + first_order_factor_ * (next_.first_order - y);
+  still_algebraic();
+}
+
+/// Algebraic unknowns have no rates.
+void TimeIntegration::still_algebraic() {
+  for (const int k : system_.algebraic()) next_.first_order_rate[k] = 0;
 }
 
 void TimeIntegration::evaluate() {
@@ -147,6 +154,7 @@ void TimeIntegration::improve(StepReport& report) {
   const bool renew =
       !options_.reuse_tangent || !same_size(attempted_, factored_for_, factors_serve_within_) || report.iterations >= options_.iterations / 2;
   if (renew) factor(report);
+  if (renew || report.iterations == 0) convergence_.measure_terms(linear_, next_);
   if (report.iterations == 0) {
     convergence_.measure_by(scale_);
     size_ = size_of_residual();

@@ -28,7 +28,8 @@ TimeIntegration::TimeIntegration(const System& system, const Environment& enviro
       linear_(system),
       options_(options),
       convergence_(system, options),
-      form_(form) {
+      form_(form),
+      saddle_(system) {
   allocate();
   start_report_ = make_consistent(system_, environment_, state_);
   take_rates();
@@ -45,7 +46,8 @@ TimeIntegration::TimeIntegration(const System& system, const Environment& enviro
       linear_(system),
       options_(options),
       convergence_(system, options),
-      form_(form) {
+      form_(form),
+      saddle_(system) {
   allocate();
   exchange(archive);
   next_ = state_;
@@ -73,7 +75,7 @@ void TimeIntegration::exchange(Archive& archive) {
   archive(h_);
   linear_.choose_pivots_anew();
   if (stabilised_) stabilised_->choose_pivots_anew();
-  if (saddle_) saddle_->choose_pivots_anew();
+  saddle_.choose_pivots_anew();
   factored_for_ = 0;
   floor_age_ = never_measured;
 }
@@ -96,7 +98,7 @@ VectorX TimeIntegration::acceleration_rate(double h) {
     system_.displace(shifted, state_, k * e * v_ + 0.5 * k * k * e * e * a_);
     system_.set_rates(shifted, v_ + k * e * a_, a_);
     shifted.first_order = state_.first_order + k * e * state_.first_order_rate;
-    make_accelerations_consistent(system_, environment_, shifted);
+    make_accelerations_consistent(system_, environment_, shifted, saddle_);
     VectorX unused(system_.dofs());
     ahead[k - 1].resize(system_.dofs());
     system_.get_rates(shifted, unused, ahead[k - 1]);
@@ -122,7 +124,13 @@ bool TimeIntegration::resolved(const VectorX& j, double h) const {
 
 void TimeIntegration::start(double h) {
   h_ = h;
+  if (!saddle_.serves()) saddle_.factor(environment_, state_);
   j_ = acceleration_rate(h);
+  set_start_values(h);
+  saddle_.serve_no_more();
+}
+
+void TimeIntegration::set_start_values(double h) {
   // The corrections are terms of a series in h. Where the accelerations change by their own size within a step (stiff
   // bodies set off suddenly), they would add what the scheme then has to damp.
   if (!resolved(j_, h)) return;
@@ -136,6 +144,7 @@ void TimeIntegration::change_step(double h) {
   if (resolved(j_, std::max(h, h_))) {
     A_ += scheme_.delta() * (h - h_) * j_;
     perturb_velocity(j_, h * h - h_ * h_);
+    saddle_.serve_no_more();
     system_.set_rates(state_, v_, a_);
   }
   h_ = h;
@@ -150,8 +159,9 @@ void TimeIntegration::restart(double h) {
 }
 
 void TimeIntegration::start_anew(double h, StartReport& report) {
-  make_velocities_consistent(system_, environment_, state_, report);
-  make_accelerations_consistent(system_, environment_, state_);
+  // One factorisation serves all of it.
+  make_velocities_consistent(system_, environment_, state_, report, saddle_);
+  make_accelerations_consistent(system_, environment_, state_, saddle_);
   balance_massless(system_, environment_, state_, report);
   take_rates();
   start(h);
@@ -316,6 +326,8 @@ State TimeIntegration::interpolated(double time) const {
   system_.set_rates(state, v, (1 - s) * a_before + s * a_);
   state.first_order = before.first_order + f0 * h * before.first_order_rate +
                       f1 * (after.first_order - before.first_order) + f2 * h * after.first_order_rate;
+  for (const int k : system_.algebraic())
+    state.first_order[k] = (1 - s) * before.first_order[k] + s * after.first_order[k];
   state.first_order_rate = (1 - s) * before.first_order_rate + s * after.first_order_rate;
   state.multiplier = (1 - s) * before.multiplier + s * after.multiplier;
   return state;

@@ -5,7 +5,8 @@
 //   (1 - alpha_m) A_{n+1} + alpha_m A_n = (1 - alpha_f) a_{n+1} + alpha_f a_n
 //   r(q, v, a, lambda, t)_{n+1} = 0,  Phi(q, t)_{n+1} = 0
 // solved for Dq and lambda_{n+1} with the matrix K T(Dq) + gamma' C + beta' M, gamma' = gamma/(beta h),
-// beta' = (1 - alpha_m)/((1 - alpha_f) beta h^2). First-order unknowns use the velocity formula with their own rates.
+// beta' = (1 - alpha_m)/((1 - alpha_f) beta h^2). First-order unknowns use the velocity formula with their own rates;
+// algebraic ones have none, and satisfy their equations f(y, q, v, t)_{n+1} = 0 as they are.
 //
 // The form above, of index 3, keeps the constraints of positions. Where they turn fast it is unstable unless velocities
 // are corrected after each step (velocity_correction.cpp). The stabilised form (stabilised_step.hpp) keeps the
@@ -109,8 +110,12 @@ class TimeIntegration {
   State interpolated(double time) const;
   /// Local error of the attempted step: of the dofs (dofs), exact minus computed.
   VectorX position_error() const;
-  /// The same of the first-order unknowns (first_orders); zero in the first step.
+  /// The same of the first-order unknowns (first_orders); zero where it is not known: in the first step, and in the
+  /// first behind a jump of forces.
   VectorX first_order_error() const;
+  bool first_order_error_known() const {
+    return Y_rate_known_ || system_.first_orders() == static_cast<int>(system_.algebraic().size());
+  }
   /// What the user should know of the last accepted step, whose joints turn far: a sentence, or nothing.
   std::string caution() const;
   const StartReport& start_report() const { return start_report_; }
@@ -123,6 +128,7 @@ class TimeIntegration {
   void allocate();
   void take_rates();                                ///< of the state, as algorithmic values
   void start_anew(double h, StartReport& report);
+  void set_start_values(double h);
   VectorX acceleration_rate(double h);              ///< j
   bool resolved(const VectorX& j, double h) const;  ///< accelerations change little within a step
   VectorX velocity_target(const State& state, const VectorX& v, const VectorX& a, const VectorX& j) const;
@@ -135,6 +141,7 @@ class TimeIntegration {
   void calc_prediction(double h, VectorX& dq, VectorX& v, VectorX& y) const;
   void move(double part);  ///< the attempt, by a part of the last solution
   void move_and_follow(double part);
+  void still_algebraic();
   void evaluate();  ///< residual and its scale at the attempt
   double size_of_residual() const;
   void improve(StepReport& report);
@@ -178,7 +185,7 @@ class TimeIntegration {
   ConstraintForm form_;
   double turn_ = 0;                     ///< of constraints in the last accepted step [rad]
   bool turning_ = false;                ///< fast enough for velocities to be corrected, now or before
-  std::unique_ptr<LinearStep> saddle_;  ///< [M B^T; B 0], once needed
+  MassSaddle saddle_;
   VectorX eta_, mu_;                    ///< of the attempt: see there
   VectorX last_dq_;                     ///< of the last accepted step
 };

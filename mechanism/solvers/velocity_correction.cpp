@@ -49,9 +49,8 @@ VectorX TimeIntegration::velocity_target(const State& state, const VectorX& v, c
 
 /// What changes the least in the kinetic energy's norm, so that the constraint rates become smaller by r's last rows.
 VectorX TimeIntegration::across_constraints(const State& state) {
-  if (!saddle_) saddle_ = std::make_unique<LinearStep>(system_);
-  factor_mass_saddle(system_, environment_, state, *saddle_);
-  saddle_->solve(r_.head(system_.size()), delta_.head(system_.size()));
+  if (!saddle_.serves()) saddle_.factor(environment_, state);
+  saddle_.solve(r_.head(system_.size()), delta_.head(system_.size()));
   return delta_.head(system_.dofs());
 }
 
@@ -91,7 +90,9 @@ void TimeIntegration::correct_velocity() {
   system_.for_each_idle(next_, [&](int k) { rate[k] = 0; });
   r_.setZero();
   r_.tail(m) = rate - h * h * velocity_target(next_, v_new_, a_new_, j_);
+  saddle_.serve_no_more();
   v_new_ += across_constraints(next_);
+  saddle_.serve_no_more();
   system_.set_rates(next_, v_new_, a_new_);
 }
 

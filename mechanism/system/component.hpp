@@ -51,6 +51,14 @@ struct Declaration {
     ConstraintKind kind = ConstraintKind::holonomic;  ///< multipliers only
     /// Multipliers only: the constraint may be switched off and on during a run, see Component::is_on.
     bool switched = false;
+    /// A typical size of the unknown, in its units: what is much smaller does not matter. 0: not known; sizes of all
+    /// unknowns of its kind then stand for it.
+    double scale = 0;
+    std::string equation_units = {};  ///< of its equation; empty: as System::equation_units says
+    /// First-order unknowns only: its equation 0 = f(y, q, v, t) holds no rate of it, and no other equation does
+    /// (a junction without volume). It has no start value of its own, but where the search for one begins; its rate in
+    /// the state is zero.
+    bool algebraic = false;
   };
   std::vector<int> nodes;  ///< indices into the model's nodes
   std::vector<Scalar> amplitudes, first_order, multipliers;

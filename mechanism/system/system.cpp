@@ -26,14 +26,11 @@ System::System(const Model& model) : model_(model), kinematics_(model) {
   std::vector<Declaration> declarations;
   std::vector<double> amplitude, first_order, multiplier, memory;
   std::vector<std::string> amplitude_names, first_order_names, multiplier_names;
-  std::vector<std::string> amplitude_units, first_order_units, multiplier_units;
   const auto append = [](const std::vector<Declaration::Scalar>& scalars, const Member& member,
-                         std::vector<double>& values, std::vector<std::string>& names,
-                         std::vector<std::string>& units) {
+                         std::vector<double>& values, std::vector<std::string>& names) {
     for (const Declaration::Scalar& scalar : scalars) {
       values.push_back(scalar.start);
       names.push_back(fmt::format("{} of {}", scalar.name, describe(member)));
-      units.push_back(scalar.units);
     }
   };
   slots_.reserve(model.members().size());  // references point to them
@@ -52,9 +49,9 @@ System::System(const Model& model) : model_(model), kinematics_(model) {
     slots.multipliers = static_cast<int>(declaration.multipliers.size());
     slots.memory_begin = static_cast<int>(memory.size());
     slots.memories = static_cast<int>(declaration.memory.size());
-    append(declaration.amplitudes, member, amplitude, amplitude_names, amplitude_units);
-    append(declaration.first_order, member, first_order, first_order_names, first_order_units);
-    append(declaration.multipliers, member, multiplier, multiplier_names, multiplier_units);
+    append(declaration.amplitudes, member, amplitude, amplitude_names);
+    append(declaration.first_order, member, first_order, first_order_names);
+    append(declaration.multipliers, member, multiplier, multiplier_names);
     for (const Declaration::Scalar& scalar : declaration.multipliers) constraint_kinds_.push_back(scalar.kind);
     memory.insert(memory.end(), declaration.memory.begin(), declaration.memory.end());
     for (int k = 0; k < slots.multipliers; ++k)
@@ -83,8 +80,6 @@ System::System(const Model& model) : model_(model), kinematics_(model) {
   start_memory_ = as_vector(memory);
   for (auto* names : {&amplitude_names, &first_order_names, &multiplier_names})
     scalar_names_.insert(scalar_names_.end(), names->begin(), names->end());
-  for (auto* units : {&amplitude_units, &first_order_units, &multiplier_units})
-    scalar_units_.insert(scalar_units_.end(), units->begin(), units->end());
 
   kinds_.assign(static_cast<std::size_t>(size()), Kind::multiplier);
   for (int i = 0; i < static_cast<int>(model.nodes().size()); ++i) {
@@ -96,6 +91,7 @@ System::System(const Model& model) : model_(model), kinematics_(model) {
   const auto fill = [&](int begin, int count, Kind kind) { std::fill_n(kinds_.begin() + begin, count, kind); };
   fill(kinematics_.unknowns(), amplitudes_, Kind::amplitude);
   fill(dofs(), first_orders_, Kind::first_order);
+  take_units(declarations);
   place(declarations);
 }
 
@@ -143,6 +139,35 @@ void System::add_parts(Placement& placement, const Slots& slots, int local, bool
               slots.multipliers);
   for (std::size_t k = 0; k < slots.references.size(); ++k)
     add_parts(placement, *slots.references[k], local + slots.reference_rows[k], false);
+}
+
+namespace {
+
+/// Units of a scalar's equation where its component says none.
+std::string usual_equation_units(Kind kind, const Declaration::Scalar& scalar) {
+  if (kind == Kind::amplitude) return scalar.units == "m" ? "N" : scalar.units == "rad" ? "N m" : "N/sqrt(kg)";
+  if (kind == Kind::first_order) return scalar.algebraic ? scalar.units : scalar.units + "/s";
+  const std::string length = scalar.units == "N" ? "m" : "rad";
+  return scalar.kind == ConstraintKind::holonomic ? length : length + "/s";
+}
+
+}  // namespace
+
+/// Sizes and units of scalars, in global order.
+void System::take_units(const std::vector<Declaration>& declarations) {
+  const auto append = [&](Kind kind, std::vector<Declaration::Scalar> Declaration::*scalars) {
+    for (const Declaration& declaration : declarations)
+      for (const Declaration::Scalar& scalar : declaration.*scalars) {
+        scalar_scales_.push_back(scalar.scale);
+        scalar_equation_units_.push_back(scalar.equation_units.empty() ? usual_equation_units(kind, scalar)
+                                                                       : scalar.equation_units);
+        if (kind == Kind::first_order && scalar.algebraic)
+          algebraic_.push_back(static_cast<int>(scalar_scales_.size()) - 1 - amplitudes_);
+      }
+  };
+  append(Kind::amplitude, &Declaration::amplitudes);
+  append(Kind::first_order, &Declaration::first_order);
+  append(Kind::multiplier, &Declaration::multipliers);
 }
 
 void System::place(const std::vector<Declaration>& declarations) {
@@ -336,19 +361,9 @@ std::string System::equation_name(int equation) const {
 }
 
 std::string System::equation_units(int equation) const {
-  switch (kind(equation)) {
-    case Kind::translation:
-      return "N";
-    case Kind::rotation:
-      return "N m";
-    case Kind::amplitude:
-      return "N/sqrt(kg)";
-    case Kind::first_order:
-      return scalar_units_[static_cast<std::size_t>(equation - kinematics_.unknowns())] + "/s";
-    case Kind::multiplier:
-      break;
-  }
-  return scalar_units_[static_cast<std::size_t>(equation - kinematics_.unknowns())] == "N" ? "m" : "rad";
+  if (kind(equation) == Kind::translation) return "N";
+  if (kind(equation) == Kind::rotation) return "N m";
+  return scalar_equation_units_[static_cast<std::size_t>(equation - kinematics_.unknowns())];
 }
 
 std::string System::wrong_branch(const State& state, const Environment& environment) const {

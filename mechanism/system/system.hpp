@@ -71,8 +71,19 @@ class System {
   ConstraintKind constraint_kind(int multiplier) const {
     return constraint_kinds_[static_cast<std::size_t>(multiplier)];
   }
+  /// Typical size of an unknown [its units], as its component declares it; 0: none is known.
+  double scale(int unknown) const {
+    return unknown < kinematics_.unknowns()
+               ? 0
+               : scalar_scales_[static_cast<std::size_t>(unknown - kinematics_.unknowns())];
+  }
+  /// First-order unknowns whose equations hold no rates of theirs, ascending, counted among the first-order ones.
+  const std::vector<int>& algebraic() const { return algebraic_; }
   std::string unknown_name(int unknown) const;    ///< "rotation y of node 'pin'", "mode 3 of element 'rod'"
   std::string equation_name(int equation) const;  ///< "moment y at node 'pin'", "constraint x of joint 'main'"
+  /// As declared. Otherwise N and N m of nodes; of amplitudes in m, rad and m kg^0.5: N, N m and N/sqrt(kg); of
+  /// first-order unknowns their units per second, or as they are where the equation holds no rate; of constraints m or
+  /// rad, of those that relate velocities m/s or rad/s.
   std::string equation_units(int equation) const;
   /// The first component whose position is on a wrong branch, with what is wrong: "joint 'main': its axes point in
   /// opposite directions"; or nothing.
@@ -186,6 +197,7 @@ class System {
                      Workspace& work) const;
   void resolve_references(const std::vector<Declaration>& declarations);
   void add_parts(Placement& placement, const Slots& slots, int local, bool own) const;
+  void take_units(const std::vector<Declaration>& declarations);
   void place(const std::vector<Declaration>& declarations);
   void find_idle_places();
   void weigh_stiffness(const Placement& placement, const Slots& slots, const TangentWeights& weights,
@@ -217,7 +229,9 @@ class System {
   std::vector<Kind> kinds_;
   std::vector<ConstraintKind> constraint_kinds_;
   std::vector<std::string> scalar_names_;  ///< of amplitudes, first-order unknowns, multipliers in global order
-  std::vector<std::string> scalar_units_;
+  std::vector<std::string> scalar_equation_units_;
+  std::vector<double> scalar_scales_;
+  std::vector<int> algebraic_;
   SparsePattern pattern_;
   std::map<const Component*, std::size_t> member_index_;
   std::vector<std::size_t> acting_;  ///< members that add to the equations
