@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "mechanism/system/archive.hpp"
 #include "mechanism/system/component.hpp"
