@@ -61,13 +61,13 @@ Motion::Motion(Session& session, const DynamicsOptions& options) : session_(&ses
   start_.add(parts_.integration->start_report());
   parts_.books.start(parts_.begin, system.energy(this->state(), environment));
   make_march(parts_, stepping);
-  show();
   StepRecord row;
   row.energy = energy();
   row.balance = balance();
   row.step = stepping.size;
-  session.report_ = row;
   session.record(this->state(), environment, row);
+  session.report_ = row;
+  show();  // last: a motion that could not be made is not to be seen
 }
 
 Motion::Motion(Session& session, const DynamicsOptions& options, Archive& archive, ResultSink* sink,
