@@ -34,7 +34,7 @@ joints: {pivot: {type: hinge, nodes: [ground, rod], position: [0, 0, 0], axis: [
   const std::vector<double> saved = session.save();
   const bool whole = motion.advance_to(1.5);
   const double time = motion.time(), angle = session.read("joints/pivot/coordinate")[0];
-  std::printf("%s at the other side after %.2f s\n", whole ? "never" : "stopped", time);
+  std::printf("%s at the other side after %.3f s\n", whole ? "never" : "stopped", time);
   session.restore(saved);
   motion.advance_to(1.5);
   const bool same = motion.time() == time && session.read("joints/pivot/coordinate")[0] == angle;
