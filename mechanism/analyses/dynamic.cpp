@@ -64,7 +64,7 @@ StepOptions read_stepping(const YamlValue& entry, double duration) {
   return options;
 }
 
-/// Gap in the balance of energy, beside the largest energy, from which results are not to be trusted unseen.
+/// Gap in the balance of energy, relative to the largest energy, from which results are not to be trusted unseen.
 constexpr double doubtful = 0.05;
 
 /// Newton's method knows positions to some 1e-9 of the model's size; energies below the work of the largest forces

@@ -73,7 +73,7 @@ void Session::exchange(Archive& archive, Saved& saved) const {
 
 std::vector<double> Session::save() {
   Archive archive;
-  Saved saved{loaded_, acting_, report_, motion_ != nullptr, state_};
+  Saved saved{loaded_, acting_, report_, motion_ != nullptr, *shown_};
   exchange(archive, saved);
   if (motion_) motion_->write(archive, nullptr);
   return archive.values();

@@ -89,7 +89,9 @@ StaticsReport Session::statics(const StaticsOptions& options) {
   Environment statics = environment_;
   statics.statics = true;
   const Loaded begin = loaded_;
+  const LoadRamp ramp(system_, statics, begin);
   const auto point = [&](const State& state, double factor, int iterations, double done) {
+    loaded_ = {factor, ramp.motion(factor)};
     statics_point(state, factor, iterations);
     ++report.points;
     report.iterations += iterations;
@@ -115,7 +117,6 @@ StaticsReport Session::statics(const StaticsOptions& options) {
     }
   } catch (const Stopped&) {
     if (shown_ != &state_) state_ = *shown_;
-    loaded_ = {report.load_factor, LoadRamp(system_, statics, begin).motion(report.load_factor)};
   } catch (...) {
     shown_ = &state_;
     throw;
@@ -178,8 +179,12 @@ void Session::note(const std::string& sentence) const {
 
 // -- recording
 
+void Session::set_recording(Recording recording) {
+  if (recording.every < 1) throw InputError("rows are recorded every 1, 2, ... steps");
+  recording_ = std::move(recording);
+}
+
 void Session::begin_analysis(const std::string& type, std::size_t expected_rows, const ResultSink* goes_on) {
-  if (open_) throw std::logic_error("an analysis begins within another");
   open_ = true;
   rows_ = 0;
   for (ResultSink* sink : sinks_)

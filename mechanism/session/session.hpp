@@ -99,9 +99,10 @@ class Session {
 
   // -- recording
   void add_sink(ResultSink& sink) { sinks_.push_back(&sink); }  ///< which must outlive its use
-  void set_recording(Recording recording) { recording_ = std::move(recording); }
+  void set_recording(Recording recording);
   const Recording& recording() const { return recording_; }
-  /// What follows is recorded under this name. @param goes_on  a sink that has the analysis open already
+  /// What follows is recorded under this name, until the analysis ends or, where it failed, another begins.
+  /// @param goes_on  a sink that has the analysis open already
   void begin_analysis(const std::string& type, std::size_t expected_rows = 0, const ResultSink* goes_on = nullptr);
   void write(const ResultArray& array);  ///< a result that is no row
   void end_analysis();

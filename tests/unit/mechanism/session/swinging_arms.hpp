@@ -1,4 +1,4 @@
-// A model for tests of sessions: two arms in the plane, one link a spring, and a push with kinks.
+// A model for tests of sessions: two arms that swing in a plane, a spring and damper, and a push with kinks.
 #pragma once
 
 #include <string>

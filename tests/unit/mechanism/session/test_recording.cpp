@@ -96,6 +96,5 @@ TEST_CASE("without an open analysis nothing is recorded") {
   session.assemble();
   CHECK(memory.analyses().empty());
   CHECK_THROWS_AS(session.write({"a", {}, {1}, "-", ""}), std::logic_error);
-  session.begin_analysis("one");
-  CHECK_THROWS_AS(session.begin_analysis("two"), std::logic_error);
+  CHECK_THROWS_AS(session.set_recording({0, {}, 0}), InputError);
 }

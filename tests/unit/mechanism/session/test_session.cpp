@@ -73,7 +73,9 @@ loads: {pull: {node: bar, force: [0, 0, -30]}}
 
   // A callback that stops on the way leaves the session under the load that it has come to; the rest comes from there.
   Session again(read_mechanism_text(text, "bar.yaml").model);
-  again.on_step([](Session& at) {
+  std::vector<double> saved;
+  again.on_step([&](Session& at) {
+    if (at.acting().load_factor == 0.25) saved = at.save();
     if (at.acting().load_factor == 0.5) at.stop();
   });
   CHECK(again.statics(options).points == 2);
@@ -83,6 +85,10 @@ loads: {pull: {node: bar, force: [0, 0, -30]}}
   CHECK(again.read("time")[0] == 0.5);
   options.steps = 1;
   CHECK(again.statics(options).load_factor == 1);
+  Session from_callback(read_mechanism_text(text, "bar.yaml").model);
+  from_callback.restore(saved);
+  CHECK(from_callback.loaded().factor == 0.25);
+  CHECK(from_callback.node("bar").x.z() == Approx(-1.025).epsilon(1e-9));
   CHECK(again.node("bar").x.z() == Approx(-1.1).epsilon(1e-9));
 }
 
