@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
+#include "mechanism/analyses/summary_text.hpp"
 #include "mechanism/elements/beam_element.hpp"
 #include "mechanism/elements/rigid_body.hpp"
 #include "mechanism/joints/joint.hpp"
@@ -20,31 +21,6 @@ std::string format_vector(const Vector3& v) {
   // Rounding residue of orthogonal axes reads as zero.
   const auto clean = [](double x) { return std::abs(x) < 1e-14 ? 0.0 : x; };
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", clean(v.x()), clean(v.y()), clean(v.z()));
-}
-
-/// Gap in the balance of energy, beside the largest energy, from which results are not to be trusted unseen.
-constexpr double doubtful = 0.05;
-
-std::string format_start(const StartReport& start) {
-  std::string text;
-  if (start.largest_displacement > 1e-9 || start.largest_rotation > 1e-9)
-    text += fmt::format("  assembly moved node '{}' by {:.3g} m; largest rotation {:.3g} rad\n", start.displaced_node,
-                        start.largest_displacement, start.largest_rotation);
-  if (start.settled > 0)
-    text += fmt::format("  static equilibrium moved node '{}' by {:.3g} m\n", start.settled_node, start.settled);
-  if (start.balanced > 1e-9)
-    text += fmt::format(
-        "  node '{}', which has no mass, stood out of the balance of its forces: it was moved there, by {:.3g} m\n",
-        start.balanced_node, start.balanced);
-  if (!start.unbalanced.empty())
-    text += fmt::format(
-        "  {}: it has no mass, and no place near by where its forces balance: the first steps tear it somewhere, with "
-        "velocities that mean nothing\n",
-        start.unbalanced);
-  if (start.velocity_change > 1e-9)
-    text += fmt::format("  start velocities were changed by up to {:.3g} m/s to satisfy joints and drives\n",
-                        start.velocity_change);
-  return text;
 }
 
 /// What the user's numbers made of bodies and beams.
@@ -190,46 +166,10 @@ std::string describe_model(const MechanismFile& file) {
   return text;
 }
 
-/// How hard the steps were, and what was refused or cut short.
-std::string format_march(const MarchLog& log, const std::string& slowest_equation) {
-  std::string text;
-  if (log.most_iterations > 0)
-    text += fmt::format("  {} factorisations; at most {} iterations, at t = {:.6g} s{}\n", log.factorisations,
-                        log.most_iterations, log.most_iterations_at,
-                        slowest_equation.empty() ? "" : " (worst residual: " + slowest_equation + ")");
-  if (log.shortened > 0) text += fmt::format("  {} iterations were shortened by the line search\n", log.shortened);
-  if (log.steps > 0 && log.largest > log.smallest * (1 + 1e-6))
-    text += fmt::format("  steps from {:.3g} to {:.3g} s\n", log.smallest, log.largest);
-  if (log.refused_by_error > 0) text += fmt::format("  {} steps refused for their local error\n", log.refused_by_error);
-  if (log.refused_by_newton > 0)
-    text += fmt::format("  {} steps refused because they could not be solved; the last: {}\n", log.refused_by_newton,
-                        log.hardest);
-  return text;
-}
-
 std::string format_summary(const MechanismFile& file, const std::vector<AnalysisSummary>& summaries,
                            const std::vector<PhaseReport>& phases, const std::string& results_path) {
   std::string text = fmt::format("{}\n", file.model.title.empty() ? "mechanism" : file.model.title);
-  for (const AnalysisSummary& s : summaries) {
-    text += fmt::format("{}\n", s.name);
-    text += format_start(s.start);
-    for (const std::string& name : s.redundant)
-      text += fmt::format("  redundant: {}; set aside, without reactions\n", name);
-    if (s.steps == 0) continue;
-    text +=
-        fmt::format("  {} steps, {:.2f} Newton iterations per step, {} rows recorded, until t = {:.6g} s\n", s.steps,
-                    static_cast<double>(s.iterations) / static_cast<double>(s.steps), s.records, s.end_time);
-    for (const double factor : s.limit_points) text += fmt::format("  limit point at load factor {:.9g}\n", factor);
-    text += format_march(s.march, s.slowest_equation);
-    if (s.largest_energy > 0)
-      text += fmt::format(
-          "  energy at the end [J]: kinetic {:.6g}, elastic {:.6g}, gravity {:.6g}; input {:.6g}, dissipated {:.6g}\n"
-          "  balance {:.3g} J, {:.2g} of the largest energy (negative: numerical dissipation)\n",
-          s.energy.kinetic, s.energy.elastic, s.energy.gravity, s.energy.input, s.energy.dissipation, s.balance,
-          s.balance / s.largest_energy);
-    if (s.largest_energy > s.energy_noise && std::abs(s.balance) > doubtful * s.largest_energy)
-      text += "  DOUBTFUL: so large a gap in the balance means steps too long for the motion, or a motion that jumps\n";
-  }
+  for (const AnalysisSummary& summary : summaries) text += summary.text;
   for (const PhaseReport& phase : phases) text += fmt::format("  {:<12} {:8.2f} s\n", phase.name, phase.seconds);
   text += fmt::format("results: {}\n", results_path);
   return text;

@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "mechanism/io/run_analyses.hpp"
+#include "mechanism/io/mechanism_file.hpp"
+#include "reduce/common/progress.hpp"
 
 namespace bielle::mechanism {
 

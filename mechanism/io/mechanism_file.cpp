@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/analyses/analysis_table.hpp"
 #include "mechanism/io/component_table.hpp"
 #include "mechanism/measures/read_measure.hpp"
 #include "mechanism/system/read_frame.hpp"
@@ -134,7 +135,7 @@ MechanismFile read_mechanism(YamlValue root, const std::map<std::string, std::st
   if (const auto analyses = root.find("analysis"))
     for (const YamlValue& entry : analyses->items()) file.analyses.push_back(read_analysis(entry, file.model));
   double end = 0;
-  for (const Analysis& analysis : file.analyses) end += analysis.duration;
+  for (const auto& analysis : file.analyses) end += analysis->duration();
   if (const auto output = root.find("output")) file.output = read_output(*output, end, file.model);
   return file;
 }

@@ -2,10 +2,11 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "mechanism/io/analysis.hpp"
+#include "mechanism/analyses/analysis.hpp"
 #include "mechanism/io/output_options.hpp"
 #include "mechanism/system/model.hpp"
 
@@ -13,7 +14,7 @@ namespace bielle::mechanism {
 
 struct MechanismFile {
   Model model;
-  std::vector<Analysis> analyses;
+  std::vector<std::unique_ptr<Analysis>> analyses;
   OutputOptions output;
   std::string text;  ///< of the file
   std::string path;  ///< of the file; empty when read from a text

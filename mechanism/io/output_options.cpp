@@ -71,13 +71,13 @@ OutputOptions read_output(const YamlValue& entry, double end, Model& model) {
   OutputOptions output;
   if (entry.has("times")) {
     if (entry.has("every")) entry.at("every").fail("either `every` or `times`, not both");
-    output.times = read_times(entry.at("times"), end);
+    output.recording.times = read_times(entry.at("times"), end);
   }
-  if (entry.has("every")) output.every = entry.at("every").integer();
-  if (output.every < 1) entry.at("every").fail("expected at least 1");
+  if (entry.has("every")) output.recording.every = entry.at("every").integer();
+  if (output.recording.every < 1) entry.at("every").fail("expected at least 1");
   if (entry.has("checkpoint")) {
-    output.checkpoint = entry.at("checkpoint").integer();
-    if (output.checkpoint < 1) entry.at("checkpoint").fail("expected at least 1 step");
+    output.recording.checkpoint = entry.at("checkpoint").integer();
+    if (output.recording.checkpoint < 1) entry.at("checkpoint").fail("expected at least 1 step");
   }
   if (entry.has("log")) output.log = entry.at("log").boolean();
   if (const auto only = entry.find("only")) read_only(*only, model);

@@ -72,6 +72,11 @@ void ResultsFile::record(const State& state, const std::vector<Slots>& slots, co
   stream_->record(state, slots, environment, step);
 }
 
+void ResultsFile::write(const ResultArray& array) {
+  const std::string units = array.units.empty() ? "-" : array.units;
+  file().write(analysis_group() + "/" + array.dataset, array.values, array.shape, units, array.description);
+}
+
 void ResultsFile::checkpoint(Archive& archive) {
   append_checkpoint(file(), stream_->model(), {analysis_, stream_->recorded(), archive.values()});
 }

@@ -7,14 +7,11 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "mechanism/io/checkpoint.hpp"
-#include "mechanism/system/archive.hpp"
-#include "mechanism/system/component.hpp"
-#include "mechanism/system/state.hpp"
+#include "mechanism/session/result_sink.hpp"
 
 namespace bielle {
 class Hdf5File;
@@ -26,19 +23,7 @@ class Model;
 class ResultsStream;
 class System;
 
-/// What a step has to report beside the state.
-struct StepRecord {
-  Energy energy;               ///< stored energies now; dissipation and input are integrals over the analysis [J]
-  double balance = 0;          ///< what is missing in the balance of energy [J]
-  double step = 0;             ///< size of the step [s]
-  int newton_iterations = 0;   ///< of the step
-  double error_estimate = 0;   ///< of the step, relative to the tolerance; 0 when the step is fixed
-  double worst_residual = 0;   ///< of the step, relative to its tolerance
-  int worst_equation = -1;     ///< whose residual that is; -1: there is none
-  std::optional<double> time;  ///< reported in place of the state's: the load factor of a static analysis
-};
-
-class ResultsFile {
+class ResultsFile : public ResultSink {
  public:
   /// Replaces an existing file. The model must outlive this object.
   /// @param input_text  text of the mechanism file
@@ -47,9 +32,8 @@ class ResultsFile {
   /// Goes on with an existing file behind a checkpoint: what came after it is taken out. The analysis of the checkpoint
   /// is the running one.
   ResultsFile(const std::string& path, const Model& model, const std::string& input_text, const Checkpoint& checkpoint);
-  ~ResultsFile();  ///< writes the rows that wait; the file stays `complete = false` unless complete() was called
-  ResultsFile(const ResultsFile&) = delete;
-  ResultsFile& operator=(const ResultsFile&) = delete;
+  ~ResultsFile()
+      override;  ///< writes the rows that wait; the file stays `complete = false` unless complete() was called
 
   /// Writes /equations: the name of each equation with its units, one per line, for those that rows name by number.
   void name_equations(const System& system);
@@ -58,26 +42,29 @@ class ResultsFile {
   /// @param type  as in the input file: "dynamic"
   /// @param expected_rows  how many rows will follow, 0 when unknown. A good guess lets each dataset be stored in one
   ///        piece, so that no moment is a bad one to be killed in (see Hdf5File::create_rows).
-  void begin_analysis(const std::string& type, std::size_t expected_rows = 0);
+  void begin_analysis(const std::string& type, std::size_t expected_rows = 0) override;
 
   /// Adds a row. No memory is allocated but for the first one. Components are asked for their outputs in another
   /// thread, a moment later.
   /// @param slots  of the model's members, in their order; they must outlive the analysis
   /// @throws ComputationError when this or an earlier row could not be written (a full disk)
   void record(const State& state, const std::vector<Slots>& slots, const Environment& environment,
-              const StepRecord& step);
+              const StepRecord& step) override;
+
+  /// A dataset of the running analysis, besides its rows.
+  void write(const ResultArray& array) override;
 
   /// Writes the rows that wait and, behind them, a point to go on from. @param archive  with all of it but what belongs
   /// to the file itself
-  void checkpoint(Archive& archive);
+  void checkpoint(Archive& archive) override;
   /// What rows to come take from those before.
-  void exchange(Archive& archive);
+  void exchange(Archive& archive) override;
   /// Writes the rows that wait and links the analysis's groups from the root.
-  void end_analysis();
-  void complete();  ///< marks the file `complete = true` and closes it
+  void end_analysis() override;
+  void complete() override;  ///< marks the file `complete = true` and closes it
 
-  /// For results that are no rows over time (eigenmodes): the file, free to be written between begin_analysis and
-  /// end_analysis while no row is waiting, and the path of the running analysis's group.
+  /// The file, free to be written between begin_analysis and end_analysis while no row is waiting, and the path of the
+  /// running analysis's group.
   Hdf5File& file();
   std::string analysis_group() const;
 

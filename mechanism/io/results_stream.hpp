@@ -9,8 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "mechanism/io/results_file.hpp"
-#include "mechanism/io/results_rows.hpp"
+#include "mechanism/session/results_rows.hpp"
 #include "mechanism/system/state.hpp"
 #include "reduce/common/hdf5_file.hpp"
 

@@ -21,7 +21,7 @@
 
 #include <fmt/format.h>
 
-#include "mechanism/io/energy_balance.hpp"
+#include "mechanism/session/energy_balance.hpp"
 #include "mechanism/io/mechanism_file.hpp"
 #include "mechanism/io/results_file.hpp"
 #include "tests/performance/chain.hpp"

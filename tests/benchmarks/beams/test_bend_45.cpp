@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "mechanism/analyses/static.hpp"
 #include "mechanism/io/mechanism_file.hpp"
 #include "mechanism/solvers/statics.hpp"
 #include "tests/support/static_model.hpp"
@@ -133,7 +134,8 @@ TEST_CASE("the 45-degree bend at five times the usual load by the steps that the
           "bend.yaml");
       const System system(file.model);
       State state = system.start(0);
-      solve_statics(system, file.model.environment, file.analyses.front().steps, NewtonOptions{}, state);
+      const auto& analysis = dynamic_cast<const StaticAnalysis&>(*file.analyses.front());
+      solve_statics(system, file.model.environment, analysis.options().steps, NewtonOptions{}, state);
       errors.push_back((state.nodes[2].x - c.exact).norm());
     }
     CAPTURE(c.section, errors);

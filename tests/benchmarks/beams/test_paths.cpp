@@ -9,6 +9,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "mechanism/analyses/static.hpp"
 #include "mechanism/solvers/arc_length.hpp"
 #include "tests/support/run_model.hpp"
 
@@ -33,8 +34,8 @@ struct Path {
       const Vector3 moved = model.node(s, "load").x - drawn;
       return Point{P, moved.x(), -moved.y()};
     };
-    const Analysis& analysis = model.file.analyses.front();
-    const Loaded loaded = follow_path(model.system, model.environment(), {}, *analysis.path, analysis.newton, state,
+    const StaticsOptions& options = dynamic_cast<const StaticAnalysis&>(*model.file.analyses.front()).options();
+    const Loaded loaded = follow_path(model.system, model.environment(), {}, *options.path, options.newton, state,
                                       [&](const State& s, const PathPoint& p) {
                                         if (p.limit) limits.push_back(point(s, p.load_factor));
                                       });

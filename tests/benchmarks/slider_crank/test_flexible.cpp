@@ -4,7 +4,7 @@
 // 0.16974254 m.
 #include <map>
 
-#include "mechanism/io/energy_balance.hpp"
+#include "mechanism/session/energy_balance.hpp"
 #include "tests/benchmarks/slider_crank/flexible.hpp"
 
 using namespace bielle::mechanism;

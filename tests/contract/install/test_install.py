@@ -1,12 +1,15 @@
 """Installs Bielle into a folder and uses it from there: programs, tools, and the libraries from another project."""
 
+import math
 import os
+import re
 import subprocess
 import tempfile
 import unittest
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 BUILD = os.environ["BIELLE_BUILD"]
+PENDULUM = re.compile(r"(\d+) steps, angle (\S+) rad, tip speed (\S+) m/s, kinetic energy (\S+) J, gravity (\S+) J")
 
 
 def run(*command, cwd=None):
@@ -48,6 +51,30 @@ class Install(unittest.TestCase):
             "-DCMAKE_BUILD_TYPE=Release")
         run("cmake", "--build", build)
         self.assertEqual(run(os.path.join(build, "consumer"), cwd=build), "rigid 0.100\n")
+        before = sorted(os.listdir(build))
+        steps, stop, restored = run(os.path.join(build, "pendulum"), cwd=build).splitlines()
+        self.assertEqual(sorted(os.listdir(build)), before, "a session needs no file")
+        self.check_pendulum(*PENDULUM.fullmatch(steps).groups())
+        # Half a period of 90 degrees, 2 K(sin 45) / omega_0, but for the last 0.04 rad, on the grid of steps.
+        omega_squared = 1.5 * 9.81
+        time = 2 * 1.8540747 / math.sqrt(omega_squared) - math.sqrt(2 * (math.pi - 3.1) / omega_squared)
+        found = re.fullmatch(r"stopped at the other side after (\S+) s", stop).group(1)
+        self.assertAlmostEqual(float(found), time, delta=0.0011)
+        self.assertEqual(restored, "restored: the same to the last bit")
+
+    def check_pendulum(self, steps, angle, speed, kinetic, gravity):
+        self.assertEqual(steps, "500")
+        # A rod of 1 m that falls from the horizontal: speed^2 = 3 g sin(angle) at its tip, and energy stays.
+        self.assertAlmostEqual(float(speed) ** 2, 3 * 9.81 * math.sin(float(angle)), delta=0.03)
+        self.assertAlmostEqual(float(gravity), -9.81 * math.sin(float(angle)), delta=0.02)
+        self.assertAlmostEqual(float(kinetic) + float(gravity), 0, delta=0.01)
+
+    def test_the_example_in_the_documentation_is_the_one_that_is_compiled(self):
+        with open(os.path.join(HERE, "consumer", "pendulum.cpp"), encoding="utf-8") as file:
+            source = file.read()
+        with open(os.path.join(HERE, "..", "..", "..", "mechanism", "README.md"), encoding="utf-8") as file:
+            shown = re.search(r"```cpp\n(.*?)```", file.read(), re.DOTALL).group(1)
+        self.assertIn(shown, source)
 
 
 if __name__ == "__main__":

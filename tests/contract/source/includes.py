@@ -10,7 +10,7 @@ import re
 # "" is the program's own folder: what stands beside main.
 FOLDERS = {
     "reduce": ["common", "superelement", "spectral", "mesh", "fe", "reduction", ""],
-    "mechanism": ["math", "system", "elements", "joints", "solvers", "io", ""],
+    "mechanism": ["math", "system", "elements", "joints", "solvers", "session", "analyses", "io", ""],
 }
 SHARED = ["common", "superelement", "spectral"]
 # Integration schemes know no element and no joint.

@@ -22,9 +22,12 @@ class Includes(unittest.TestCase):
         allowed = [("reduce/mesh/a.cpp", "reduce/mesh/b.hpp"), ("reduce/fe/a.hpp", "reduce/common/error.hpp"),
                    ("reduce/main.cpp", "reduce/reduction/a.hpp"), ("mechanism/io/a.cpp", "mechanism/math/so3.hpp"),
                    ("mechanism/elements/a.cpp", "reduce/superelement/superelement.hpp"),
-                   ("mechanism/solvers/a.cpp", "reduce/spectral/a.hpp")]
+                   ("mechanism/solvers/a.cpp", "reduce/spectral/a.hpp"), ("mechanism/analyses/a.cpp", "mechanism/session/session.hpp"),
+                   ("mechanism/io/a.cpp", "mechanism/analyses/analysis.hpp")]
         refused = [("reduce/common/a.hpp", "reduce/mesh/mesh.hpp"), ("reduce/mesh/a.hpp", "reduce/body_file.hpp"),
                    ("mechanism/system/a.cpp", "mechanism/elements/beam.hpp"), ("mechanism/io/a.cpp", "reduce/fe/a.hpp"),
+                   ("mechanism/session/a.cpp", "mechanism/io/results_file.hpp"),
+                   ("mechanism/session/a.cpp", "mechanism/analyses/analysis.hpp"),
                    ("mechanism/joints/a.cpp", "reduce/body_file.hpp"), ("reduce/fe/a.cpp", "mechanism/math/so3.hpp"),
                    ("mechanism/solvers/a.cpp", "mechanism/joints/a.hpp"), ("reduce/fe/a.cpp", "material.hpp"),
                    ("reduce/fe/a.cpp", "../mesh/mesh.hpp"), ("reduce/fe/a.cpp", "tests/support/a.hpp"),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "mechanism/system/archive.hpp"
 #include "mechanism/system/component.hpp"
@@ -30,6 +31,16 @@ class EnergyBalance {
     totals_.dissipation = dissipation;
     time_ = time;
     last_ = energy;
+    note_largest();
+  }
+  /// A discontinuity at the time of the last `advance`: what impulses take out is dissipated, powers go on from those
+  /// behind it. @param work  of drives and supports whose rate jumps [J]
+  void jump(const Energy& before, const Energy& after, double work) {
+    const double input = totals_.input + work;
+    const double dissipation = totals_.dissipation + stored(before) - stored(after) + work;
+    totals_ = last_ = after;
+    totals_.input = input;
+    totals_.dissipation = dissipation;
     note_largest();
   }
   /// Stored energies now, input and dissipation since the start [J].

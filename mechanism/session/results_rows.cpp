@@ -1,4 +1,4 @@
-#include "mechanism/io/results_rows.hpp"
+#include "mechanism/session/results_rows.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -26,7 +26,7 @@ bool alike(const std::vector<OutputField>& a, const std::vector<OutputField>& b)
 
 }  // namespace
 
-ResultsRows::ResultsRows(const Model& model) : model_(model) {
+ResultsRows::ResultsRows(const Model& model, Extent extent) : model_(model), extent_(extent) {
   add_nodes();
   add_chains();
   add_members();
@@ -46,8 +46,9 @@ ResultsRows::ResultsRows(const Model& model) : model_(model) {
 
 std::size_t ResultsRows::add_column(const std::string& dataset, std::vector<std::size_t> shape,
                                     const std::string& units, const std::string& description, bool summed) {
-  for (const ResultsColumn& column : columns_) {
-    if (column.dataset != dataset) continue;
+  const auto [place, added] = column_of_.emplace(dataset, columns_.size());
+  if (!added) {
+    const ResultsColumn& column = columns_[place->second];
     if (summed && column.shape == shape) return column.begin;
     throw std::logic_error("two components record the results '" + dataset + "'");
   }
@@ -74,7 +75,7 @@ void ResultsRows::add_nodes() {
     const Node& node = model_.node(k);
     if (node.internal) continue;
     const std::string group = "nodes/" + node.name;
-    if (!model_.records(group)) continue;
+    if (!records(group)) continue;
     NodePlace place{k, 0, 0, nodes_.size(), true};
     place.position = add_column(group + "/position", {3}, "m", "inertial");
     place.rotation = add_column(group + "/rotation", {4}, "-", "unit quaternion w x y z: node axes -> inertial axes");
@@ -88,7 +89,7 @@ void ResultsRows::add_nodes() {
 
 void ResultsRows::add_chains() {
   for (const Chain& chain : model_.chains()) {
-    if (!model_.records(chain.group)) continue;
+    if (!records(chain.group)) continue;
     const std::size_t count = chain.nodes.size();
     const std::size_t positions = add_column(chain.group + "/position", {count, 3}, "m", "inertial");
     const std::size_t rotations =
@@ -103,7 +104,7 @@ void ResultsRows::add_members() {
   std::size_t largest = 0;
   for (std::size_t first = 0; first < placed.size(); ++first) {
     const Member& member = model_.members()[first];
-    if (placed[first] || member.group.empty() || !model_.records(member.group)) continue;
+    if (placed[first] || member.group.empty() || !records(member.group)) continue;
     // A component alone, or all the stacked ones of its group.
     std::vector<std::size_t> alike_members = {first};
     const std::vector<OutputField> fields = member.component->output_fields();
@@ -143,27 +144,64 @@ void ResultsRows::exchange(Archive& archive) {
   archive(quaternions_known_);
 }
 
+const ResultsColumn* ResultsRows::find(const std::string& dataset) const {
+  const auto place = column_of_.find(dataset);
+  return place == column_of_.end() ? nullptr : &columns_[place->second];
+}
+
 void ResultsRows::fill(const State& state, const std::vector<Slots>& slots, const Environment& environment,
                        const StepRecord& step, double* values) {
-  for (const NodePlace& place : nodes_) fill_node(place, state.nodes[static_cast<std::size_t>(place.node)], values);
+  for (const NodePlace& place : nodes_) {
+    const NodeState& node = state.nodes[static_cast<std::size_t>(place.node)];
+    Eigen::Vector4d& before = quaternions_[place.quaternion];
+    Eigen::Vector4d quaternion = quaternion_of(node.R);
+    if (quaternions_known_ && before.dot(quaternion) < 0) quaternion = -quaternion;
+    before = quaternion;
+    fill_node(place, node, quaternion, values);
+  }
   quaternions_known_ = true;
   for (const MemberPlace& place : members_)
     for (const FieldPlace& field : place.fields)
       if (field.summed) std::fill_n(values + field.begin, field.size, 0.0);
-  for (const MemberPlace& place : members_) {
-    if (place.fields.empty()) continue;
-    const LocalState local(state, slots[place.member], environment);
-    model_.members()[place.member].component->write_output(local, output_.data());
-    const double* from = output_.data();
-    for (const FieldPlace& field : place.fields) {
-      double* to = values + field.begin;
-      if (field.summed)
-        std::transform(from, from + field.size, to, to, std::plus<>());
-      else
-        copy(from, field.size, to);
-      from += field.size;
-    }
+  for (const MemberPlace& place : members_) fill_member(place, state, slots, environment, output_.data(), values);
+  fill_step(step, values);
+}
+
+std::vector<double> ResultsRows::read(const ResultsColumn& column, const State& state, const std::vector<Slots>& slots,
+                                      const Environment& environment, const StepRecord& step) const {
+  std::vector<double> row(size_), output(output_.size());
+  const std::size_t end = column.begin + column.size;
+  const auto within = [&](std::size_t begin, std::size_t size) { return begin < end && begin + size > column.begin; };
+  for (const NodePlace& place : nodes_) {
+    const std::size_t rates = place.rates ? 12 : 0;
+    if (!within(place.position, 3) && !within(place.rotation, 4 + rates)) continue;
+    const NodeState& node = state.nodes[static_cast<std::size_t>(place.node)];
+    fill_node(place, node, quaternion_of(node.R), row.data());
   }
+  for (const MemberPlace& place : members_)
+    if (std::any_of(place.fields.begin(), place.fields.end(),
+                    [&](const FieldPlace& field) { return within(field.begin, field.size); }))
+      fill_member(place, state, slots, environment, output.data(), row.data());
+  fill_step(step, row.data());
+  return {row.begin() + static_cast<std::ptrdiff_t>(column.begin), row.begin() + static_cast<std::ptrdiff_t>(end)};
+}
+
+void ResultsRows::fill_member(const MemberPlace& place, const State& state, const std::vector<Slots>& slots,
+                              const Environment& environment, double* output, double* values) const {
+  if (place.fields.empty()) return;
+  const LocalState local(state, slots[place.member], environment);
+  model_.members()[place.member].component->write_output(local, output);
+  for (const FieldPlace& field : place.fields) {
+    double* to = values + field.begin;
+    if (field.summed)
+      std::transform(output, output + field.size, to, to, std::plus<>());
+    else
+      copy(output, field.size, to);
+    output += field.size;
+  }
+}
+
+void ResultsRows::fill_step(const StepRecord& step, double* values) const {
   const Energy& energy = step.energy;
   const double energies[] = {energy.kinetic,     energy.elastic, energy.gravity,
                              energy.dissipation, energy.input,   step.balance};
@@ -173,11 +211,8 @@ void ResultsRows::fill(const State& state, const std::vector<Slots>& slots, cons
   copy(solver, std::size(solver), values + solver_);
 }
 
-void ResultsRows::fill_node(const NodePlace& place, const NodeState& node, double* values) {
-  Eigen::Vector4d& before = quaternions_[place.quaternion];
-  Eigen::Vector4d quaternion = quaternion_of(node.R);
-  if (quaternions_known_ && before.dot(quaternion) < 0) quaternion = -quaternion;
-  before = quaternion;
+void ResultsRows::fill_node(const NodePlace& place, const NodeState& node, const Eigen::Vector4d& quaternion,
+                            double* values) {
   copy(node.x.data(), 3, values + place.position);
   copy(quaternion.data(), 4, values + place.rotation);
   if (!place.rates) return;

@@ -1,11 +1,13 @@
 // The layout of a row of results: which dataset gets which numbers of the state.
 #pragma once
 
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "mechanism/io/results_file.hpp"
+#include "mechanism/session/step_record.hpp"
+#include "mechanism/system/archive.hpp"
 #include "mechanism/system/model.hpp"
 
 namespace bielle::mechanism {
@@ -28,17 +30,23 @@ struct ResultsGroup {
 /// Fills rows from states. Made once per run; `fill` allocates nothing.
 class ResultsRows {
  public:
+  /// recorded: what the model records; all: what it could.
+  enum class Extent { recorded, all };
   /// @throws std::logic_error when two components claim the same dataset
-  explicit ResultsRows(const Model& model);
+  explicit ResultsRows(const Model& model, Extent extent = Extent::recorded);
 
   std::size_t size() const { return size_; }  ///< numbers in a row, without the time
   const std::vector<ResultsColumn>& columns() const { return columns_; }
   const std::vector<ResultsGroup>& groups() const { return groups_; }
+  const ResultsColumn* find(const std::string& dataset) const;  ///< nullptr: there is none
 
   /// Writes the row of a state. Quaternions take the sign that continues the row before.
   /// @param values (size())
   void fill(const State& state, const std::vector<Slots>& slots, const Environment& environment, const StepRecord& step,
             double* values);
+  /// One column of a state alone, as a row that follows no other has it.
+  std::vector<double> read(const ResultsColumn& column, const State& state, const std::vector<Slots>& slots,
+                           const Environment& environment, const StepRecord& step) const;
   /// The next row follows no other: its quaternions have w >= 0.
   void restart() { quaternions_known_ = false; }
   void exchange(Archive& archive);
@@ -63,10 +71,17 @@ class ResultsRows {
   void add_chains();
   void add_members();
   void add_attributes(const std::string& group, const std::vector<std::pair<std::string, std::string>>& attributes);
-  void fill_node(const NodePlace& place, const NodeState& node, double* values);
+  bool records(const std::string& group) const { return extent_ == Extent::all || model_.records(group); }
+  static void fill_node(const NodePlace& place, const NodeState& node, const Eigen::Vector4d& quaternion,
+                        double* values);
+  void fill_member(const MemberPlace& place, const State& state, const std::vector<Slots>& slots,
+                   const Environment& environment, double* output, double* values) const;
+  void fill_step(const StepRecord& step, double* values) const;
 
   const Model& model_;
+  Extent extent_;
   std::vector<ResultsColumn> columns_;
+  std::map<std::string, std::size_t> column_of_;  ///< by dataset
   std::vector<ResultsGroup> groups_;
   std::vector<NodePlace> nodes_;
   std::vector<MemberPlace> members_;

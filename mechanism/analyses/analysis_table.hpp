@@ -1,0 +1,25 @@
+// All types of analysis by name: the one place where a new one is registered.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "mechanism/analyses/analysis.hpp"
+#include "reduce/common/yaml_file.hpp"
+
+namespace bielle::mechanism {
+
+/// Reads the keys of an entry. @throws InputError
+using AnalysisReader = std::unique_ptr<Analysis>(const YamlValue& entry, const Model& model);
+
+struct AnalysisType {
+  const char* name;  ///< the entry's `type`
+  AnalysisReader* read;
+};
+
+const std::vector<AnalysisType>& analysis_table();
+
+/// Reads an entry of the section `analysis`. @throws InputError for an unknown type, with the nearest name
+std::unique_ptr<Analysis> read_analysis(const YamlValue& entry, const Model& model);
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,171 @@
+#include "mechanism/analyses/dynamic.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "mechanism/analyses/analysis_table.hpp"
+#include "mechanism/analyses/newton_reader.hpp"
+#include "mechanism/analyses/summary_text.hpp"
+#include "mechanism/solvers/model_length.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+Scheme read_scheme(const YamlValue& entry, std::string& description) {
+  const std::string name = entry.has("scheme")
+                               ? entry.at("scheme").word({"generalized_alpha", "hht", "newmark"}, "a scheme")
+                               : std::string("generalized_alpha");
+  const auto refuse = [&](const char* key) {
+    if (entry.has(key)) entry.at(key).fail(fmt::format("is no parameter of the scheme '{}'", name));
+  };
+  const auto in_range = [&](const char* key, double fallback, double least, double most) {
+    if (!entry.has(key)) return fallback;
+    const double value = entry.at(key).number();
+    if (value < least || value > most)
+      entry.at(key).fail(fmt::format("expected a number from {} to {:.4g}, found {}", least, most, value));
+    return value;
+  };
+  if (name == "generalized_alpha") {
+    refuse("alpha");
+    const double rho = in_range("rho", 0.8, 0, 1);
+    description = fmt::format("generalised-alpha, rho = {}", rho);
+    return Scheme::generalized_alpha(rho);
+  }
+  refuse("rho");
+  if (name == "hht") {
+    const double alpha = in_range("alpha", 0.1, 0, 1.0 / 3);
+    description = fmt::format("HHT, alpha = {}", alpha);
+    return Scheme::hht(alpha);
+  }
+  refuse("alpha");
+  description = "Newmark (trapezoidal rule)";
+  return Scheme::newmark();
+}
+
+/// `step` alone: fixed steps. With `tolerance`: adaptive ones, of which `step` is the first.
+StepOptions read_stepping(const YamlValue& entry, double duration) {
+  StepOptions options;
+  if (entry.has("tolerance")) {
+    options.tolerance = entry.at("tolerance").positive_number();
+    if (options.tolerance >= 1)
+      entry.at("tolerance").fail("expected less than 1: it is relative to the mechanism's size");
+    options.size = entry.has("step") ? entry.at("step").positive_number() : 1e-4 * duration;
+    if (entry.has("largest_step")) options.largest = entry.at("largest_step").positive_number();
+    if (options.size > options.largest)
+      entry.at("step").fail(
+          fmt::format("{:.6g} s is longer than the largest step, {:.6g} s", options.size, options.largest));
+  } else {
+    options.size = entry.at("step").positive_number();
+    if (entry.has("largest_step")) entry.at("largest_step").fail("is for adaptive steps: give a `tolerance` as well");
+  }
+  if (options.size > duration)
+    entry.at("step").fail(fmt::format("{:.6g} s is longer than the duration, {:.6g} s", options.size, duration));
+  return options;
+}
+
+/// Gap in the balance of energy, relative to the largest energy, from which results are not to be trusted unseen.
+constexpr double doubtful = 0.05;
+
+/// Newton's method knows positions to some 1e-9 of the model's size; energies below the work of the largest forces
+/// along that mean nothing [J].
+double energy_noise(const Session& session) {
+  constexpr double positions = 1e-9;
+  VectorX r(session.system().size());
+  ResidualScale scale;
+  session.system().residual(session.state(), session.environment(), r, &scale);
+  return positions * (scale[Kind::translation] * model_length(session.state()) + scale[Kind::rotation]);
+}
+
+/// How hard the steps were, and what was refused or cut short.
+std::string format_march(const MarchLog& log, const System& system) {
+  std::string text;
+  if (log.most_iterations > 0)
+    text += fmt::format(
+        "  {} factorisations; at most {} iterations, at t = {:.6g} s{}\n", log.factorisations, log.most_iterations,
+        log.most_iterations_at,
+        log.slowest_equation < 0 ? "" : " (worst residual: " + system.equation_name(log.slowest_equation) + ")");
+  if (log.shortened > 0) text += fmt::format("  {} iterations were shortened by the line search\n", log.shortened);
+  if (log.steps > 0 && log.largest > log.smallest * (1 + 1e-6))
+    text += fmt::format("  steps from {:.3g} to {:.3g} s\n", log.smallest, log.largest);
+  if (log.refused_by_error > 0) text += fmt::format("  {} steps refused for their local error\n", log.refused_by_error);
+  if (log.refused_by_newton > 0)
+    text += fmt::format("  {} steps refused because they could not be solved; the last: {}\n", log.refused_by_newton,
+                        log.hardest);
+  return text;
+}
+
+std::string format_energy(const Session& session, const Motion& motion) {
+  std::string text;
+  const Energy& energy = motion.energy();
+  const double balance = motion.balance(), largest = motion.books().largest();
+  if (largest > 0)
+    text += fmt::format(
+        "  energy at the end [J]: kinetic {:.6g}, elastic {:.6g}, gravity {:.6g}; input {:.6g}, dissipated {:.6g}\n"
+        "  balance {:.3g} J, {:.2g} of the largest energy (negative: numerical dissipation)\n",
+        energy.kinetic, energy.elastic, energy.gravity, energy.input, energy.dissipation, balance, balance / largest);
+  if (largest > energy_noise(session) && std::abs(balance) > doubtful * largest)
+    text += "  DOUBTFUL: so large a gap in the balance means steps too long for the motion, or a motion that jumps\n";
+  return text;
+}
+
+}  // namespace
+
+std::unique_ptr<Analysis> read_dynamic(const YamlValue& entry, const Model&) {
+  entry.check_keys({"type", "duration", "step", "tolerance", "largest_step", "scheme", "rho", "alpha", "constraints",
+                    "start", "newton"},
+                   "the analysis 'dynamic'");
+  DynamicsOptions options;
+  options.duration = entry.at("duration").positive_number();
+  options.stepping = read_stepping(entry, options.duration);
+  std::string scheme;
+  options.scheme = read_scheme(entry, scheme);
+  options.newton = read_newton(entry, true);
+  options.equilibrium =
+      entry.has("start") && entry.at("start").word({"as_given", "equilibrium"}, "a start") == "equilibrium";
+  if (entry.has("constraints")) {
+    const std::string form =
+        entry.at("constraints").word({"corrected", "position", "stabilized"}, "a form of constraints");
+    if (form == "position") {
+      options.form = ConstraintForm::position;
+      scheme += ", constraints of positions alone";
+    } else if (form == "stabilized") {
+      options.form = ConstraintForm::stabilised;
+      scheme += ", stabilised constraints";
+    }
+  }
+  return std::make_unique<DynamicAnalysis>(std::move(options), std::move(scheme));
+}
+
+std::size_t DynamicAnalysis::expected_rows(const Recording& recording) const {
+  if (!recording.times.empty()) return recording.times.size() + 1;
+  if (options_.stepping.tolerance > 0) return 0;
+  return static_cast<std::size_t>(options_.grid_steps() / recording.every) + 2;  // and the first, and the last
+}
+
+void DynamicAnalysis::solve(Session& session, AnalysisSummary& summary) const {
+  Motion motion = session.dynamics(options_);
+  finish(session, motion, fmt::format("dynamic, {}\n", scheme_), summary);
+}
+
+void DynamicAnalysis::solve_rest(Session& session, const std::vector<double>& checkpoint, ResultSink& sink,
+                                 AnalysisSummary& summary) const {
+  Motion motion = session.dynamics(options_, checkpoint, sink);
+  finish(session, motion, fmt::format("dynamic, {}, continued from t = {:.6g} s\n", scheme_, motion.time()), summary);
+}
+
+void DynamicAnalysis::finish(Session& session, Motion& motion, const std::string& heading,
+                             AnalysisSummary& summary) const {
+  motion.finish();
+  const MarchLog& log = motion.log();
+  summary.records = session.rows();
+  summary.numbers["end_time"] = {motion.time()};
+  summary.numbers["steps"] = {static_cast<double>(log.steps)};
+  summary.numbers["balance"] = {motion.balance()};
+  summary.text = heading + format_start(motion.start()) + format_redundant(session.redundant());
+  if (log.steps > 0)
+    summary.text += format_steps(log.steps, log.iterations, summary.records, motion.time()) +
+                    format_march(log, session.system()) + format_energy(session, motion);
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,85 @@
+#include "mechanism/analyses/static.hpp"
+
+#include <fmt/format.h>
+
+#include "mechanism/analyses/analysis_table.hpp"
+#include "mechanism/analyses/newton_reader.hpp"
+#include "mechanism/analyses/summary_text.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+/// `until: {load_factor: s}` or `{node: tip, displacement: d, direction: x}`.
+PathEnd read_path_end(const YamlValue& entry, const Model& model) {
+  entry.check_keys({"load_factor", "node", "displacement", "direction"}, "`until`");
+  PathEnd end;
+  const bool by_node = entry.has("node") || entry.has("displacement") || entry.has("direction");
+  if (entry.has("load_factor") == by_node)
+    entry.fail("a path ends either at a `load_factor` or at the `displacement` of a `node`: give one of the two");
+  if (!by_node) {
+    end.load_factor = entry.at("load_factor").number();
+    return end;
+  }
+  end.node = model.node_named_by(entry.at("node"));
+  end.displacement = entry.at("displacement").number();
+  if (const auto direction = entry.find("direction")) {
+    const std::string axis =
+        direction->is_sequence() ? "" : direction->word({"x", "y", "z"}, "a direction (x, y, z or a vector)");
+    end.direction = axis.empty() ? Vector3(direction->direction()) : Vector3::Unit(axis[0] - 'x');
+  } else if (end.displacement <= 0) {
+    entry.at("displacement")
+        .fail("expected a positive number: without `direction` it is the distance from where the node is drawn [m]");
+  }
+  bool held = true;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (model.node(end.node).freedom[k] != Freedom::fixed &&
+        (end.direction.isZero(0) || end.direction[static_cast<Eigen::Index>(k)] != 0))
+      held = false;
+  if (held) entry.at("node").fail("this node is fixed: it has no such displacement");
+  return end;
+}
+
+/// `arc_length: {until: {..}, points: 1000}`.
+PathOptions read_path(const YamlValue& entry, int steps, const Model& model) {
+  entry.check_keys({"until", "points"}, "`arc_length`");
+  PathOptions path;
+  path.end = read_path_end(entry.at("until"), model);
+  path.steps = steps;
+  if (entry.has("points")) path.most_points = entry.at("points").integer();
+  if (path.most_points < 1) entry.at("points").fail("expected at least 1");
+  return path;
+}
+
+}  // namespace
+
+std::unique_ptr<Analysis> read_static(const YamlValue& entry, const Model& model) {
+  entry.check_keys({"type", "steps", "arc_length", "newton"}, "the analysis 'static'");
+  StaticsOptions options;
+  const auto path = entry.find("arc_length");
+  if (path) options.steps = 0;
+  if (const auto steps = entry.find("steps")) {
+    const bool automatic = steps->is_scalar() && steps->text() == "auto";
+    options.steps = automatic ? 0 : steps->integer();
+    if (!automatic && options.steps < 1) steps->fail("expected at least one load step, or auto");
+  }
+  if (path) options.path = read_path(*path, options.steps, model);
+  options.newton = read_newton(entry, false);
+  return std::make_unique<StaticAnalysis>(std::move(options));
+}
+
+void StaticAnalysis::solve(Session& session, AnalysisSummary& summary) const {
+  const StaticsReport report = session.statics(options_);
+  summary.records = session.rows();
+  summary.numbers["load_factor"] = {report.load_factor};
+  summary.numbers["limit_points"] = report.limit_points;
+  summary.text = options_.path ? fmt::format("static, arc length, {} points to load factor {:.6g}\n", report.points,
+                                             report.load_factor)
+                               : fmt::format("static, {} load step{}\n", report.points, report.points == 1 ? "" : "s");
+  summary.text += format_redundant(session.redundant());
+  if (report.points == 0) return;
+  summary.text += format_steps(report.points, report.iterations, summary.records, session.time());
+  for (const double factor : report.limit_points)
+    summary.text += fmt::format("  limit point at load factor {:.9g}\n", factor);
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,41 @@
+// Keeps results in memory: for programs that have no use for a file.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "mechanism/session/result_sink.hpp"
+#include "mechanism/session/results_rows.hpp"
+
+namespace bielle::mechanism {
+
+class MemorySink : public ResultSink {
+ public:
+  /// What one analysis recorded.
+  struct Recorded {
+    std::string type;
+    std::vector<double> time;
+    std::vector<double> values;  ///< row after row
+    std::map<std::string, ResultArray> arrays;
+  };
+  explicit MemorySink(const Model& model) : rows_(model) {}  ///< which must outlive this object
+
+  const std::vector<Recorded>& analyses() const { return analyses_; }
+  /// A dataset of an analysis, row after row, as it stands in a results file; "time" too.
+  /// @param analysis  from 0. @throws InputError when there is none of that name
+  std::vector<double> read(std::size_t analysis, const std::string& dataset) const;
+  const std::vector<ResultsColumn>& columns() const { return rows_.columns(); }
+
+  void begin_analysis(const std::string& type, std::size_t expected_rows) override;
+  void record(const State& state, const std::vector<Slots>& slots, const Environment& environment,
+              const StepRecord& step) override;
+  void write(const ResultArray& array) override;
+  void end_analysis() override {}
+
+ private:
+  ResultsRows rows_;
+  std::vector<Recorded> analyses_;
+};
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,252 @@
+#include "mechanism/session/motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "mechanism/session/session.hpp"
+#include "mechanism/solvers/statics.hpp"
+#include "reduce/common/error.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+/// The asked steps with the kinks of the model; fixed ones a whole number of them.
+StepOptions stepping_of(const DynamicsOptions& options, const System& system, double begin, Notes* notes) {
+  StepOptions stepping = options.stepping;
+  for (const double time : system.break_points())
+    if (time >= begin && time < begin + options.duration) stepping.break_points.push_back(time);
+  if (stepping.tolerance > 0) return stepping;
+  const long steps = options.grid_steps();
+  stepping.size = options.duration / static_cast<double>(steps);
+  if (notes && std::abs(stepping.size - options.stepping.size) > 1e-9 * stepping.size)
+    notes->note(fmt::format("step {:.6g} s in place of {:.6g} s, so that {} steps fill the duration", stepping.size,
+                            options.stepping.size, steps));
+  if (static_cast<long>(stepping.break_points.size()) > steps) {
+    if (notes)
+      notes->note(fmt::format("{} kinks of loads and motions in {} steps: steps do not end on them",
+                              stepping.break_points.size(), steps));
+    stepping.break_points.clear();
+  }
+  return stepping;
+}
+
+}  // namespace
+
+long DynamicsOptions::grid_steps() const {
+  return std::max(1L, std::lround(std::ceil(duration / stepping.size * (1 - 1e-12))));
+}
+
+Motion::Motion(Session& session, const DynamicsOptions& options) : session_(&session), options_(options) {
+  if (!(options.duration > 0) || !(options.stepping.size > 0))
+    throw InputError("a motion needs a duration and a step greater than 0");
+  session.at_rest();
+  session.stopping_ = false;
+  const System& system = session.system_;
+  const Environment& environment = session.environment_;
+  State state = session.state_;
+  // All of the loads and of the prescribed motions act, wherever statics have stopped.
+  if (state.motion_factor != 1) {
+    state.motion_factor = 1;
+    system.displace(state, State(state), VectorX::Zero(system.dofs()));
+  }
+  if (options.equilibrium) settle(system, environment, options.newton, state, start_);
+  parts_.begin = state.time;
+  end_ = parts_.begin + options.duration;
+  const StepOptions stepping = stepping_of(options, system, parts_.begin, session.notes_);
+  parts_.integration = std::make_unique<TimeIntegration>(system, environment, options.scheme, std::move(state),
+                                                         options.form, options.newton);
+  start_.add(parts_.integration->start_report());
+  parts_.books.start(parts_.begin, system.energy(this->state(), environment));
+  make_march(parts_, stepping);
+  StepRecord row;
+  row.energy = energy();
+  row.balance = balance();
+  row.step = stepping.size;
+  session.record(this->state(), environment, row);
+  session.report_ = row;
+  show();  // last: a motion that could not be made is not to be seen
+}
+
+Motion::Motion(Session& session, const DynamicsOptions& options, Archive& archive, ResultSink* sink,
+               const std::optional<StepRecord>& report)
+    : session_(&session), options_(options) {
+  bool whole = true;
+  try {
+    parts_ = read(archive, sink);
+  } catch (const std::out_of_range&) {
+    whole = false;
+  }
+  if (!whole || !archive.exhausted())
+    throw InputError(
+        "the last checkpoint holds other numbers than this program goes on from: it was written by another version, "
+        "or is damaged");
+  session.at_rest();
+  session.stopping_ = false;
+  end_ = parts_.begin + options.duration;
+  saved_ = true;
+  show();
+  if (report) {
+    session.report_ = report;
+  } else {
+    session.report_.emplace();
+    session.report_->energy = energy();
+    session.report_->balance = balance();
+  }
+}
+
+Motion::~Motion() {
+  if (session_) session_->at_rest();
+}
+
+void Motion::show() {
+  session_->motion_ = this;
+  session_->shown_ = &state();
+  session_->loaded_ = {1, 1};
+  session_->acting_ = session_->environment_;
+}
+
+Session& Motion::alive() const {
+  if (!session_) throw std::logic_error("this motion has ended: its session was asked for something else");
+  return *session_;
+}
+
+void Motion::make_march(Parts& parts, StepOptions stepping) const {
+  parts.march =
+      std::make_unique<March>(*parts.integration, parts.begin, parts.begin + options_.duration, std::move(stepping));
+  parts.march->on_jump([books = &parts_.books](const Jump& jump) { books->jump(jump.before, jump.after, jump.work); });
+  if (!session_->on_attempt_.empty())
+    parts.march->observe([session = session_](const Attempt& attempt) {
+      for (const auto& callback : session->on_attempt_) callback(attempt);
+    });
+}
+
+// -- saving
+
+void Motion::exchange_books(Archive& archive, Parts& parts, ResultSink* sink) {
+  archive(parts.begin);
+  archive(parts.grid_steps);
+  parts.books.exchange(archive);
+  if (sink) sink->exchange(archive);
+}
+
+void Motion::write(Archive& archive, ResultSink* sink) {
+  exchange_books(archive, parts_, sink);
+  parts_.integration->exchange(archive);
+  parts_.march->exchange(archive);
+}
+
+Motion::Parts Motion::read(Archive& archive, ResultSink* sink) const {
+  Parts parts;
+  exchange_books(archive, parts, sink);
+  StepOptions stepping = stepping_of(options_, session_->system_, parts.begin, session_->notes_);
+  parts.integration = std::make_unique<TimeIntegration>(session_->system_, session_->environment_, options_.scheme,
+                                                        archive, options_.form, options_.newton);
+  make_march(parts, std::move(stepping));
+  parts.march->exchange(archive);
+  return parts;
+}
+
+/// Also where nobody listens: what follows does not depend on who does.
+void Motion::save_for_sinks() {
+  if (saved_) return;
+  const auto save = [&](ResultSink* sink) {
+    Archive archive;
+    write(archive, sink);
+    if (sink) sink->checkpoint(archive);
+  };
+  if (session_->open_ && !session_->sinks_.empty())
+    for (ResultSink* sink : session_->sinks_) save(sink);
+  else
+    save(nullptr);
+  saved_ = true;
+}
+
+// -- moving
+
+StepRecord Motion::row(const MarchStep& step, const EnergyBalance& books) const {
+  StepRecord row;
+  row.energy = books.totals();
+  row.balance = books.balance();
+  row.step = step.report.size;
+  row.newton_iterations = step.report.iterations;
+  row.error_estimate = step.error;
+  row.worst_residual = step.report.worst_ratio;
+  row.worst_equation = step.report.worst_equation;
+  return row;
+}
+
+void Motion::record_step(const MarchStep& step, double before, const EnergyBalance& books_before) {
+  const Recording& recording = session_->recording_;
+  const Environment& environment = session_->environment_;
+  const State& now = state();
+  last_recorded_ = false;
+  if (!recording.times.empty()) {
+    for (auto time = std::upper_bound(recording.times.begin(), recording.times.end(), before);
+         time != recording.times.end() && *time <= now.time; ++time) {
+      const State state = *time == now.time ? now : interpolated(*time);
+      EnergyBalance books = books_before;
+      books.advance(*time, session_->system_.energy(state, environment));
+      session_->record(state, environment, row(step, books));
+    }
+  } else if ((step.on_grid && parts_.grid_steps % recording.every == 0) || done()) {
+    session_->record(now, environment, *session_->report_);
+    last_recorded_ = true;
+  }
+}
+
+bool Motion::step() {
+  Session& session = alive();
+  if (done()) return false;
+  const double before = time();
+  const EnergyBalance books_before = parts_.books;
+  const MarchStep step = parts_.march->advance();
+  saved_ = false;
+  if (!cautioned_)
+    if (const std::string caution = parts_.integration->caution(); !caution.empty()) {
+      session.note(caution);
+      cautioned_ = true;
+    }
+  parts_.books.advance(time(), session.system_.energy(state(), session.environment_));
+  if (step.on_grid) ++parts_.grid_steps;
+  session.report_ = row(step, parts_.books);
+  record_step(step, before, books_before);
+  if (const int every = session.recording_.checkpoint; every > 0 && step.on_grid && parts_.grid_steps % every == 0)
+    save_for_sinks();
+  if (session.notes_)
+    session.notes_->progress((time() - begin()) / (end() - begin()), fmt::format("t = {:.4g} s", time()));
+  session.call_back();
+  return true;
+}
+
+bool Motion::advance_to(double until) {
+  Session& session = alive();
+  session.stopping_ = false;
+  const double rounding = 1e-9 * options_.stepping.size;
+  while (time() < until - rounding) {
+    if (!step() || session.stopping_) break;
+    alive();  // a callback may have asked the session for something else
+  }
+  return time() >= until - rounding;
+}
+
+bool Motion::finish() {
+  Session& session = alive();
+  session.stopping_ = false;
+  try {
+    while (!session.stopping_ && step()) alive();
+  } catch (...) {
+    if (session_) save_for_sinks();
+    throw;
+  }
+  if (session.stopping_ && !last_recorded_ && session.recording_.times.empty()) {
+    session.record(state(), session.environment_, *session.report_);
+    last_recorded_ = true;
+  }
+  save_for_sinks();
+  return done();
+}
+
+}  // namespace bielle::mechanism

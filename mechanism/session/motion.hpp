@@ -1,0 +1,97 @@
+// A motion under way: made by Session::dynamics, moved on step by step.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "mechanism/session/energy_balance.hpp"
+#include "mechanism/session/step_record.hpp"
+#include "mechanism/solvers/march.hpp"
+
+namespace bielle::mechanism {
+
+class ResultSink;
+class Session;
+
+struct DynamicsOptions {
+  double duration = 0;   ///< [s] > 0
+  StepOptions stepping;  ///< without break points: those of the model are found
+  Scheme scheme = Scheme::generalized_alpha(0.8);
+  ConstraintForm form = ConstraintForm::corrected;
+  NewtonOptions newton;
+  bool equilibrium = false;  ///< positions of static equilibrium first
+
+  /// Fixed steps that fill the duration, of at most the asked size.
+  long grid_steps() const;
+};
+
+/// The session shows the state of its motion as long as that lives, and keeps the last one. A motion ends when the
+/// session is asked for something else: its state can be read then, but it moves no more (std::logic_error).
+class Motion {
+ public:
+  ~Motion();
+  Motion(const Motion&) = delete;
+  Motion& operator=(const Motion&) = delete;
+
+  /// Takes a step, with the rows and checkpoints that the session's recording asks for, and calls back. With fixed
+  /// steps smaller ones than asked for may stand between two times of the grid. @returns false when none is left
+  /// @throws ComputationError as March::advance; the motion then stands where it was before the step
+  bool step();
+  /// Steps until the time is reached: exactly where it is on the grid of steps, otherwise beyond it by less than a
+  /// step (`interpolated` tells the state in between). @returns false when a callback stopped it, or the end came first
+  bool advance_to(double time);
+  /// Steps to the end. What ends it early, a stop or an exception, leaves a checkpoint with the sinks, a stop its last
+  /// row as well. @returns false when it was stopped
+  bool finish();
+  bool done() const { return parts_.march->done(); }
+  double begin() const { return parts_.begin; }  ///< [s]
+  double end() const { return end_; }            ///< [s]
+  double time() const { return state().time; }   ///< [s]
+
+  const State& state() const { return parts_.integration->state(); }
+  /// @param time  within the last step [s]
+  State interpolated(double time) const { return parts_.integration->interpolated(time); }
+  /// Stored energies now, input and dissipation since the start [J].
+  const Energy& energy() const { return parts_.books.totals(); }
+  double balance() const { return parts_.books.balance(); }  ///< what is missing [J]
+  const EnergyBalance& books() const { return parts_.books; }
+  /// What the consistent start changed. Nothing, where a saved motion went on.
+  const StartReport& start() const { return start_; }
+  const MarchLog& log() const { return parts_.march->log(); }  ///< what steps cost, and why some were refused
+
+ private:
+  friend class Session;
+  struct Parts {
+    double begin = 0;
+    std::unique_ptr<TimeIntegration> integration;
+    std::unique_ptr<March> march;
+    EnergyBalance books;
+    long grid_steps = 0;  ///< done
+  };
+  Motion(Session& session, const DynamicsOptions& options);
+  /// Goes on. @param sink    whose part stands among the numbers; nullptr: there is none
+  ///          @param report  of the last step, where it is known
+  Motion(Session& session, const DynamicsOptions& options, Archive& archive, ResultSink* sink,
+         const std::optional<StepRecord>& report = {});
+  void show();  ///< to those who read the session
+  Parts read(Archive& archive, ResultSink* sink) const;
+  void write(Archive& archive, ResultSink* sink);
+  static void exchange_books(Archive& archive, Parts& parts, ResultSink* sink);
+  void make_march(Parts& parts, StepOptions stepping) const;
+  StepRecord row(const MarchStep& step, const EnergyBalance& books) const;
+  void record_step(const MarchStep& step, double before, const EnergyBalance& books_before);
+  void save_for_sinks();
+  Session& alive() const;
+
+  Session* session_;  ///< nullptr: ended
+  DynamicsOptions options_;
+  double end_ = 0;
+  Parts parts_;
+  StartReport start_;
+  bool saved_ = false;         ///< nothing has happened since the last checkpoint
+  bool last_recorded_ = true;  ///< the state is in a row
+  bool cautioned_ = false;     ///< of joints that turn far in a step
+};
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,46 @@
+// Where results go: a file, memory, a plot. A session tells each of its sinks the same.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "mechanism/session/step_record.hpp"
+#include "mechanism/system/archive.hpp"
+#include "mechanism/system/state.hpp"
+
+namespace bielle::mechanism {
+
+/// A result that is no row over time: frequencies, modes, matrices.
+struct ResultArray {
+  std::string dataset;             ///< relative to the analysis's group: "eigen/frequency"
+  std::vector<std::size_t> shape;  ///< {} for a number
+  std::vector<double> values;      ///< the last index runs fastest
+  std::string units, description;
+};
+
+class ResultSink {
+ public:
+  ResultSink() = default;
+  virtual ~ResultSink() = default;
+  ResultSink(const ResultSink&) = delete;
+  ResultSink& operator=(const ResultSink&) = delete;
+
+  /// @param type           as in the input file: "dynamic"
+  /// @param expected_rows  how many rows will follow, 0 when unknown
+  virtual void begin_analysis(const std::string& type, std::size_t expected_rows) = 0;
+  /// A row. Its numbers are those that ResultsRows makes of the state.
+  /// @param slots  of the model's members, in their order; they outlive the analysis
+  virtual void record(const State& state, const std::vector<Slots>& slots, const Environment& environment,
+                      const StepRecord& step) = 0;
+  virtual void write(const ResultArray& array) = 0;
+  virtual void end_analysis() = 0;
+  virtual void complete() {}  ///< all that was to be done is done
+
+  /// A point to go on from. @param archive  with all of it but what belongs to the sink itself
+  virtual void checkpoint(Archive& /*archive*/) {}
+  /// What rows to come take from those before: the sink's part of a point to go on from.
+  virtual void exchange(Archive& /*archive*/) {}
+};
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,116 @@
+// What a session saves: counts that tell of which model, how that is loaded, the last step's report, and the state or
+// the motion under way.
+#include <stdexcept>
+
+#include "mechanism/session/session.hpp"
+#include "reduce/common/error.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+[[noreturn]] void refuse() {
+  throw InputError("what is to be restored was not saved by a session of this model in this version");
+}
+
+void exchange_report(Archive& archive, std::optional<StepRecord>& report) {
+  bool there = report.has_value();
+  archive(there);
+  if (!there) return;
+  if (!report) report.emplace();
+  Energy& energy = report->energy;
+  for (double* value : {&energy.kinetic, &energy.elastic, &energy.gravity, &energy.dissipation, &energy.input,
+                        &report->balance, &report->step, &report->error_estimate, &report->worst_residual})
+    archive(*value);
+  archive(report->newton_iterations);
+  archive(report->worst_equation);
+  bool timed = report->time.has_value();
+  archive(timed);
+  if (timed) archive(report->time ? *report->time : report->time.emplace());
+}
+
+/// Restores from numbers that may be others than expected.
+template <class Read>
+auto restored(Archive& archive, Read&& read) {
+  bool whole = true;
+  try {
+    auto result = read();
+    whole = archive.exhausted();
+    if (whole) return result;
+  } catch (const std::out_of_range&) {
+    whole = false;
+  }
+  refuse();
+}
+
+}  // namespace
+
+struct Session::Saved {
+  Loaded loaded;
+  Environment acting;
+  std::optional<StepRecord> report;
+  bool moving = false;
+  State state;  ///< at rest
+};
+
+void Session::exchange(Archive& archive, Saved& saved) const {
+  for (const std::size_t count :
+       {model_.nodes().size(), model_.members().size(), static_cast<std::size_t>(system_.dofs()),
+        static_cast<std::size_t>(system_.size()), static_cast<std::size_t>(state_.memory.size())}) {
+    auto number = static_cast<double>(count);
+    archive(number);
+    if (number != static_cast<double>(count)) refuse();
+  }
+  archive(saved.loaded.factor);
+  archive(saved.loaded.motions);
+  archive(saved.acting.gravity);
+  archive(saved.acting.load_factor);
+  exchange_report(archive, saved.report);
+  archive(saved.moving);
+  if (saved.moving) return;
+  archive(saved.state);
+  archive(saved.state.motion_factor);
+}
+
+std::vector<double> Session::save() {
+  Archive archive;
+  Saved saved{loaded_, acting_, report_, motion_ != nullptr, *shown_};
+  exchange(archive, saved);
+  if (motion_) motion_->write(archive, nullptr);
+  return archive.values();
+}
+
+void Session::restore(const std::vector<double>& values) {
+  Archive archive(values);
+  Saved saved{loaded_, environment_, {}, false, state_};
+  Motion::Parts parts = restored(archive, [&] {
+    exchange(archive, saved);
+    if (saved.moving && !motion_)
+      throw InputError("what is to be restored is in motion, and no motion is under way: start it from what was saved");
+    return saved.moving ? motion_->read(archive, nullptr) : Motion::Parts();
+  });
+  if (saved.moving) {
+    motion_->parts_ = std::move(parts);
+    motion_->saved_ = motion_->last_recorded_ = false;
+    motion_->show();
+  } else {
+    at_rest();
+    state_ = std::move(saved.state);
+  }
+  loaded_ = saved.loaded;
+  acting_ = saved.acting;
+  report_ = saved.report;
+}
+
+Motion Session::dynamics(const DynamicsOptions& options, const std::vector<double>& values) {
+  Archive archive(values);
+  Saved saved{loaded_, environment_, {}, false, state_};
+  try {
+    exchange(archive, saved);
+  } catch (const std::out_of_range&) {
+    refuse();
+  }
+  if (!saved.moving) throw InputError("what was saved is not in motion: restore it, and start a motion");
+  return Motion(*this, options, archive, nullptr, saved.report);
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,218 @@
+#include "mechanism/session/session.hpp"
+
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "mechanism/solvers/redundancy.hpp"
+#include "mechanism/solvers/statics.hpp"
+#include "reduce/common/error.hpp"
+
+namespace bielle::mechanism {
+
+Session::Session(std::unique_ptr<const Model> owned, const Model* model)
+    : owned_(std::move(owned)),
+      model_(owned_ ? *owned_ : *model),
+      system_(model_),
+      environment_(model_.environment),
+      acting_(environment_),
+      state_(system_.start(0)),
+      shown_(&state_) {
+  std::vector<int> redundant;
+  if (system_.switches()) {  // which constraints are redundant changes with those that are switched
+    system_.begin_branch(state_, environment_);
+    set_redundant_aside(system_, environment_, state_);
+    system_.for_each_redundant(state_, [&](int multiplier) { redundant.push_back(multiplier); });
+  } else {
+    redundant = find_redundant(system_, environment_, state_);
+    system_.set_aside(redundant);
+  }
+  redundant_ = name_constraints(system_, redundant);
+}
+
+Session::Session(Model&& model) : Session(std::make_unique<const Model>(std::move(model)), nullptr) {}
+
+Session::Session(const Model& model) : Session(nullptr, &model) {}
+
+Session::~Session() { at_rest(); }
+
+void Session::at_rest() {
+  if (!motion_) return;
+  state_ = motion_->state();
+  shown_ = &state_;
+  motion_->session_ = nullptr;
+  motion_ = nullptr;
+}
+
+void Session::set_state(State state) {
+  at_rest();
+  state_ = std::move(state);
+  report_.reset();
+}
+
+// -- computing
+
+StartReport Session::assemble() {
+  at_rest();
+  stopping_ = false;
+  acting_ = environment_;
+  StartReport report;
+  assemble_positions(system_, environment_, state_, report);
+  MassSaddle saddle(system_);
+  make_velocities_consistent(system_, environment_, state_, report, saddle);
+  system_.accept(state_, environment_);
+  loaded_.motions = 1;
+  EnergyBalance books;
+  books.start(state_.time, system_.energy(state_, environment_));
+  report_.emplace();
+  report_->energy = books.totals();
+  report_->balance = books.balance();
+  record(state_, environment_, *report_);
+  return report;
+}
+
+void Session::statics_point(const State& state, double factor, int iterations) {
+  shown_ = &state;
+  acting_ = environment_;
+  acting_.load_factor = factor;
+  acting_.gravity *= factor;
+  report_.emplace();
+  report_->energy = system_.energy(state, acting_);
+  report_->energy.input = report_->energy.dissipation = 0;  // no rates in statics: there is no power to integrate
+  report_->newton_iterations = iterations;
+  report_->time = factor;
+  record(state, acting_, *report_);
+}
+
+StaticsReport Session::statics(const StaticsOptions& options) {
+  at_rest();
+  stopping_ = false;
+  StaticsReport report;
+  VectorX v(system_.dofs()), unused(system_.dofs());
+  system_.get_rates(state_, v, unused);
+  if (!v.isZero(0))
+    note(
+        "a static analysis is at rest, and so is what comes behind it: the velocities are dropped (a dynamic "
+        "analysis with `start: equilibrium` keeps them)");
+  Environment statics = environment_;
+  statics.statics = true;
+  const Loaded begin = loaded_;
+  const LoadRamp ramp(system_, statics, begin);
+  const auto point = [&](const State& state, double factor, int iterations, double done) {
+    loaded_ = {factor, ramp.motion(factor)};
+    statics_point(state, factor, iterations);
+    ++report.points;
+    report.iterations += iterations;
+    report.load_factor = factor;
+    if (notes_) notes_->progress(done, fmt::format("load factor {:.4g}", factor));
+    call_back();
+    if (stopping_) throw Stopped();
+  };
+  try {
+    if (options.path) {
+      loaded_ = follow_path(system_, statics, begin, *options.path, options.newton, state_,
+                            [&](const State& state, const PathPoint& at) {
+                              if (at.limit) report.limit_points.push_back(at.load_factor);
+                              point(state, at.load_factor, at.iterations, at.done);
+                            });
+    } else {
+      solve_statics(system_, statics, LoadSteps(options.steps, begin), options.newton, state_,
+                    [&](const State& state, double factor, int iterations) {
+                      point(state, factor, iterations,
+                            begin.factor == 1 ? 1 : (factor - begin.factor) / (1 - begin.factor));
+                    });
+      loaded_ = {1, 1};
+    }
+  } catch (const Stopped&) {
+    if (shown_ != &state_) state_ = *shown_;
+  } catch (...) {
+    shown_ = &state_;
+    throw;
+  }
+  shown_ = &state_;
+  return report;
+}
+
+Motion Session::dynamics(const DynamicsOptions& options) { return Motion(*this, options); }
+
+Motion Session::dynamics(const DynamicsOptions& options, const std::vector<double>& checkpoint, ResultSink& sink) {
+  Archive archive(checkpoint);
+  return Motion(*this, options, archive, &sink);
+}
+
+// -- reading
+
+StepRecord Session::report() const {
+  if (report_) return *report_;
+  StepRecord start;
+  start.energy = system_.energy(*shown_, acting_);
+  start.energy.input = start.energy.dissipation = 0;
+  return start;
+}
+
+const NodeState& Session::node(const std::string& name) const {
+  if (const auto index = model_.find_node(name)) return shown_->nodes[static_cast<std::size_t>(*index)];
+  std::vector<std::string> names;
+  for (const Node& node : model_.nodes())
+    if (!node.internal) names.push_back(node.name);
+  throw InputError(fmt::format("there is no node '{}'{}", name, did_you_mean(name, names)));
+}
+
+const std::vector<ResultsColumn>& Session::datasets() const {
+  if (!readable_) readable_ = std::make_unique<ResultsRows>(model_, ResultsRows::Extent::all);
+  return readable_->columns();
+}
+
+std::vector<double> Session::read(const std::string& dataset) const {
+  if (dataset == "time") return {report().time.value_or(time())};
+  datasets();
+  const ResultsColumn* column = readable_->find(dataset);
+  if (!column) {
+    std::vector<std::string> names = {"time"};
+    for (const ResultsColumn& each : readable_->columns()) names.push_back(each.dataset);
+    throw InputError(fmt::format("there is no dataset '{}'{}", dataset, did_you_mean(dataset, names)));
+  }
+  return readable_->read(*column, *shown_, system_.slots(), acting_, report());
+}
+
+// -- calling back
+
+void Session::call_back() {
+  for (const auto& callback : on_step_) callback(*this);
+}
+
+void Session::note(const std::string& sentence) const {
+  if (notes_) notes_->note(sentence);
+}
+
+// -- recording
+
+void Session::set_recording(Recording recording) {
+  if (recording.every < 1) throw InputError("rows are recorded every 1, 2, ... steps");
+  recording_ = std::move(recording);
+}
+
+void Session::begin_analysis(const std::string& type, std::size_t expected_rows, const ResultSink* goes_on) {
+  open_ = true;
+  rows_ = 0;
+  for (ResultSink* sink : sinks_)
+    if (sink != goes_on) sink->begin_analysis(type, expected_rows);
+}
+
+void Session::record(const State& state, const Environment& environment, const StepRecord& step) {
+  if (!open_) return;
+  ++rows_;
+  for (ResultSink* sink : sinks_) sink->record(state, system_.slots(), environment, step);
+}
+
+void Session::write(const ResultArray& array) {
+  if (!open_) throw std::logic_error("a result outside of an analysis");
+  for (ResultSink* sink : sinks_) sink->write(array);
+}
+
+void Session::end_analysis() {
+  open_ = false;
+  for (ResultSink* sink : sinks_) sink->end_analysis();
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,145 @@
+// A model at work, for programs: assemble it, bring it into equilibrium, move it, read it, save it, without a file.
+//
+//     Session session(read_mechanism_text(text, "pendulum").model);
+//     session.assemble();
+//     DynamicsOptions options;
+//     options.duration = 2;
+//     options.stepping.size = 1e-3;
+//     Motion motion = session.dynamics(options);
+//     motion.advance_to(1);
+//     const double angle = session.read("joints/hinge/coordinate")[0];
+//
+// What is asked for one after the other starts where the last thing ended. Results go to any number of sinks while an
+// analysis is open (an Analysis opens one itself).
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mechanism/session/motion.hpp"
+#include "mechanism/session/notes.hpp"
+#include "mechanism/session/recording.hpp"
+#include "mechanism/session/result_sink.hpp"
+#include "mechanism/session/results_rows.hpp"
+#include "mechanism/session/statics_options.hpp"
+
+namespace bielle::mechanism {
+
+class Session {
+ public:
+  /// Numbers the model's unknowns; constraints that repeat others are found, and set aside.
+  /// @throws InputError, ComputationError
+  explicit Session(Model&& model);
+  explicit Session(const Model& model);  ///< which must outlive the session
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  const Model& model() const { return model_; }
+  const System& system() const { return system_; }
+  const std::vector<std::string>& redundant() const { return redundant_; }  ///< constraints set aside, by joint
+
+  // -- what acts
+  const Environment& environment() const { return environment_; }  ///< of the whole load
+  const Environment& acting() const { return acting_; }            ///< of the load factor that the state stands under
+  const Loaded& loaded() const { return loaded_; }                 ///< what of loads and motions has been made
+
+  // -- computing
+  /// Makes positions and velocities consistent. @throws ComputationError naming a constraint that cannot be satisfied
+  StartReport assemble();
+  /// Equilibrium under the whole load, or along a path. The state is at rest behind it.
+  /// @throws ComputationError when there is none near; the state is then the last equilibrium
+  StaticsReport statics(const StaticsOptions& options = {});
+  /// A motion from the state, made consistent. It must not outlive the session.
+  Motion dynamics(const DynamicsOptions& options);
+  /// Goes on with a motion as `save` left it: its numbers are those of a motion that was not interrupted. Steps may be
+  /// others than before. @throws InputError when the numbers are not those of a motion of this model
+  Motion dynamics(const DynamicsOptions& options, const std::vector<double>& saved);
+  /// The same from what a sink keeps (ResultSink::checkpoint). @param sink  whose part stands among the numbers
+  Motion dynamics(const DynamicsOptions& options, const std::vector<double>& checkpoint, ResultSink& sink);
+
+  // -- reading
+  const State& state() const { return *shown_; }  ///< of the motion, while one is under way
+  double time() const { return shown_->time; }    ///< [s]
+  void set_state(State state);                    ///< of this model's numbers; ends a motion
+  /// Position, axes, velocities and accelerations of a node. @throws InputError with the nearest name
+  const NodeState& node(const std::string& name) const;
+  /// A dataset of the results file at the state: "joints/main/coordinate", "nodes/tip/velocity", "energy/kinetic",
+  /// "time". What `only` leaves out of the rows can be read as well. Quaternions have w >= 0.
+  /// @throws InputError with the nearest name
+  std::vector<double> read(const std::string& dataset) const;
+  const std::vector<ResultsColumn>& datasets() const;  ///< that can be read: names, shapes, units
+  /// Stored energies now; input and dissipation since the start of the motion [J].
+  Energy energy() const { return report().energy; }
+  double balance() const { return report().balance; }  ///< of energy: what is missing [J]
+  StepRecord report() const;                           ///< of the last step
+
+  // -- calling back
+  /// Called after each step of a motion and each point of statics, behind its record; may ask to `stop`. What it throws
+  /// ends the step's run.
+  void on_step(std::function<void(Session&)> callback) { on_step_.push_back(std::move(callback)); }
+  /// Called with every step that is tried, accepted or not.
+  void on_attempt(std::function<void(const Attempt&)> callback) { on_attempt_.push_back(std::move(callback)); }
+  /// Ends what is under way behind the step in hand.
+  void stop() { stopping_ = true; }
+  bool stopping() const { return stopping_; }  ///< until something is asked for anew
+  /// @param notes  must outlive its use; nullptr: silence
+  void set_notes(Notes* notes) { notes_ = notes; }
+
+  // -- saving
+  /// All that the session goes on from. What sinks have recorded is theirs.
+  std::vector<double> save();
+  /// Goes back to what was saved, of this session or of another one of the same model. Where that was in motion, a
+  /// motion has to be under way here, with the same options to go on alike.
+  /// @throws InputError when the numbers are of another model, or no motion is under way; the state stays as it is
+  void restore(const std::vector<double>& saved);
+
+  // -- recording
+  void add_sink(ResultSink& sink) { sinks_.push_back(&sink); }  ///< which must outlive its use
+  void set_recording(Recording recording);
+  const Recording& recording() const { return recording_; }
+  /// What follows is recorded under this name, until the analysis ends or, where it failed, another begins.
+  /// @param goes_on  a sink that has the analysis open already
+  void begin_analysis(const std::string& type, std::size_t expected_rows = 0, const ResultSink* goes_on = nullptr);
+  void write(const ResultArray& array);  ///< a result that is no row
+  void end_analysis();
+  long rows() const { return rows_; }  ///< recorded in this analysis
+
+ private:
+  friend class Motion;
+  struct Stopped {};
+  explicit Session(std::unique_ptr<const Model> owned, const Model* model);
+  void at_rest();  ///< ends the motion, if any
+  void record(const State& state, const Environment& environment, const StepRecord& step);
+  void call_back();
+  void note(const std::string& sentence) const;
+  void statics_point(const State& state, double factor, int iterations);
+  struct Saved;
+  void exchange(Archive& archive, Saved& saved) const;
+
+  std::unique_ptr<const Model> owned_;
+  const Model& model_;
+  System system_;
+  Environment environment_, acting_;
+  State state_;         ///< while no motion is under way
+  const State* shown_;  ///< that, or the one in hand
+  Loaded loaded_;       ///< what has been brought about so far
+  Motion* motion_ = nullptr;
+  std::optional<StepRecord> report_;
+  std::vector<std::string> redundant_;
+  mutable std::unique_ptr<ResultsRows> readable_;  ///< made with the first reading
+
+  Recording recording_;
+  std::vector<ResultSink*> sinks_;
+  bool open_ = false;  ///< an analysis
+  long rows_ = 0;
+  std::vector<std::function<void(Session&)>> on_step_;
+  std::vector<std::function<void(const Attempt&)>> on_attempt_;
+  Notes* notes_ = nullptr;
+  bool stopping_ = false;
+};
+
+}  // namespace bielle::mechanism

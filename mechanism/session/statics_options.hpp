@@ -1,0 +1,24 @@
+// What a session is asked in statics, and what it answers.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "mechanism/solvers/arc_length.hpp"
+
+namespace bielle::mechanism {
+
+struct StaticsOptions {
+  int steps = 1;                    ///< equal increments of the load factor; 0: chosen by the program
+  std::optional<PathOptions> path;  ///< follows a path past limit points in place of load steps
+  NewtonOptions newton;
+};
+
+struct StaticsReport {
+  long points = 0;
+  long iterations = 0;               ///< linear solves
+  double load_factor = 0;            ///< at the end
+  std::vector<double> limit_points;  ///< load factors at the maxima and minima of a path
+};
+
+}  // namespace bielle::mechanism

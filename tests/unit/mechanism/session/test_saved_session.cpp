@@ -1,0 +1,108 @@
+// What is saved goes on to the last bit, in the same session and in another one.
+#include "swinging_arms.hpp"
+#include <catch2/catch.hpp>
+
+#include "tests/support/messages.hpp"
+
+using namespace bielle;
+using namespace bielle::mechanism;
+using bielle::test::all_numbers;
+using bielle::test::message_of;
+using bielle::test::swing;
+using bielle::test::swinging_arms;
+using Catch::Contains;
+
+TEST_CASE("a motion that is restored goes on as it did, to the last bit") {
+  // The push begins at 0.1234 s: once behind what is saved, once before it. Adaptive steps know their size and norm.
+  for (const double tolerance : {0.0, 1e-6})
+    for (const double time : {0.1, 0.15}) {
+      CAPTURE(tolerance, time);
+      Session session(swinging_arms().model);
+      Motion motion = session.dynamics(swing(0.4, tolerance));
+      motion.advance_to(time);
+      const std::vector<double> saved = session.save(), there = all_numbers(session);
+      motion.finish();
+      const std::vector<double> end = all_numbers(session);
+      CHECK(end != there);
+
+      session.restore(saved);
+      CHECK(all_numbers(session) == there);
+      motion.finish();
+      CHECK(all_numbers(session) == end);
+
+      Session other(swinging_arms().model);
+      Motion again = other.dynamics(swing(0.4, tolerance), saved);
+      CHECK(all_numbers(other) == there);
+      CHECK(again.energy().input == other.energy().input);
+      again.finish();
+      CHECK(all_numbers(other) == end);
+    }
+}
+
+TEST_CASE("a session at rest is restored with its load, and statics go on alike") {
+  const auto bent = [] {
+    return Session(read_mechanism_text(R"yaml(
+nodes: {a: {position: [0, 0, 0], fixed: true}, b: {position: [1, 0, 0]}}
+elements:
+  beam: {type: beam, nodes: [a, b], elements: 3, section: {circle: 0.01, young: 2.1e11, poisson: 0.3, density: 7800}}
+loads: {p: {node: b, force: [0, 0, 400]}}
+)yaml",
+                                       "beam.yaml")
+                       .model);
+  };
+  Session session = bent();
+  session.on_step([](Session& at) {
+    if (at.acting().load_factor == 0.5) at.stop();
+  });
+  StaticsOptions options;
+  options.steps = 4;
+  session.statics(options);
+  const std::vector<double> saved = session.save(), there = all_numbers(session);
+  session.statics(options);
+  const std::vector<double> end = all_numbers(session);
+  session.restore(saved);
+  CHECK(all_numbers(session) == there);
+  CHECK(session.loaded().factor == 0.5);
+  session.statics(options);
+  CHECK(all_numbers(session) == end);
+  Session other = bent();
+  other.restore(saved);
+  CHECK(all_numbers(other) == there);
+  other.statics(options);
+  CHECK(all_numbers(other) == end);
+}
+
+TEST_CASE("restoring what was at rest ends a motion") {
+  Session session(swinging_arms().model);
+  session.assemble();
+  const std::vector<double> saved = session.save(), there = all_numbers(session);
+  Motion motion = session.dynamics(swing(0.1));
+  motion.step();
+  session.restore(saved);
+  CHECK(all_numbers(session) == there);
+  CHECK_THROWS_AS(motion.step(), std::logic_error);
+}
+
+TEST_CASE("what does not belong to the session is refused, and changes nothing") {
+  Session session(swinging_arms().model);
+  Motion motion = session.dynamics(swing(0.1));
+  motion.advance_to(0.01);
+  const std::vector<double> moving = session.save(), before = all_numbers(session);
+  Session other(read_mechanism_text(R"yaml(
+nodes: {a: {}}
+elements: {a: {type: point_mass, node: a, mass: 1}}
+)yaml",
+                                    "stone.yaml")
+                    .model);
+  CHECK_THAT(message_of<InputError>([&] { session.restore(other.save()); }), Contains("not saved by a session"));
+  CHECK_THAT(message_of<InputError>([&] { session.restore({}); }), Contains("not saved by a session"));
+  std::vector<double> cut = moving;
+  cut.pop_back();
+  CHECK_THAT(message_of<InputError>([&] { session.restore(cut); }), Contains("not saved by a session"));
+  CHECK(all_numbers(session) == before);
+  CHECK(motion.step());
+  Session at_rest(swinging_arms().model);
+  CHECK_THAT(message_of<InputError>([&] { at_rest.restore(moving); }), Contains("is in motion"));
+  const std::vector<double> resting = at_rest.save();
+  CHECK_THAT(message_of<InputError>([&] { at_rest.dynamics(swing(0.1), resting); }), Contains("not in motion"));
+}
