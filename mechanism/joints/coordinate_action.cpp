@@ -12,6 +12,10 @@ void CoordinateAction::declare_references(Declaration& declaration) const {
   declaration.stiffness = true;
 }
 
+void CoordinateAction::add_reaction_norm(const LocalState& /*state*/, double arm, Eigen::Ref<MatrixX> H) const {
+  H.diagonal().array() += coordinate().kind == JointCoordinate::Kind::displacement ? 1 : 1 / (arm * arm);
+}
+
 CoordinateJet& CoordinateAction::calc(const LocalState& state) const {
   thread_local CoordinateJet jet;
   joint_.calc_coordinate(coordinate_, state.of(0), jet);

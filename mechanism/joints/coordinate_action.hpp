@@ -15,6 +15,9 @@ class CoordinateAction : public Component {
   const Joint& joint() const { return joint_; }
   const JointCoordinate& coordinate() const { return joint_.coordinates()[coordinate_]; }
 
+  /// Of a multiplier that is a force or torque along the coordinate.
+  void add_reaction_norm(const LocalState& state, double arm, Eigen::Ref<MatrixX> H) const override;
+
  protected:
   /// What it refers to: the joint first.
   References& references() { return references_; }

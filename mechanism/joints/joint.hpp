@@ -55,6 +55,7 @@ class Joint : public Component {
   void write_output(const LocalState& state, double* values) const override;
   std::vector<std::pair<std::string, std::string>> attributes() const override;
   void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
+  void add_reaction_norm(const LocalState& state, double arm, Eigen::Ref<MatrixX> H) const override;
   /// "<coordinate>", "<coordinate>.rate", "reaction.x" (y z rx ry rz).
   std::vector<std::string> measure_names() const override;
   std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const override;

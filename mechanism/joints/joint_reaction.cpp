@@ -56,6 +56,12 @@ MatrixX Joint::reaction_of_multipliers(const LocalState& state) const {
   return result;
 }
 
+void Joint::add_reaction_norm(const LocalState& state, double arm, Eigen::Ref<MatrixX> H) const {
+  MatrixX wrench = reaction_of_multipliers(state);
+  wrench.bottomRows<3>() /= arm;
+  H += wrench.transpose() * wrench;
+}
+
 Vector6 Joint::calc_reaction(const LocalState& state) const {
   if (state.global().reaction.size() > 0) return reaction_of_multipliers(state) * state.reaction();
   thread_local VectorX r;

@@ -113,9 +113,10 @@ Session& Motion::alive() const {
   return *session_;
 }
 
-void Motion::make_march(Parts& parts, StepOptions stepping) const {
+void Motion::make_march(Parts& parts, StepOptions stepping) {
   parts.march =
       std::make_unique<March>(*parts.integration, parts.begin, parts.begin + options_.duration, std::move(stepping));
+  // (A motion stays where it is.)
   parts.march->on_jump([books = &parts_.books](const Jump& jump) { books->jump(jump.before, jump.after, jump.work); });
   if (!session_->on_attempt_.empty())
     parts.march->observe([session = session_](const Attempt& attempt) {
@@ -138,7 +139,7 @@ void Motion::write(Archive& archive, ResultSink* sink) {
   parts_.march->exchange(archive);
 }
 
-Motion::Parts Motion::read(Archive& archive, ResultSink* sink) const {
+Motion::Parts Motion::read(Archive& archive, ResultSink* sink) {
   Parts parts;
   exchange_books(archive, parts, sink);
   StepOptions stepping = stepping_of(options_, session_->system_, parts.begin, session_->notes_);

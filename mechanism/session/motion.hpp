@@ -75,10 +75,10 @@ class Motion {
   Motion(Session& session, const DynamicsOptions& options, Archive& archive, ResultSink* sink,
          const std::optional<StepRecord>& report = {});
   void show();  ///< to those who read the session
-  Parts read(Archive& archive, ResultSink* sink) const;
+  Parts read(Archive& archive, ResultSink* sink);
   void write(Archive& archive, ResultSink* sink);
   static void exchange_books(Archive& archive, Parts& parts, ResultSink* sink);
-  void make_march(Parts& parts, StepOptions stepping) const;
+  void make_march(Parts& parts, StepOptions stepping);
   StepRecord row(const MarchStep& step, const EnergyBalance& books) const;
   void record_step(const MarchStep& step, double before, const EnergyBalance& books_before);
   void save_for_sinks();

@@ -172,7 +172,7 @@ std::vector<double> Session::read(const std::string& dataset) const {
     for (const ResultsColumn& each : readable_->columns()) names.push_back(each.dataset);
     throw InputError(fmt::format("there is no dataset '{}'{}", dataset, did_you_mean(dataset, names)));
   }
-  return readable_->read(*column, *shown_, system_.slots(), acting_, report());
+  return readable_->read(*column, reported(*shown_, acting_), system_.slots(), acting_, report());
 }
 
 // -- calling back
@@ -202,7 +202,16 @@ void Session::begin_analysis(const std::string& type, std::size_t expected_rows,
 void Session::record(const State& state, const Environment& environment, const StepRecord& step) {
   if (!open_) return;
   ++rows_;
-  for (ResultSink* sink : sinks_) sink->record(state, system_.slots(), environment, step);
+  const State& whole = reported(state, environment);
+  for (ResultSink* sink : sinks_) sink->record(whole, system_.slots(), environment, step);
+}
+
+const State& Session::reported(const State& state, const Environment& environment) const {
+  if (!ReactionNorm::needed(system_, state)) return state;
+  if (!norm_) norm_ = std::make_unique<ReactionNorm>(system_);
+  reported_ = state;
+  norm_->balance(environment, reported_);
+  return reported_;
 }
 
 void Session::write(const ResultArray& array) {

@@ -25,6 +25,7 @@
 #include "mechanism/session/result_sink.hpp"
 #include "mechanism/session/results_rows.hpp"
 #include "mechanism/session/statics_options.hpp"
+#include "mechanism/solvers/reaction_norm.hpp"
 
 namespace bielle::mechanism {
 
@@ -114,6 +115,8 @@ class Session {
   explicit Session(std::unique_ptr<const Model> owned, const Model* model);
   void at_rest();  ///< ends the motion, if any
   void record(const State& state, const Environment& environment, const StepRecord& step);
+  /// The state with the reactions to report.
+  const State& reported(const State& state, const Environment& environment) const;
   void call_back();
   void note(const std::string& sentence) const;
   void statics_point(const State& state, double factor, int iterations);
@@ -131,6 +134,8 @@ class Session {
   std::optional<StepRecord> report_;
   std::vector<std::string> redundant_;
   mutable std::unique_ptr<ResultsRows> readable_;  ///< made with the first reading
+  mutable std::unique_ptr<ReactionNorm> norm_;     ///< made where constraints are redundant
+  mutable State reported_;
 
   Recording recording_;
   std::vector<ResultSink*> sinks_;

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/solvers/consistent_start.hpp"
+#include "mechanism/solvers/reaction_norm.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -112,6 +113,10 @@ class AccelerationEquations {
   void evaluate() {
     const int m = system_.multipliers();
     VectorX velocity(m), acceleration(m);
+    if (system_.reads_reactions() && ReactionNorm::needed(system_, state_)) {
+      if (!norm_) norm_ = std::make_unique<ReactionNorm>(system_);
+      norm_->balance(environment_, state_);
+    }
     system_.residual(state_, environment_, r_);
     system_.constraint_rates(state_, environment_, velocity, acceleration);
     r_.tail(m) = acceleration;
@@ -291,6 +296,7 @@ class AccelerationEquations {
   const Environment& environment_;
   State& state_;
   MassSaddle& saddle_;
+  std::unique_ptr<ReactionNorm> norm_;
   VectorX v_, a_, r_, step_;
   VectorX begin_;             ///< first-order unknowns
   std::vector<double> size_;  ///< of each algebraic unknown

@@ -72,6 +72,12 @@ std::vector<int> find_redundant(const System& system, const Environment& environ
   return dependent;
 }
 
+double redundancy_arm(const System& system, const Environment& environment, const State& state) {
+  std::vector<double> values;
+  system.tangent(state, environment, TangentWeights{0, 0, 0, 0, 1, true}, nullptr, values);
+  return longest_arm(system, values, model_length(state));
+}
+
 void set_redundant_aside(const System& system, const Environment& environment, State& state) {
   if (!system.switches()) return;
   for (char& idle : state.idle)

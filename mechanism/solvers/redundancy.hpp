@@ -18,6 +18,10 @@ namespace bielle::mechanism {
 std::vector<int> find_redundant(const System& system, const Environment& environment, const State& state,
                                 double least = 0);
 
+/// The length L by which moments are compared with forces: the longest arm at which a constraint's force acts about a
+/// node [m].
+double redundancy_arm(const System& system, const Environment& environment, const State& state);
+
 /// Where constraints can be switched (System::switches): marks those that repeat others among the ones that are on, and
 /// takes the marks from the others.
 void set_redundant_aside(const System& system, const Environment& environment, State& state);

@@ -29,6 +29,7 @@
 #include <string>
 
 #include "mechanism/solvers/consistent_start.hpp"
+#include "mechanism/solvers/reaction_norm.hpp"
 #include "mechanism/solvers/scheme.hpp"
 #include "mechanism/solvers/stabilised_step.hpp"
 #include "mechanism/system/archive.hpp"
@@ -143,6 +144,7 @@ class TimeIntegration {
   void move_and_follow(double part);
   void still_algebraic();
   void evaluate();  ///< residual and its scale at the attempt
+  void balance_reactions(State& state);
   double size_of_residual() const;
   void improve(StepReport& report);
   void factor(StepReport& report);
@@ -186,6 +188,7 @@ class TimeIntegration {
   double turn_ = 0;                     ///< of constraints in the last accepted step [rad]
   bool turning_ = false;                ///< fast enough for velocities to be corrected, now or before
   MassSaddle saddle_;
+  std::unique_ptr<ReactionNorm> norm_;  ///< where forces read reactions that redundancy leaves undetermined
   VectorX eta_, mu_;                    ///< of the attempt: see there
   VectorX last_dq_;                     ///< of the last accepted step
 };

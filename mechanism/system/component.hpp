@@ -49,8 +49,6 @@ struct Declaration {
     std::string units;  ///< of the unknown (amplitudes: of the modal amplitude; multipliers: "N" or "N m")
     double start = 0;   ///< initial value
     ConstraintKind kind = ConstraintKind::holonomic;  ///< multipliers only
-    /// Multipliers only: the constraint may be switched off and on during a run, see Component::is_on.
-    bool switched = false;
     /// A typical size of the unknown, in its units: what is much smaller does not matter. 0: not known; sizes of all
     /// unknowns of its kind then stand for it.
     double scale = 0;
@@ -59,6 +57,8 @@ struct Declaration {
     /// (a junction without volume). It has no start value of its own, but where the search for one begins; its rate in
     /// the state is zero.
     bool algebraic = false;
+    /// Multipliers only: the constraint may be switched off and on during a run, see Component::is_on.
+    bool switched = false;
   };
   std::vector<int> nodes;  ///< indices into the model's nodes
   std::vector<Scalar> amplitudes, first_order, multipliers;
@@ -198,6 +198,13 @@ class Component {
   /// Whether the branch that an accepted step was computed on is not the one that goes on from its end, which no
   /// crossing told: the motion is started anew there.
   virtual bool leaves_branch(const LocalState& /*state*/) const { return false; }
+
+  /// Adds the component's part of the norm of reactions, a quadratic form of its own multipliers: the square of the
+  /// force [N^2], and of the moment over the arm. Where reactions are not unique, the smallest are reported.
+  /// @param H  (multipliers, multipliers)
+  virtual void add_reaction_norm(const LocalState& /*state*/, double /*arm*/, Eigen::Ref<MatrixX> H) const {
+    H.diagonal().array() += 1;
+  }
 
   /// What formulas may use of the component: "angle", "angle.rate", "reaction.x".
   virtual std::vector<std::string> measure_names() const { return {}; }

@@ -25,16 +25,16 @@ struct Visit {
   bool on_grid;
 };
 
-struct Motion {
+struct Course {
   std::vector<Visit> visits;
   MarchLog log;
   State end;
 };
 
-Motion run(const ReadyModel& model, double end, StepOptions options) {
+Course run(const ReadyModel& model, double end, StepOptions options) {
   options.break_points = model.system.break_points();
   TimeIntegration integration(model.system, model.environment(), Scheme::generalized_alpha(0.8), model.system.start(0));
-  Motion motion;
+  Course motion;
   March march(integration, integration.state().time, end, options);
   while (!march.done()) {
     const MarchStep step = march.advance();
@@ -64,7 +64,7 @@ StepOptions adaptive(double size, double tolerance) {
 
 TEST_CASE("fixed steps keep to their grid and end on a kink between its times") {
   const ReadyModel model(oscillator("5*(t>=0.25)", 0));
-  const Motion motion = run(model, 1, fixed(0.1));
+  const Course motion = run(model, 1, fixed(0.1));
   REQUIRE(motion.visits.size() == 11);
   CHECK(motion.visits[2].time == 0.25);
   CHECK_FALSE(motion.visits[2].on_grid);
@@ -125,7 +125,7 @@ TEST_CASE("adaptive steps keep the local error below the tolerance, and the glob
   const ReadyModel model(oscillator("0", 0.1));
   double error_before = 0;
   for (const double tolerance : {1e-5, 1e-6, 1e-7, 1e-8}) {
-    const Motion motion = run(model, end, adaptive(1e-3, tolerance));
+    const Course motion = run(model, end, adaptive(1e-3, tolerance));
     for (const Visit& visit : motion.visits) CHECK(visit.error <= 1);
     const double error = std::abs(x_of(model, motion.end) - 0.1 * std::cos(2 * pi * end));
     INFO("tolerance " << tolerance << ": " << motion.log.steps << " steps, error " << error);
@@ -206,7 +206,7 @@ elements:
 
 TEST_CASE("adaptive steps shorten for a short push, end on its kinks and lengthen again") {
   const ReadyModel model(oscillator("500*pulse(t, 0.5, 0.502)", 0.0));
-  const Motion motion = run(model, 2, adaptive(1e-2, 1e-5));
+  const Course motion = run(model, 2, adaptive(1e-2, 1e-5));
   bool at_begin = false, at_end = false;
   for (const Visit& visit : motion.visits) {
     at_begin = at_begin || visit.time == 0.5;
@@ -228,7 +228,7 @@ elements:
   m: {type: point_mass, node: m, mass: 1}
   s: {type: spring_damper, nodes: [ground, m], force: "(2*pi)^2*e/sqrt(1 - (e/0.15)^2)", length: 1}
 )yaml");
-  const Motion motion = run(model, 4, fixed(0.4));
+  const Course motion = run(model, 4, fixed(0.4));
   CHECK(motion.log.refused_by_newton > 0);
   CHECK_THAT(motion.log.hardest, Catch::Matchers::Contains("sqrt"));
   long on_grid = 0;
