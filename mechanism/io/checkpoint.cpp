@@ -17,7 +17,7 @@ namespace {
 const std::string root = "/checkpoints";
 
 /// Of the numbers in a checkpoint: one more whenever what is exchanged with the Archive, or its order, changes.
-constexpr int format = 2;
+constexpr int format = 3;
 
 std::string analysis_name(int analysis) { return fmt::format("/analysis_{}", analysis); }
 
@@ -165,7 +165,10 @@ void rewind_to(Hdf5File& file, const Checkpoint& checkpoint) {
   // The times first: what they do not count does not exist.
   file.truncate_rows(group + "/time", checkpoint.rows);
   file.flush();
-  for_each_dataset(file, group, [&](const std::string& dataset) { file.truncate_rows(dataset, checkpoint.rows); });
+  // Events are no rows over time; how many there were stands in the checkpoint (ResultsFile::exchange).
+  for_each_dataset(file, group, [&](const std::string& dataset) {
+    if (dataset.rfind(group + "/events/", 0) != 0) file.truncate_rows(dataset, checkpoint.rows);
+  });
   const std::string checkpoints = root + group;
   file.truncate_rows(checkpoints + "/state", file.shape(checkpoints + "/rows")[0]);
   file.flush();

@@ -7,6 +7,8 @@
 
 #include "mechanism/analyses/analysis_table.hpp"
 #include "mechanism/io/component_table.hpp"
+#include "mechanism/measures/input_measure.hpp"
+#include "mechanism/measures/measure_event.hpp"
 #include "mechanism/measures/read_measure.hpp"
 #include "mechanism/system/read_frame.hpp"
 
@@ -110,7 +112,7 @@ void read_node(const std::string& name, const YamlValue& entry, Model& model) {
 
 MechanismFile read_mechanism(YamlValue root, const std::map<std::string, std::string>& overrides) {
   root.check_keys(
-      {"mechanism", "gravity", "parameters", "nodes", "elements", "joints", "drives", "loads", "measures", "analysis",
+      {"mechanism", "gravity", "parameters", "nodes", "elements", "joints", "drives", "loads", "measures", "inputs", "events", "analysis",
        "output"},
       "a mechanism file");
   MechanismFile file;
@@ -129,6 +131,10 @@ MechanismFile read_mechanism(YamlValue root, const std::map<std::string, std::st
   }
   if (const auto measures = root.find("measures"))
     for (const auto& [name, entry] : measures->entries()) read_measure(name, entry, file.model);
+  if (const auto inputs = root.find("inputs"))
+    for (const auto& [name, entry] : inputs->entries()) read_input(name, entry, file.model);
+  if (const auto events = root.find("events"))
+    for (const auto& [name, entry] : events->entries()) read_event(name, entry, file.model);
   file.model.connect();
   if (file.model.members().empty()) root.fail("the mechanism has no elements, joints or loads");
 

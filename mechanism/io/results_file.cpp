@@ -57,12 +57,16 @@ void ResultsFile::name_equations(const System& system) {
     names += fmt::format("{} [{}]\n", system.equation_name(i), system.equation_units(i));
   Hdf5File& written = file();
   if (!written.has("/equations")) written.write_text("/equations", names);
+  std::string crossings;
+  for (const MemberCrossing& each : system.crossings()) crossings += each.name + "\n";
+  if (!crossings.empty() && !written.has("/crossings")) written.write_text("/crossings", crossings);
   written.flush();
 }
 
 void ResultsFile::begin_analysis(const std::string& type, std::size_t expected_rows) {
   stream_->wait_until_all_is_written();
   stream_->begin(group_of(++analysis_), expected_rows);
+  events_ = 0;
   stream_->file().make_group(stream_->group());
   stream_->file().write_attribute(stream_->group(), "type", type);
 }
@@ -77,6 +81,22 @@ void ResultsFile::write(const ResultArray& array) {
   file().write(analysis_group() + "/" + array.dataset, array.values, array.shape, units, array.description);
 }
 
+void ResultsFile::note(const Event& event) {
+  Hdf5File& written = file();
+  const std::string group = analysis_group() + "/events";
+  constexpr std::size_t together = 64;
+  if (!written.has(group)) {
+    written.make_group(group);
+    written.create_rows(group + "/crossing", {}, "-", "line of /crossings, from 0", together);
+    written.create_rows(group + "/time", {}, "s", "at which steps have ended on crossings", together);
+  }
+  const double crossing = event.crossing;
+  written.append_rows(group + "/crossing", {&crossing, 1});
+  written.append_rows(group + "/time", {&event.time, 1});
+  written.flush();
+  ++events_;
+}
+
 void ResultsFile::checkpoint(Archive& archive) {
   append_checkpoint(file(), stream_->model(), {analysis_, stream_->recorded(), archive.values()});
 }
@@ -84,6 +104,13 @@ void ResultsFile::checkpoint(Archive& archive) {
 void ResultsFile::exchange(Archive& archive) {
   stream_->wait_until_all_is_written();
   stream_->rows().exchange(archive);
+  archive(events_);
+  if (!archive.restoring()) return;
+  // Those behind the point where the run goes on will come again.
+  Hdf5File& file = stream_->file();
+  for (const char* dataset : {"/events/crossing", "/events/time"})
+    if (const std::string name = analysis_group() + dataset; file.has(name))
+      file.truncate_rows(name, static_cast<std::size_t>(events_));
 }
 
 void ResultsFile::end_analysis() {

@@ -53,6 +53,8 @@ class ResultsFile : public ResultSink {
 
   /// A dataset of the running analysis, besides its rows.
   void write(const ResultArray& array) override;
+  /// Appends to /analysis_k/events.
+  void note(const Event& event) override;
 
   /// Writes the rows that wait and, behind them, a point to go on from. @param archive  with all of it but what belongs
   /// to the file itself
@@ -71,6 +73,7 @@ class ResultsFile : public ResultSink {
  private:
   std::unique_ptr<ResultsStream> stream_;
   int analysis_ = 0;  ///< number of the running one
+  long events_ = 0;  ///< of the running analysis
 };
 
 }  // namespace bielle::mechanism

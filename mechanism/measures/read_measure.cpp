@@ -195,11 +195,18 @@ StateFormula read_state_formula(const YamlValue& value, const std::vector<std::s
   return {read.expression, variables.size(), refer_to(read.measures, references)};
 }
 
-void read_measure(const std::string& name, const YamlValue& entry, Model& model) {
+void check_measure_name(const std::string& name, const YamlValue& entry, const Model& model) {
+  const std::vector<std::string> taken = model.announced_measures();
+  if (std::find(taken.begin(), taken.end(), name) != taken.end())
+    entry.fail(fmt::format("there is a measure or input '{}' already", name));
   if (name == "t" || entry.parameters().count(name))
     entry.fail(fmt::format("'{}' is {} already; choose another name", name, name == "t" ? "the time" : "a parameter"));
   if (words_in(name) != std::vector{name})
-    entry.fail("the name of a measure is one of formulas: letters, digits and '_', no digit first");
+    entry.fail("this is a name in formulas: letters, digits and '_', no digit first");
+}
+
+void read_measure(const std::string& name, const YamlValue& entry, Model& model) {
+  check_measure_name(name, entry, model);
   if (entry.is_map() && !entry.has("formula") && !entry.has("node"))
     entry.fail("expected a formula, `formula` with `units`, or a `node`");
   model.announce_measure(name, [name, entry, &model] {

@@ -19,6 +19,9 @@ namespace bielle::mechanism {
 StateFormula read_state_formula(const YamlValue& value, const std::vector<std::string>& variables, Model& model,
                                 References& references);
 
+/// Refuses what cannot be the name of a measure or input in formulas. @throws InputError
+void check_measure_name(const std::string& name, const YamlValue& entry, const Model& model);
+
 /// Reads an entry of `measures`: a formula; `{formula, units}`; or `{node, relative_to, quantity, direction, at}`.
 /// @throws InputError also where measures refer to each other in a circle
 void read_measure(const std::string& name, const YamlValue& entry, Model& model);

@@ -214,12 +214,21 @@ bool Motion::step() {
   if (step.on_grid) ++parts_.grid_steps;
   session.report_ = row(step, parts_.books);
   record_step(step, before, books_before);
+  const auto& crossings = session.system_.crossings();
+  for (const Passed& passed : step.passed)
+    session.note(Event{passed.time, passed.crossing, crossings[static_cast<std::size_t>(passed.crossing)].name});
   if (const int every = session.recording_.checkpoint; every > 0 && step.on_grid && parts_.grid_steps % every == 0)
     save_for_sinks();
   if (session.notes_)
     session.notes_->progress((time() - begin()) / (end() - begin()), fmt::format("t = {:.4g} s", time()));
   session.call_back();
   return true;
+}
+
+void Motion::set_memory(int place, double value, bool smooth) {
+  parts_.integration->set_memory(place, value);
+  if (!smooth) parts_.march->begin_branch();
+  saved_ = false;
 }
 
 bool Motion::advance_to(double until) {

@@ -82,6 +82,7 @@ class Motion {
   StepRecord row(const MarchStep& step, const EnergyBalance& books) const;
   void record_step(const MarchStep& step, double before, const EnergyBalance& books_before);
   void save_for_sinks();
+  void set_memory(int place, double value, bool smooth);
   Session& alive() const;
 
   Session* session_;  ///< nullptr: ended

@@ -19,6 +19,13 @@ struct ResultArray {
   std::string units, description;
 };
 
+/// A crossing of a motion.
+struct Event {
+  double time = 0;    ///< [s]
+  int crossing = 0;   ///< by number, System::crossings
+  std::string name;   ///< "event 'landed'", "the upper stop of joint 'door'"
+};
+
 class ResultSink {
  public:
   ResultSink() = default;
@@ -34,6 +41,8 @@ class ResultSink {
   virtual void record(const State& state, const std::vector<Slots>& slots, const Environment& environment,
                       const StepRecord& step) = 0;
   virtual void write(const ResultArray& array) = 0;
+  /// A crossing was met.
+  virtual void note(const Event& event) = 0;
   virtual void end_analysis() = 0;
   virtual void complete() {}  ///< all that was to be done is done
 

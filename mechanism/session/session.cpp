@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/measures/input_measure.hpp"
 #include "mechanism/solvers/redundancy.hpp"
 #include "mechanism/solvers/statics.hpp"
 #include "reduce/common/error.hpp"
@@ -179,6 +180,31 @@ std::vector<double> Session::read(const std::string& dataset) const {
 
 void Session::call_back() {
   for (const auto& callback : on_step_) callback(*this);
+}
+
+void Session::note(const Event& event) {
+  for (const auto& callback : on_event_) callback(event);
+  if (open_)
+    for (ResultSink* sink : sinks_) sink->note(event);
+}
+
+void Session::set_input(const std::string& name, double value, bool smooth) {
+  std::vector<std::string> names;
+  for (const Member& member : model_.members()) {
+    const auto* input = dynamic_cast<const InputMeasure*>(member.component.get());
+    if (!input) continue;
+    if (input->name() != name) {
+      names.push_back(input->name());
+      continue;
+    }
+    const int place = system_.slots_of(*input).memory_begin;
+    if (motion_)
+      motion_->set_memory(place, value, smooth);
+    else
+      state_.memory[place] = value;
+    return;
+  }
+  throw InputError(fmt::format("there is no input '{}'{}", name, did_you_mean(name, names)));
 }
 
 void Session::note(const std::string& sentence) const {

@@ -47,6 +47,11 @@ class Session {
   const Environment& environment() const { return environment_; }  ///< of the whole load
   const Environment& acting() const { return acting_; }            ///< of the load factor that the state stands under
   const Loaded& loaded() const { return loaded_; }                 ///< what of loads and motions has been made
+  /// Sets an input of the model (`inputs`), that formulas use. In a motion it holds from here on: forces jump, and the
+  /// motion is started anew with its next step.
+  /// @param smooth  the value is one of a smooth function of time, seen once a step: nothing jumps
+  /// @throws InputError with the nearest name
+  void set_input(const std::string& name, double value, bool smooth = false);
 
   // -- computing
   /// Makes positions and velocities consistent. @throws ComputationError naming a constraint that cannot be satisfied
@@ -84,6 +89,8 @@ class Session {
   void on_step(std::function<void(Session&)> callback) { on_step_.push_back(std::move(callback)); }
   /// Called with every step that is tried, accepted or not.
   void on_attempt(std::function<void(const Attempt&)> callback) { on_attempt_.push_back(std::move(callback)); }
+  /// Called with each crossing that a motion has met, behind the step that ends on it.
+  void on_event(std::function<void(const Event&)> callback) { on_event_.push_back(std::move(callback)); }
   /// Ends what is under way behind the step in hand.
   void stop() { stopping_ = true; }
   bool stopping() const { return stopping_; }  ///< until something is asked for anew
@@ -118,6 +125,7 @@ class Session {
   /// The state with the reactions to report.
   const State& reported(const State& state, const Environment& environment) const;
   void call_back();
+  void note(const Event& event);
   void note(const std::string& sentence) const;
   void statics_point(const State& state, double factor, int iterations);
   struct Saved;
@@ -143,6 +151,7 @@ class Session {
   long rows_ = 0;
   std::vector<std::function<void(Session&)>> on_step_;
   std::vector<std::function<void(const Attempt&)>> on_attempt_;
+  std::vector<std::function<void(const Event&)>> on_event_;
   Notes* notes_ = nullptr;
   bool stopping_ = false;
 };

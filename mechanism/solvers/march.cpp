@@ -114,10 +114,12 @@ void March::exchange(Archive& archive) {
   }
   norm_.exchange(archive);  // with fixed steps as well: adaptive ones may go on where they ended
   watch_.exchange(archive);
-  VectorX crossed(static_cast<Eigen::Index>(crossed_.size()));
-  std::copy(crossed_.begin(), crossed_.end(), crossed.begin());
+  VectorX crossed = VectorX::Zero(static_cast<Eigen::Index>(integration_.system().crossings().size()));
+  for (const int k : crossed_) crossed[k] = 1;
   archive(crossed);
-  crossed_.assign(crossed.begin(), crossed.end());
+  crossed_.clear();
+  for (int k = 0; k < static_cast<int>(crossed.size()); ++k)
+    if (crossed[k] != 0) crossed_.push_back(k);
   archive(stopped_);
   archive(last_crossing_);
   archive(crossings_at_once_);

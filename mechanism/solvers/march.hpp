@@ -75,6 +75,8 @@ class March {
 
   bool done() const;
   bool stopped() const { return stopped_; }  ///< by a crossing
+  /// Forces have changed from outside: the next step begins another branch.
+  void begin_branch() { pending_ = pending_ == Pending::start ? pending_ : Pending::branch; }
   /// Takes one step. What a kink at its end asks for is done when the next one begins.
   /// @throws ComputationError when Newton's method fails with the smallest steps too: 1/1024 of the fixed size, or
   /// 1e-10

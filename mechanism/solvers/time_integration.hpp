@@ -88,6 +88,9 @@ class TimeIntegration {
   /// Both, for a step that has to succeed. @throws ComputationError naming time and equation
   StepReport step(double h);
 
+  /// Changes what a component remembers, from here on.
+  void set_memory(int place, double value) { state_.memory[place] = value; }
+
   /// The next attempts will be of size h: renews the algorithmic values that belong to a step size.
   void change_step(double h);
   /// Algorithmic values for steps of size h anew, from velocities, accelerations and multipliers that are consistent.

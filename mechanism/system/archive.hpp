@@ -62,9 +62,15 @@ class Archive {
     (*this)(state.time);
     for (NodeState& node : state.nodes) (*this)(node);
     for (VectorX* vector : {&state.amplitude, &state.amplitude_rate, &state.amplitude_acceleration, &state.first_order,
-                            &state.first_order_rate, &state.multiplier, &state.memory, &state.reaction})
+                            &state.first_order_rate, &state.multiplier, &state.memory})
       (*this)(*vector);
     (*this)(state.idle);
+    // As many numbers whether there are such reactions or not: checkpoints are rows of one length.
+    bool balanced = state.reaction.size() > 0;
+    (*this)(balanced);
+    VectorX reaction = balanced ? state.reaction : VectorX(VectorX::Zero(state.multiplier.size()));
+    (*this)(reaction);
+    if (restoring()) state.reaction = balanced ? reaction : VectorX();
   }
 
  private:

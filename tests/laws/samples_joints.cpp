@@ -30,6 +30,29 @@ Sample lower_pair(const std::string& type) {
           bad_joint};
 }
 
+/// What acts in a joint with one coordinate; the components have the joint's name.
+Sample with_actions(const std::string& type, const std::string& variant, const std::string& keys,
+                    std::vector<BadValue> bad) {
+  for (const BadValue& each : bad_joint)
+    if (each.key != "second_axis") bad.push_back(each);
+  return {Section::joints, type, variant,
+          pair("  it: {type: " + type + ", nodes: [a, b], position: [0.5, 0.2, 0.1], axis: [1, 2, 3], " + keys + "}\n"),
+          std::move(bad)};
+}
+
+/// The bad values of springs, stops and locks; of a joint with several coordinates those of `coordinate`.
+std::vector<BadValue> bad_actions(const std::string& coordinate = "") {
+  const std::string of = coordinate.empty() ? "" : "." + coordinate;
+  std::vector<BadValue> bad = {{"stiffness" + of, "-1", ""},
+                               {"damping" + of, "-1", ""},
+                               {"rest" + of, "much", ""},
+                               {"preload" + of, "'5*x'", "x"}};
+  if (!coordinate.empty())
+    for (const char* key : {"stiffness", "damping", "rest", "preload"})
+      bad.push_back({key, "5", "several coordinates"});
+  return bad;
+}
+
 Sample drive(const std::string& joint_type, const std::string& law, const std::string& value,
              std::vector<BadValue> bad) {
   bad.push_back({"joint", "axis", "no 'axis'"});
@@ -46,6 +69,73 @@ std::vector<Sample> joint_samples() {
   std::vector<Sample> list;
   for (const char* type : {"rigid", "hinge", "prismatic", "cylindrical", "spherical", "planar"})
     list.push_back(lower_pair(type));
+  // Springs, dampers and locks on each coordinate of each type. (What stops do in contact: test_joint_stop.cpp.)
+  std::vector<BadValue> of_hinge = bad_actions();
+  for (const BadValue& each : std::vector<BadValue>{{"stops", "{range: [1, -1], stiffness: 5}", "lower end first"},
+                                                    {"stops.range", "[1]", "[lower, upper]"},
+                                                    {"stops.stiffness", "0", ""},
+                                                    {"stops.damping", "-1", ""},
+                                                    {"locked", "{to: 1, until: 2}", "until"},
+                                                    {"locked.from", "-1", ""},
+                                                    {"locked.to", "0.05", "behind"},
+                                                    {"locked.release", "0", ""}})
+    of_hinge.push_back(each);
+  list.push_back(with_actions("hinge", "spring, stops, lock",
+                              "stiffness: 3, damping: 0.5, rest: 0.2, preload: 1.5, stops: {range: [-9, 9], stiffness: 5, "
+                              "damping: 1}, locked: {from: 0.1, to: 0.2, release: 4}",
+                              of_hinge));
+  list.push_back(with_actions("prismatic", "formulas", "stiffness: \"3*q + 2*q^3\", damping: \"0.5*v + 0.1*v^3\"",
+                              {{"stiffness", "'3*x'", "x"}, {"damping", "'w'", "w"}}));
+  list.push_back(with_actions("hinge", "actuator", "stiffness: \"3*q*(1 + 0.2*sin(t)) + 0.5*v\"",
+                              {{"stiffness", "[1]", ""}}));
+  list.push_back(with_actions("cylindrical", "springs",
+                              "stiffness: {displacement: 4, angle: \"2*q + q^2*v\"}, damping: {angle: 0.3}, rest: "
+                              "{displacement: 0.1}, preload: {angle: 1}, locked: {angle: {from: 1}}",
+                              {{"stiffness", "4", "several coordinates"},
+                               {"stiffness.displacement", "-1", ""},
+                               {"stiffness.angle", "'x'", "x"},
+                               {"damping", "{turn: 1}", "turn"},
+                               {"damping.angle", "-1", ""},
+                               {"rest", "{angle: 1}", "stiffness"},
+                               {"rest.displacement", "far", ""},
+                               {"preload", "1", "several coordinates"},
+                               {"preload.angle", "'q'", "q"},
+                               {"locked", "{from: 1}", "from"},
+                               {"locked.angle", "{to: 0}", "behind"},
+                               {"locked.angle.from", "-2", ""}}));
+  list.push_back(with_actions("planar", "springs",
+                              "stiffness: {x: 4, y: \"3*q + q^3\", angle: 2}, damping: {x: 0.2, y: 0.4, angle: 0.3}",
+                              {{"stiffness", "{z: 4}", "z"},
+                               {"stiffness.x", "-1", ""},
+                               {"stiffness.y", "'x'", "x"},
+                               {"stiffness.angle", "-1", ""},
+                               {"damping", "1", "several coordinates"},
+                               {"damping.x", "-1", ""},
+                               {"damping.y", "-1", ""},
+                               {"damping.angle", "-1", ""}}));
+  list.push_back(with_actions("spherical", "springs",
+                              "stiffness: {rx: 4, ry: \"3*q + q^3\", rz: 2}, damping: {rx: 0.2, ry: 0.4, rz: 0.3}",
+                              {{"stiffness", "{r: 4}", "r"},
+                               {"stiffness.rx", "-1", ""},
+                               {"stiffness.ry", "'x'", "x"},
+                               {"stiffness.rz", "-1", ""},
+                               {"damping", "1", "several coordinates"},
+                               {"damping.rx", "-1", ""},
+                               {"damping.ry", "-1", ""},
+                               {"damping.rz", "-1", ""}}));
+  // Formulas of the state: every kind of measure.
+  const std::string everything =
+      "2 + axle.angle*sin(t) - 0.3*axle.angle.rate + 0.1*axle.reaction.x - 0.2*axle.reaction.rz + b.position.y*a.velocity.z"
+      " + b.rotation.x + 0.1*a.angular_velocity.y + distance(a, b)*angle(a, b)";
+  Sample of_state = drive("hinge", "torque", everything, {{"torque", "'axle.angel'", "did you mean 'angle'"}});
+  of_state.inertial = true;
+  list.push_back(of_state);
+  list.push_back(drive("spherical", "torque", "2 + axle.rx*axle.ry.rate", {{"coordinate", "angle", "rx"}}));
+  list.back().model.replace(list.back().model.find("it: {joint: axle"), 16, "it: {coordinate: ry, joint: axle");
+  list.push_back(drive("spherical", "rate", "0.3*t", {{"coordinate", "angle", "rx"}}));
+  list.back().model.replace(list.back().model.find("it: {joint: axle"), 16, "it: {coordinate: rz, joint: axle");
+  list.push_back(drive("spherical", "angle", "0.3*t", {{"coordinate", "angle", "rx"}}));
+  list.back().model.replace(list.back().model.find("it: {joint: axle"), 16, "it: {coordinate: rx, joint: axle");
   list.push_back(drive("hinge", "angle", "0.3*t + 0.1*sin(t)", {}));
   list.push_back(drive("prismatic", "displacement", "0.3*t^2", {}));
   list.push_back(drive("hinge", "rate", "0.3*cos(t)", {}));

@@ -13,14 +13,14 @@ TEST_CASE("law 4: reactions are the transposed gradients of the constraints, and
   for (const Sample& sample : samples())
     for (const Subject& subject : subjects(sample)) {
       const DenseModel& dense = *subject.dense;
-      const int begin = dense.multiplier_begin(), count = dense.size() - begin, dofs = dense.first_order_begin();
+      const int begin = dense.multiplier_begin(), count = dense.own_multipliers(), dofs = dense.first_order_begin();
       if (count == 0) continue;
       for (const NamedState& named : law_states(subject)) {
         CAPTURE(title(sample), named.name);
         const MatrixX K = dense.tangent(named.state, DenseModel::Part::K),
                       C = dense.tangent(named.state, DenseModel::Part::C);
         const auto rows = [&](double s) -> VectorX {
-          return dense.residual(dense.along_motion(named.state, s / subject.scales.rate)).tail(count);
+          return dense.residual(dense.along_motion(named.state, s / subject.scales.rate)).segment(begin, count);
         };
         const auto row_rates = [&](double s) -> VectorX {
           VectorX velocity, ignored;

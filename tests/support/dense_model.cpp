@@ -1,5 +1,6 @@
 #include "tests/support/dense_model.hpp"
 
+#include <functional>
 #include <stdexcept>
 
 #include <Eigen/LU>
@@ -13,34 +14,69 @@ using mechanism::NodeState;
 
 DenseModel::DenseModel(const Model& model, std::optional<std::size_t> only, bool carried_axes)
     : environment(model.environment), model_(model), nodes_(static_cast<int>(model.nodes().size())) {
+  members_.reserve(model.members().size());
   for (std::size_t m = 0; m < model.members().size(); ++m) {
     if (only && *only != m) continue;
+    const mechanism::Component& component = *model.members()[m].component;
     Declaration d;
-    model.members()[m].component->declare(d);
-    members_.push_back({model.members()[m].component.get(), {}, {}});
-    mechanism::Slots& s = members_.back().slots;
-    s.nodes = d.nodes;
-    s.carried_axes = carried_axes;
-    s.amplitude_begin = amplitudes_;
-    amplitudes_ += s.amplitudes = static_cast<int>(d.amplitudes.size());
-    s.first_order_begin = first_orders_;
-    first_orders_ += s.first_orders = static_cast<int>(d.first_order.size());
-    s.multiplier_begin = multipliers_;
-    multipliers_ += s.multipliers = static_cast<int>(d.multipliers.size());
-    s.memory_begin = memories_;
-    memories_ += s.memories = static_cast<int>(d.memory.size());
+    component.declare(d);
+    auto& slots = slots_[&component] = std::make_unique<mechanism::Slots>();
+    number(component, d, *slots, carried_axes);
+    members_.push_back({&component, {}, {}});
     for (const auto& row : d.multipliers) constraint_kinds_.push_back(row.kind);
     declarations_.push_back(std::move(d));
   }
+  own_multipliers_ = multipliers_;
+  for (std::size_t k = 0; k < members_.size(); ++k) refer(k, declarations_[k], carried_axes);
   multiplier_begin_ = 6 * nodes_ + amplitudes_ + first_orders_;
   for (Placed& m : members_) {
-    for (int node : m.slots.nodes)
-      for (int i = 0; i < 6; ++i) m.place.push_back(6 * node + i);
-    for (int i = 0; i < m.slots.amplitudes; ++i) m.place.push_back(amplitude_begin() + m.slots.amplitude_begin + i);
-    for (int i = 0; i < m.slots.first_orders; ++i)
-      m.place.push_back(first_order_begin() + m.slots.first_order_begin + i);
-    for (int i = 0; i < m.slots.multipliers; ++i) m.place.push_back(multiplier_begin_ + m.slots.multiplier_begin + i);
+    m.slots = *slots_.at(m.component);
+    place(m.slots, m.place);
   }
+}
+
+void DenseModel::number(const mechanism::Component& /*component*/, const Declaration& d, mechanism::Slots& s,
+                        bool carried_axes) {
+  s.nodes = d.nodes;
+  s.carried_axes = carried_axes;
+  s.amplitude_begin = amplitudes_;
+  amplitudes_ += s.amplitudes = static_cast<int>(d.amplitudes.size());
+  s.first_order_begin = first_orders_;
+  first_orders_ += s.first_orders = static_cast<int>(d.first_order.size());
+  s.multiplier_begin = multipliers_;
+  multipliers_ += s.multipliers = static_cast<int>(d.multipliers.size());
+  s.memory_begin = memories_;
+  memories_ += s.memories = static_cast<int>(d.memory.size());
+  all_declarations_.push_back(d);
+}
+
+/// Numbers what a component refers to, and that in turn, and completes the slots.
+void DenseModel::refer(std::size_t placed, const Declaration& declaration, bool carried_axes) {
+  const std::function<void(mechanism::Slots&, const Declaration&)> complete = [&](mechanism::Slots& slots,
+                                                                                  const Declaration& d) {
+    for (const mechanism::Component* other : d.references) {
+      Declaration of_other;
+      other->declare(of_other);
+      auto& theirs = slots_[other];
+      if (!theirs) {
+        theirs = std::make_unique<mechanism::Slots>();
+        number(*other, of_other, *theirs, carried_axes);
+      }
+      if (theirs->references.empty() && !of_other.references.empty()) complete(*theirs, of_other);
+      slots.refer_to(*slots_.at(other));
+    }
+  };
+  mechanism::Slots& slots = *slots_.at(members_[placed].component);
+  if (slots.references.empty()) complete(slots, declaration);
+}
+
+void DenseModel::place(const mechanism::Slots& slots, std::vector<int>& place) const {
+  for (int node : slots.nodes)
+    for (int i = 0; i < 6; ++i) place.push_back(6 * node + i);
+  for (int i = 0; i < slots.amplitudes; ++i) place.push_back(amplitude_begin() + slots.amplitude_begin + i);
+  for (int i = 0; i < slots.first_orders; ++i) place.push_back(first_order_begin() + slots.first_order_begin + i);
+  for (int i = 0; i < slots.multipliers; ++i) place.push_back(multiplier_begin_ + slots.multiplier_begin + i);
+  for (const mechanism::Slots* other : slots.references) this->place(*other, place);
 }
 
 State DenseModel::start() const {
@@ -52,7 +88,7 @@ State DenseModel::start() const {
   state.multiplier = VectorX::Zero(multipliers_);
   state.memory = VectorX::Zero(memories_);
   int a = 0, y = 0, l = 0, m = 0;
-  for (const Declaration& d : declarations_) {
+  for (const Declaration& d : all_declarations_) {
     for (const auto& scalar : d.amplitudes) state.amplitude[a++] = scalar.start;
     for (const auto& scalar : d.first_order) state.first_order[y++] = scalar.start;
     for (const auto& scalar : d.multipliers) state.multiplier[l++] = scalar.start;

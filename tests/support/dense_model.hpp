@@ -4,6 +4,8 @@
 // multipliers]; nothing is held, eliminated or scaled. Independent of system/'s assembly on purpose.
 #pragma once
 
+#include <map>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -21,7 +23,8 @@ using mechanism::VectorX;
 
 class DenseModel {
  public:
-  /// @param only          index of a member to look at alone; all of them otherwise
+  /// @param only          index of a member to look at alone; all of them otherwise. What it refers to is there as
+  ///                      well, but adds nothing
   /// @param carried_axes  of constraint rows, see Slots
   explicit DenseModel(const Model& model, std::optional<std::size_t> only = {}, bool carried_axes = true);
 
@@ -54,21 +57,31 @@ class DenseModel {
   /// the pattern that it declares
   enum class Part { K, C, M };
   MatrixX tangent(const State& state, Part part) const;
+  /// Multipliers of the members looked at (they come first), without those of what they refer to.
+  int own_multipliers() const { return own_multipliers_; }
   /// First and second time derivatives of the constraint rows.
   void constraint_rates(const State& state, VectorX& velocity, VectorX& acceleration) const;
   Energy energy(const State& state) const;
 
  private:
+  void number(const mechanism::Component& component, const Declaration& declaration, mechanism::Slots& slots,
+              bool carried_axes);
+  void refer(std::size_t placed, const Declaration& declaration, bool carried_axes);
+  void place(const mechanism::Slots& slots, std::vector<int>& place) const;
   struct Placed {
     const mechanism::Component* component;
     mechanism::Slots slots;
     std::vector<int> place;  ///< global unknown of each local one
   };
-  std::vector<Placed> members_;
+  std::vector<Placed> members_;  ///< looked at
+  /// What they refer to, and those of them that others refer to: stays where it is.
+  std::map<const mechanism::Component*, std::unique_ptr<mechanism::Slots>> slots_;
+  std::vector<Declaration> all_declarations_;  ///< in the order of numbers
   std::vector<Declaration> declarations_;
   std::vector<mechanism::ConstraintKind> constraint_kinds_;
   const Model& model_;
-  int nodes_ = 0, amplitudes_ = 0, first_orders_ = 0, multipliers_ = 0, memories_ = 0, multiplier_begin_ = 0;
+  int nodes_ = 0, amplitudes_ = 0, first_orders_ = 0, multipliers_ = 0, memories_ = 0, multiplier_begin_ = 0,
+      own_multipliers_ = 0;
 };
 
 /// Solves r = 0 at rest (rates and accelerations as in the state) by Newton's method in the `free` unknowns, full

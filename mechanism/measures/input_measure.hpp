@@ -1,0 +1,33 @@
+// Inputs: numbers that a program sets while the model moves (Session::set_input), and that formulas use by name.
+//
+//     inputs: {command: 0}
+// The value is kept in the state, as a component's memory: it is saved, restored and restarted with it.
+#pragma once
+
+#include "mechanism/system/measure.hpp"
+#include "mechanism/system/model.hpp"
+#include "reduce/common/yaml_file.hpp"
+
+namespace bielle::mechanism {
+
+class InputMeasure final : public Measure {
+ public:
+  InputMeasure(std::string name, double start, std::string units)
+      : Measure(std::move(name)), start_(start), units_(std::move(units)) {}
+  std::string units() const override { return units_; }
+  double value(const LocalState& state) const override { return state.memory()[0]; }
+  double calc(const LocalState& state, MeasureGradient& gradient) const override {
+    gradient.prepare(state.slots().size());
+    return value(state);
+  }
+
+ private:
+  void declare_subjects(Declaration& declaration) const override { declaration.memory = {start_}; }
+  double start_;
+  std::string units_;
+};
+
+/// Reads an entry of `inputs`: the value at the start, or `{start, units}`. @throws InputError
+void read_input(const std::string& name, const YamlValue& entry, Model& model);
+
+}  // namespace bielle::mechanism

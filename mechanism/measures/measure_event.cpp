@@ -1,0 +1,42 @@
+#include "mechanism/measures/measure_event.hpp"
+
+#include "mechanism/measures/read_measure.hpp"
+
+namespace bielle::mechanism {
+
+MeasureEvent::MeasureEvent(std::string name, const Measure& measure, double value, Crossing::Direction direction,
+                           bool stops)
+    : Component("event", std::move(name)), measure_(measure), value_(value), direction_(direction), stops_(stops) {
+  references_.add(measure);
+}
+
+void MeasureEvent::declare(Declaration& declaration) const {
+  declaration.passive = true;
+  references_.declare(declaration);
+  Crossing crossing;
+  crossing.direction = direction_;
+  crossing.restarts = false;
+  crossing.stops = stops_;
+  declaration.crossings = {crossing};
+}
+
+void MeasureEvent::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const {
+  values[0] = measure_.value(state.of(0)) - value_;
+}
+
+void read_event(const std::string& name, const YamlValue& entry, Model& model) {
+  entry.check_keys({"when", "crosses", "direction", "action"}, "an event");
+  const YamlValue when = entry.at("when");
+  const double value = entry.has("crosses") ? entry.at("crosses").number() : 0;
+  Crossing::Direction direction = Crossing::Direction::both;
+  if (const auto word = entry.find("direction")) {
+    const std::string chosen = word->word({"rising", "falling", "both"}, "a direction of crossing");
+    if (chosen != "both") direction = chosen == "rising" ? Crossing::Direction::rising : Crossing::Direction::falling;
+  }
+  const bool stops = entry.has("action") && entry.at("action").word({"note", "stop"}, "an action") == "stop";
+  model.when_read(Model::Stage::formulas, [=, &model] {
+    model.add(std::make_unique<MeasureEvent>(name, measure_named_by(when, model), value, direction, stops), "");
+  });
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,34 @@
+// An event: a measure crosses a value. It is noted, and may stop the run.
+//
+//     events: {landed: {when: ball.position.z, crosses: 0.1, direction: falling, action: stop}}
+#pragma once
+
+#include <string>
+
+#include "mechanism/system/measure.hpp"
+#include "mechanism/system/model.hpp"
+#include "mechanism/system/references.hpp"
+#include "reduce/common/yaml_file.hpp"
+
+namespace bielle::mechanism {
+
+class MeasureEvent final : public Component {
+ public:
+  MeasureEvent(std::string name, const Measure& measure, double value, Crossing::Direction direction, bool stops);
+  void declare(Declaration& declaration) const override;
+  void add_residual(const LocalState&, Eigen::Ref<VectorX>) const override {}
+  void calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const override;
+
+ private:
+  References references_;
+  const Measure& measure_;
+  double value_;
+  Crossing::Direction direction_;
+  bool stops_;
+};
+
+/// Reads an entry of `events`, once the model is read: `{when: measure or formula, crosses: value, direction: rising |
+/// falling | both, action: note | stop}`. @throws InputError
+void read_event(const std::string& name, const YamlValue& entry, Model& model);
+
+}  // namespace bielle::mechanism
