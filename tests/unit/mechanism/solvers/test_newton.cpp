@@ -22,18 +22,18 @@ joints:
   c: {type: spherical, nodes: [b, c], position: [2, 0, 0]}
 )yaml";
 
-struct Motion {
+struct Course {
   State end;
   long iterations = 0, factorisations = 0;
 };
 
-Motion run(const ReadyModel& model, ConstraintForm form, bool reuse) {
+Course run(const ReadyModel& model, ConstraintForm form, bool reuse) {
   NewtonOptions options;
   options.reuse_tangent = reuse;
   TimeIntegration integration(model.system, model.environment(), Scheme::generalized_alpha(0.8), model.system.start(0),
                               form, options);
   integration.start(1e-3);
-  Motion motion;
+  Course motion;
   for (int k = 0; k < 1000; ++k) {
     const StepReport report = integration.step(1e-3);
     CHECK(report.worst_ratio <= 1);
@@ -55,7 +55,7 @@ elements: {s: {type: spring_damper, nodes: [ground, m], force: "100*tanh(e/0.01)
 TEST_CASE("tangents that serve several iterations give the motion of those that do not, with fewer factorisations") {
   const ReadyModel model(chain);
   for (const ConstraintForm form : {ConstraintForm::position, ConstraintForm::stabilised}) {
-    const Motion renewed = run(model, form, false), reused = run(model, form, true);
+    const Course renewed = run(model, form, false), reused = run(model, form, true);
     CHECK(renewed.factorisations == renewed.iterations);
     CHECK(reused.factorisations < renewed.factorisations / 2);
     // Residuals are within 1e-9 of the forces in both; a thousand steps add up.
