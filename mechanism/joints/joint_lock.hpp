@@ -31,10 +31,12 @@ class JointLock final : public CoordinateAction {
   void add_break_points(std::vector<double>& times) const override;
   void calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const override;
   void begin_branch(const LocalState& state, std::span<const int> crossed, Eigen::Ref<VectorX> memory) const override;
+  bool leaves_branch(const LocalState& state) const override;
   bool is_on(const LocalState& state, int row) const override;
 
  private:
   static constexpr double open = 0, locked = 1, released = 2;  ///< status, in the memory
+  bool is_due(double time) const;
   double distance(const LocalState& state, double value) const;
   LockTimes times_;
 };
