@@ -78,7 +78,7 @@ TEST_CASE("two rotors are coupled for a time: momentum stays, the lost energy is
   CHECK(kept == Approx(-14 * 0.5 - T / J1 * 0.125).epsilon(1e-10));
   CHECK(redundant_in(session) == (both_on_ground ? 5 : 0));
   while (motion.time() < 0.7 - 1e-12) motion.step();
-  REQUIRE(motion.time() == 0.7);
+  REQUIRE(motion.time() == Approx(0.7).epsilon(1e-15));
   CHECK(session.read("joints/clutch/coordinate")[0] == Approx(kept).epsilon(1e-12));
   const double until = together + a * 0.2;
   REQUIRE(motion.finish());
@@ -264,8 +264,8 @@ joints:
     CHECK(angle() == Approx(at).epsilon(1e-10));
     CHECK(std::abs(rate()) < 1e-9);
     // What locks hold, the two together where there are two: the one moment that is left to them.
-    CHECK(session.read("joints/a/lock_force")[0] + session.read("joints/d/lock_force")[0] ==
-          Approx(-G * std::sin(at)).epsilon(1e-6));
+    const double other = second_lock ? session.read("joints/d/lock_force")[0] : 0;
+    CHECK(session.read("joints/a/lock_force")[0] + other == Approx(-G * std::sin(at)).epsilon(1e-6));
   }
   CHECK(session.energy().dissipation == Approx(kinetic).epsilon(1e-9));
   const double gone = session.time();
