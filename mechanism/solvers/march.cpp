@@ -22,7 +22,8 @@ double proposed_size(double h, double error, double largest) {
 }  // namespace
 
 void MarchLog::exchange(Archive& archive) {
-  for (long* count : {&steps, &iterations, &factorisations, &shortened, &refused_by_error, &refused_by_newton, &crossings})
+  for (long* count :
+       {&steps, &iterations, &factorisations, &shortened, &refused_by_error, &refused_by_newton, &crossings})
     archive(*count);
   for (double* value : {&smallest, &largest, &most_iterations_at}) archive(*value);
   archive(most_iterations);

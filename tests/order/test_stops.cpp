@@ -108,8 +108,8 @@ TEST_CASE("contact and what comes behind are of order 2 in each form of constrai
     times.push_back(0);
     for (std::size_t k = 1; k < events.size(); ++k)
       times.back() = std::max(times.back(), std::abs(ran.events[k].time - events[k]));
-    UNSCOPED_INFO("h " << sizes.back() << ": q " << q.back() << ", v " << v.back() << ", force " << force.back() << ", times "
-              << times.back() << ", balance " << ran.balance);
+    UNSCOPED_INFO("h " << sizes.back() << ": q " << q.back() << ", v " << v.back() << ", force " << force.back()
+                       << ", times " << times.back() << ", balance " << ran.balance);
   }
   // Where the damper lets go before contact ends, a step holds a kink at any place: that scatters the errors' factor.
   for (const auto& errors : {q, v, force, times}) CHECK(slope(sizes, errors) == Approx(2).margin(0.15));

@@ -1,4 +1,5 @@
-// What is pushed by a constant force against a stop of spring and damper, and thrown back, again and again: closed form.
+// What is pushed by a constant force against a stop of spring and damper, and thrown back, again and again: closed
+// form.
 //
 // Free:     q'' = f.                        In contact, p = q - upper:   p'' = f - 2 delta p' - omega^2 p,
 // as long as the stop pushes, omega^2 p + 2 delta p' > 0; behind that q'' = f until p = 0, where contact ends. All per

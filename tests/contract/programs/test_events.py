@@ -2,6 +2,7 @@
 
 import math
 import os
+import re
 import shutil
 import unittest
 
@@ -39,8 +40,9 @@ class Events(CommandTest):
 
     def run_model(self, name, every, duration, *arguments):
         self.write(f"{name}.yaml", MODEL.replace("EVERY", str(every)).replace("DURATION", str(duration)))
-        done = self.run_program(f"{name}.yaml", "--quiet", *arguments)
+        done = self.run_program(f"{name}.yaml", *arguments)
         self.assertEqual(done.returncode, 0, done.stderr)
+        return int(re.search(r"(\d+) rows recorded", done.stdout)[1])
 
     def test_a_restarted_run_equals_the_whole_one_events_and_all(self):
         # The same steps to the last bit need the same checkpoints: pivots are chosen anew there.
@@ -48,7 +50,8 @@ class Events(CommandTest):
         with h5py.File(os.path.join(self.folder, "whole.h5")) as whole:
             events = whole["analysis_1/events/time"][:]
             names = whole["crossings"][()].decode().splitlines()
-            checkpoints = whole["checkpoints/analysis_1/rows"].shape[0]
+            rows = whole["checkpoints/analysis_1/rows"][:].astype(int)
+            checkpoints = len(rows)
             expected = {name: data[:] for name, data in datasets(whole["analysis_1"]).items()}
         self.assertGreater(len(events), 8)
         self.assertTrue(np.all(np.diff(events) >= 0))
@@ -61,7 +64,8 @@ class Events(CommandTest):
                     if data.shape and data.shape[0] == checkpoints:
                         data.resize(keep, axis=0)
                 part.attrs["complete"] = 0
-            self.run_model("part", 70, 1.2, "--restart", "part.h5")
+            recorded = self.run_model("part", 70, 1.2, "--restart", "part.h5")
+            self.assertEqual(recorded, len(expected["time"]) - rows[keep - 1])
             with h5py.File(os.path.join(self.folder, "part.h5")) as part:
                 self.assertEqual(part.attrs["complete"], 1)
                 found = datasets(part["analysis_1"])

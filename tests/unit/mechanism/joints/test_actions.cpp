@@ -33,14 +33,17 @@ const std::vector<Sample> samples = {
 
 /// A body of 2 kg and 0.5 kg m^2 in the joint, which stiffness, damping and so on act upon; a spring of 900 holds what
 /// else can move, and a drive pushes.
-std::string model(const Sample& sample, const std::string& stiffness, const std::string& more, const std::string& push) {
+std::string model(const Sample& sample, const std::string& stiffness, const std::string& more,
+                  const std::string& push) {
   std::string springs = fmt::format("{}: {}", sample.coordinate, stiffness);
   for (const char* other : sample.others) springs += fmt::format(", {}: 900", other);
-  std::string text = "nodes: {body: {position: [0, 0, 0]}}\n"
-                     "elements: {body: {type: rigid_body, node: body, mass: 2, inertia: [0.5, 0.5, 0.5]}}\n";
-  text += fmt::format("joints: {{pair: {{type: {}, nodes: [ground, body], position: [0, 0, 0], axis: [0, 0, 1], "
-                      "stiffness: {{{}}}{}}}}}\n",
-                      sample.type, springs, more);
+  std::string text =
+      "nodes: {body: {position: [0, 0, 0]}}\n"
+      "elements: {body: {type: rigid_body, node: body, mass: 2, inertia: [0.5, 0.5, 0.5]}}\n";
+  text += fmt::format(
+      "joints: {{pair: {{type: {}, nodes: [ground, body], position: [0, 0, 0], axis: [0, 0, 1], "
+      "stiffness: {{{}}}{}}}}}\n",
+      sample.type, springs, more);
   if (!push.empty())
     text += fmt::format("drives: {{push: {{joint: pair, coordinate: {}, {}: \"{}\"}}}}\n", sample.coordinate,
                         sample.turns ? "torque" : "force", push);

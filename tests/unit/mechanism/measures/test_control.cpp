@@ -57,12 +57,12 @@ constexpr double omega = 10, delta = 2;  // sqrt(50/0.5), 2/0.5/2
 }  // namespace
 
 TEST_CASE("a controller written with measures moves a hinge as its closed form") {
-  const std::string controller = GENERATE(
-      "drives: {motor: {joint: main, torque: \"-50*(main.angle - 0.5) - 2*main.angle.rate\"}}\n",
-      "drives: {motor: {joint: main, torque: \"-50*lag - 2*speed\"}}\n"
-      "measures: {lag: \"main.angle - target\", speed: main.angle.rate}\n",
-      "measures: {both: {formula: \"50*lag + 2*main.angle.rate\", units: N m}, lag: \"main.angle - target\"}\n"
-      "loads: {motor: {node: rotor, moment: [0, 0, \"-both\"]}}\n");
+  const std::string controller =
+      GENERATE("drives: {motor: {joint: main, torque: \"-50*(main.angle - 0.5) - 2*main.angle.rate\"}}\n",
+               "drives: {motor: {joint: main, torque: \"-50*lag - 2*speed\"}}\n"
+               "measures: {lag: \"main.angle - target\", speed: main.angle.rate}\n",
+               "measures: {both: {formula: \"50*lag + 2*main.angle.rate\", units: N m}, lag: \"main.angle - target\"}\n"
+               "loads: {motor: {node: rotor, moment: [0, 0, \"-both\"]}}\n");
   CAPTURE(controller);
   const Damped exact{omega, delta, -0.5, 0};
   check_second_order(
@@ -101,7 +101,8 @@ drives: {turn: {joint: second, angle: "3*t"}}
 }
 
 TEST_CASE("an input that jumps within a motion begins another branch there") {
-  const std::string controller = "drives: {motor: {joint: main, torque: \"-50*(main.angle - target) - 2*main.angle.rate\"}}\n";
+  const std::string controller =
+      "drives: {motor: {joint: main, torque: \"-50*(main.angle - target) - 2*main.angle.rate\"}}\n";
   const Damped first{omega, delta, -0.5, 0};
   const double jump = 0.3;  // [s]; the target goes from 0.5 to -0.2
   const Damped then{omega, delta, first.at(jump) + 0.7, first.rate(jump)};
@@ -183,18 +184,21 @@ TEST_CASE("a saved motion goes on with the inputs that it had") {
 }
 
 TEST_CASE("formulas' kinks in time end steps, wherever the formula stands") {
-  // 4 N up to 0.1234 s, -6 N behind it, on 2 kg (or N m on 2 kg m^2): constant on either side, exact for the scheme that
-  // is started anew there.
+  // 4 N up to 0.1234 s, -6 N behind it, on 2 kg (or N m on 2 kg m^2): constant on either side, exact for the scheme
+  // that is started anew there.
   struct Place {
     const char *joint, *more;
   };
-  const Place place = GENERATE(
-      Place{"prismatic", "drives: {push: {joint: pair, force: \"if(t < 0.1234, 4, -6)\"}}"},
-      Place{"hinge", "drives: {push: {joint: pair, torque: \"if(t < 0.1234, 4, -6)\"}}"},
-      Place{"prismatic, stiffness: \"if(t < 0.1234, -4, 6)\"", ""}, Place{"prismatic, damping: \"if(t < 0.1234, -4, 6)\"", ""},
-      Place{"prismatic", "measures: {wanted: \"if(t < 0.1234, 4, -6) + 0*pair.displacement\"}\n"
-                         "drives: {push: {joint: pair, force: \"wanted\"}}"},
-      Place{"prismatic", "loads: {push: {node: body, force: [0, 0, \"if(t < 0.1234, 4, -6) + 0*pair.displacement\"]}}"});
+  const Place place =
+      GENERATE(Place{"prismatic", "drives: {push: {joint: pair, force: \"if(t < 0.1234, 4, -6)\"}}"},
+               Place{"hinge", "drives: {push: {joint: pair, torque: \"if(t < 0.1234, 4, -6)\"}}"},
+               Place{"prismatic, stiffness: \"if(t < 0.1234, -4, 6)\"", ""},
+               Place{"prismatic, damping: \"if(t < 0.1234, -4, 6)\"", ""},
+               Place{"prismatic",
+                     "measures: {wanted: \"if(t < 0.1234, 4, -6) + 0*pair.displacement\"}\n"
+                     "drives: {push: {joint: pair, force: \"wanted\"}}"},
+               Place{"prismatic",
+                     "loads: {push: {node: body, force: [0, 0, \"if(t < 0.1234, 4, -6) + 0*pair.displacement\"]}}"});
   CAPTURE(place.joint, place.more);
   const std::string text = with(R"yaml(
 nodes: {body: {position: [0, 0, 0]}}

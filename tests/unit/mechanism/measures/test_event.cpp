@@ -130,7 +130,8 @@ TEST_CASE("an event stands where the measure crosses its value") {
   const std::pair<const char*, double> wanted[] = {
       {"event 'low'", std::sqrt(0.7 / 5)}, {"event 'both'", sum}, {"event 'fast'", 0.42}, {"event 'later'", 0.5}};
   for (std::size_t k = 0; k < 4; ++k) {
-    const auto found = std::find_if(events.begin(), events.end(), [&](const Event& e) { return e.name == wanted[k].first; });
+    const auto found =
+        std::find_if(events.begin(), events.end(), [&](const Event& e) { return e.name == wanted[k].first; });
     REQUIRE(found != events.end());
     INFO(wanted[k].first);
     // Less than 1e-10 of a step behind; adaptive ones grow up to what is left of 0.6 s.
@@ -140,13 +141,15 @@ TEST_CASE("an event stands where the measure crosses its value") {
 }
 
 TEST_CASE("directions: rising, falling, both; what begins on its value has not crossed it") {
-  const std::vector<Event> events = events_of(oscillator("  up: {when: slide.displacement, crosses: 0.05, direction: rising}\n"
-                                                         "  down: {when: slide.displacement, crosses: 0.05, direction: falling}\n"
-                                                         "  any: {when: slide.displacement, crosses: 0.05}\n"
-                                                         "  middle: {when: slide.displacement}\n"),
-                                              0.5, 1e-3);
+  const std::vector<Event> events =
+      events_of(oscillator("  up: {when: slide.displacement, crosses: 0.05, direction: rising}\n"
+                           "  down: {when: slide.displacement, crosses: 0.05, direction: falling}\n"
+                           "  any: {when: slide.displacement, crosses: 0.05}\n"
+                           "  middle: {when: slide.displacement}\n"),
+                0.5, 1e-3);
   const double pi = M_PI;
-  const std::map<std::string, std::vector<double>> wanted = {  // phases 20 t up to 10 rad
+  const std::map<std::string, std::vector<double>> wanted = {
+      // phases 20 t up to 10 rad
       {"event 'up'", {pi / 6, 2 * pi + pi / 6}},
       {"event 'down'", {pi - pi / 6, 3 * pi - pi / 6}},
       {"event 'any'", {pi / 6, pi - pi / 6, 2 * pi + pi / 6, 3 * pi - pi / 6}},
@@ -187,7 +190,8 @@ TEST_CASE("a noted event leaves the motion as it is") {
     REQUIRE(motion.finish());
     return session.node("mass").x.x();
   };
-  const std::string events = "  up: {when: slide.displacement, crosses: 0.05}\n  turn: {when: slide.displacement.rate}\n";
+  const std::string events =
+      "  up: {when: slide.displacement, crosses: 0.05}\n  turn: {when: slide.displacement.rate}\n";
   // Steps are divided there: errors of order 2 get no larger, and the difference is of their order at most.
   for (const double h : {2e-3, 5e-4}) {
     const double without = end("", h), error = without - 0.1 * std::sin(10.0);
@@ -197,7 +201,8 @@ TEST_CASE("a noted event leaves the motion as it is") {
 }
 
 TEST_CASE("an event that stops ends the run there, with a last row") {
-  Session session(model_of(stone("  landed: {when: stone.position.z, crosses: 1.3, direction: falling, action: stop}\n")));
+  Session session(
+      model_of(stone("  landed: {when: stone.position.z, crosses: 1.3, direction: falling, action: stop}\n")));
   MemorySink sink(session.model());
   session.add_sink(sink);
   session.begin_analysis("dynamic");
@@ -223,8 +228,9 @@ TEST_CASE("an event that stops ends the run there, with a last row") {
 
 TEST_CASE("an event is noted where its measure jumps over its value") {
   // A lock stops the mass; its velocity is 0.9 m/s just before.
-  std::string text = oscillator("  slow: {when: slide.displacement.rate, crosses: 0.5, direction: falling}\n"
-                                "  never: {when: slide.displacement.rate, crosses: 0.5, direction: rising}\n");
+  std::string text = oscillator(
+      "  slow: {when: slide.displacement.rate, crosses: 0.5, direction: falling}\n"
+      "  never: {when: slide.displacement.rate, crosses: 0.5, direction: rising}\n");
   text.replace(text.find("stiffness: 200"), 14, "locked: {from: 0.25}");
   const std::vector<Event> events = events_of(text, 0.4, 0.01);
   REQUIRE(events.size() == 1);
