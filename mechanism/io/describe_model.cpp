@@ -131,9 +131,13 @@ std::string describe_model(const MechanismFile& file) {
   std::map<std::string, std::map<std::string, std::set<std::string>>> counts;  // section -> type -> names
   for (const Member& member : model.members()) {
     const std::string& type = member.component->type();
-    const bool own_section = type == "drive" || type == "load";
-    counts[own_section ? type + "s" : member.group.substr(0, member.group.find('/'))][type].insert(
-        member.component->name());
+    const bool own_section = type == "drive" || type == "load" || type == "event";
+    if (own_section)
+      counts[type + "s"][type].insert(member.component->name());
+    else if (type.rfind("joint_", 0) == 0)  // what acts on their coordinates: several may act in one joint
+      counts["in joints"][type.substr(6)].insert(fmt::format("{}", counts["in joints"][type.substr(6)].size()));
+    else if (!member.group.empty())  // measures that formulas made for themselves have none
+      counts[member.group.substr(0, member.group.find('/'))][type].insert(member.component->name());
   }
   for (const auto& [section, types] : counts) {
     text += fmt::format("  {:<12}", section);

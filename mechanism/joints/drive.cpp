@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/joints/joint_lock.hpp"
 #include "mechanism/measures/read_measure.hpp"
 
 namespace bielle::mechanism {
@@ -196,7 +197,12 @@ void read_drive(const std::string& name, const YamlValue& entry, Model& model) {
       entry.fail(fmt::format("the {} of joint '{}' is driven by '{}' already", chosen, joint->name(), driver->name()));
 
   const YamlValue value = entry.at(law);
-  if (law == "torque" || law == "force") {
+  const bool by_motion = law != "torque" && law != "force";
+  for (const Component* other : model.components_in(group))
+    if (const auto* lock = dynamic_cast<const JointLock*>(other); by_motion && lock && lock->coordinate().name == chosen)
+      entry.fail(fmt::format("the {} of joint '{}' is `locked` for a time, which a drive by motion contradicts", chosen,
+                             joint->name()));
+  if (!by_motion) {
     auto drive = std::make_unique<ForceDrive>(name, *joint, index);
     model.when_read(Model::Stage::formulas, [drive = drive.get(), value, &model] { drive->read(value, model); });
     model.add(std::move(drive), group);

@@ -10,7 +10,7 @@ void JointLock::declare(Declaration& declaration) const {
   row.switched = true;
   declaration.multipliers.push_back(row);
   declaration.memory = {open, 0};  // status, and the value of the coordinate that is kept
-  if (std::isfinite(times_.release)) declaration.crossings = {{"the release", Crossing::Direction::rising}};
+  if (std::isfinite(times_.release)) declaration.crossings = {{coordinate().name + " is released", Crossing::Direction::rising}};
 }
 
 double JointLock::distance(const LocalState& state, double value) const {
@@ -62,8 +62,12 @@ void JointLock::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> valu
   if (values.size() > 0) values[0] = std::abs(state.multiplier()[0]) - times_.release;
 }
 
+bool JointLock::opens(const LocalState& state) const {
+  return state.memory()[0] == locked && std::abs(state.multiplier()[0]) > times_.release;
+}
+
 void JointLock::begin_branch(const LocalState& state, std::span<const int> crossed, Eigen::Ref<VectorX> memory) const {
-  if (!crossed.empty()) memory[0] = released;
+  if (!crossed.empty() || opens(state)) memory[0] = released;
   if (memory[0] == released) return;
   const bool now = state.time() >= times_.from && state.time() < times_.to;
   if (now && memory[0] == open) memory[1] = value(state).value;

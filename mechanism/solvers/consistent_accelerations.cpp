@@ -104,7 +104,7 @@ class AccelerationEquations {
       system_.set_rates(state_, v_, a_);
     }
     if ((found.converged ? found : mirrored).determinant_sign != without)
-      throw_ambiguous("the one found is not the continuation of what there is without friction");
+      throw_ambiguous("the one found is not the continuation of what there is without such forces");
   }
 
  private:
@@ -285,14 +285,14 @@ class AccelerationEquations {
     const double size = std::max(one.lpNorm<Eigen::Infinity>(), other.lpNorm<Eigen::Infinity>());
     Eigen::Index most = 0;
     if ((one - other).cwiseAbs().maxCoeff(&most) <= 1e-6 * size) return;
-    throw_ambiguous(fmt::format("the reaction {} may be {:.4g} or {:.4g}",
+    throw_ambiguous(fmt::format("the multiplier {} may be {:.4g} or {:.4g}",
                                 system_.unknown_name(system_.size() - system_.multipliers() + static_cast<int>(most)),
                                 one[most], other[most]));
   }
 
   static constexpr const char* advice =
-      "; friction is too strong for rigid parts in this position (Painleve's paradox): give the contact or a part some "
-      "compliance, or reduce the coefficient";
+      "; such forces (friction) are too strong for rigid parts in this position (Painleve's paradox): give a part or the "
+      "contact some compliance, or make them weaker";
   [[noreturn]] void throw_ambiguous(const std::string& how) const {
     throw ComputationError(fmt::format(
         "t = {:.6g} s: forces that depend on reactions leave more than one solution for the accelerations: {}{}",
@@ -326,7 +326,8 @@ void make_accelerations_consistent(const System& system, const Environment& envi
   else if (!system.algebraic().empty())
     equations.solve_for_algebraic();
   else
-    equations.solve_linear();
+    return equations.solve_linear();
+  saddle.serve_no_more();
 }
 
 void make_accelerations_consistent(const System& system, const Environment& environment, State& state) {

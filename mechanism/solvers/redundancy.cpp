@@ -143,9 +143,8 @@ void check_set_aside(const System& system, const Environment& environment, const
       return;
     const int equation = system.size() - system.multipliers() + multiplier;
     throw ComputationError(
-        fmt::format("t = {:.6g} s: {} looked redundant at the start and was set aside, but is violated by {:.3g} {}: "
-                    "it contradicts the "
-                    "joints and drives before it",
+        fmt::format("t = {:.6g} s: {} looked redundant and was set aside, but is violated by {:.3g} {}: it "
+                    "contradicts the joints, locks and drives before it",
                     state.time, system.equation_name(equation), violation, system.equation_units(equation)));
   });
 }
