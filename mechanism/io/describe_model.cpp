@@ -117,8 +117,7 @@ std::string describe_model(const MechanismFile& file) {
   const Model& model = file.model;
   System system(model);
   State state = system.start(0);
-  const std::vector<int> redundant = find_redundant(system, model.environment, state);
-  system.set_aside(redundant);
+  const std::vector<int> redundant = take_out_redundant(system, model.environment, state);
   StartReport report;
   assemble_positions(system, model.environment, state, report);
 
@@ -148,7 +147,8 @@ std::string describe_model(const MechanismFile& file) {
     }
     text += "\n";
   }
-  const int independent = system.multipliers() - static_cast<int>(redundant.size());
+  int independent = system.multipliers();
+  system.for_each_idle(state, [&](int) { --independent; });
   text += fmt::format("  unknowns     {} displacements and amplitudes, {} first-order, {} multipliers\n", system.dofs(),
                       system.first_orders(), system.multipliers());
   text += fmt::format("  freedom      {} degrees of freedom after {} independent constraints\n",

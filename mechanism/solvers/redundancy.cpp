@@ -88,6 +88,19 @@ void set_redundant_aside(const System& system, const Environment& environment, S
   }
 }
 
+std::vector<int> take_out_redundant(System& system, const Environment& environment, State& state) {
+  if (!system.switches()) {
+    const std::vector<int> redundant = find_redundant(system, environment, state);
+    system.set_aside(redundant);
+    return redundant;
+  }
+  system.begin_branch(state, environment);
+  set_redundant_aside(system, environment, state);
+  std::vector<int> redundant;
+  system.for_each_redundant(state, [&](int multiplier) { redundant.push_back(multiplier); });
+  return redundant;
+}
+
 std::string describe_singularity(const System& system, const Environment& environment, const State& state) {
   constexpr double near = 0.02;
   std::vector<int> repeating = find_redundant(system, environment, state, near);
