@@ -10,7 +10,10 @@ void JointLock::declare(Declaration& declaration) const {
   row.switched = true;
   declaration.multipliers.push_back(row);
   declaration.memory = {open, 0};  // status, and the value of the coordinate that is kept
-  if (std::isfinite(times_.release)) declaration.crossings = {{coordinate().name + " is released", Crossing::Direction::rising}};
+  if (!std::isfinite(times_.release)) return;
+  Crossing release{coordinate().name + " is released", Crossing::Direction::rising};
+  release.begins_on = -1;
+  declaration.crossings = {release};
 }
 
 double JointLock::distance(const LocalState& state, double value) const {
@@ -51,14 +54,18 @@ void JointLock::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> valu
   if (values.size() > 0) values[0] = std::abs(state.multiplier()[0]) - times_.release;
 }
 
-bool JointLock::opens(const LocalState& state) const {
-  return state.memory()[0] == locked && std::abs(state.multiplier()[0]) > times_.release;
+bool JointLock::is_due(double time) const { return time >= times_.from && time < times_.to; }
+
+/// Only where steps do not end on break points.
+bool JointLock::leaves_branch(const LocalState& state) const {
+  const double status = state.memory()[0];
+  return status != released && is_due(state.time()) != (status == locked);
 }
 
 void JointLock::begin_branch(const LocalState& state, std::span<const int> crossed, Eigen::Ref<VectorX> memory) const {
-  if (!crossed.empty() || opens(state)) memory[0] = released;
+  if (!crossed.empty()) memory[0] = released;
   if (memory[0] == released) return;
-  const bool now = state.time() >= times_.from && state.time() < times_.to;
+  const bool now = is_due(state.time());
   if (now && memory[0] == open) memory[1] = value(state).value;
   memory[0] = now ? locked : open;
 }

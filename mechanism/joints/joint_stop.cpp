@@ -73,11 +73,17 @@ void JointStop::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> valu
   if (std::isfinite(range_.lower)) values[k] = range_.lower - q;
 }
 
+bool JointStop::leaves_branch(const LocalState& state) const {
+  const auto [q, v] = value(state);
+  return contact(state, q, v).penetration < 0;
+}
+
 void JointStop::begin_branch(const LocalState& state, std::span<const int> /*crossed*/,
                              Eigen::Ref<VectorX> memory) const {
-  // Behind a crossing the coordinate is beyond the stop by a little, or short of it. On the stop itself its rate tells.
+  // Behind a crossing the coordinate is beyond the stop by a little, or short of it. On the stop itself its rate tells;
+  // what rests there is in contact, and leaves the branch if it is not pressed in.
   const auto [q, v] = value(state);
-  const auto beyond = [](double p, double rate) { return p > 0 || (p == 0 && rate > 0); };
+  const auto beyond = [](double p, double rate) { return p > 0 || (p == 0 && rate >= 0); };
   memory[0] = beyond(q - range_.upper, v) ? 1 : beyond(range_.lower - q, -v) ? -1 : 0;
 }
 

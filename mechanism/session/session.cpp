@@ -66,6 +66,7 @@ StartReport Session::assemble() {
 void Session::statics_point(const State& state, double factor, int iterations) {
   shown_ = &state;
   acting_ = environment_;
+  acting_.statics = true;
   acting_.load_factor = factor;
   acting_.gravity *= factor;
   report_.emplace();
