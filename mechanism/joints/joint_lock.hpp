@@ -1,7 +1,8 @@
 // A coordinate that is locked for a time, at the value that it then has.
 //
 // A constraint q - q_lock = 0 that is switched on and off (Component::is_on). Relative motion at the moment of locking
-// is stopped by an inelastic impulse; the lost energy is dissipated. With `release` the lock opens at a force.
+// is stopped by an inelastic impulse; the lost energy is dissipated. With `release` the lock opens at a force, also
+// where the force jumps beyond it.
 #pragma once
 
 #include <limits>

@@ -1,6 +1,7 @@
 #include "mechanism/joints/joint_stop.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace bielle::mechanism {
 
@@ -9,7 +10,8 @@ void JointStop::declare(Declaration& declaration) const {
   declaration.damping = range_.damping > 0;
   declaration.kinks = true;  // where the damper lets go
   declaration.memory = {0};  // side in contact
-  declaration.crossings = {{"the upper stop"}, {"the lower stop"}};
+  if (std::isfinite(range_.upper)) declaration.crossings.push_back({coordinate().name + " at its upper stop"});
+  if (std::isfinite(range_.lower)) declaration.crossings.push_back({coordinate().name + " at its lower stop"});
 }
 
 JointStop::Contact JointStop::contact(const LocalState& state, double q, double v) const {
@@ -66,7 +68,9 @@ void JointStop::write_output(const LocalState& state, double* values) const {
 
 void JointStop::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const {
   const double q = value(state).value;
-  values << q - range_.upper, range_.lower - q;
+  Eigen::Index k = 0;
+  if (std::isfinite(range_.upper)) values[k++] = q - range_.upper;
+  if (std::isfinite(range_.lower)) values[k] = range_.lower - q;
 }
 
 bool JointStop::leaves_branch(const LocalState& state) const {
