@@ -82,7 +82,7 @@ TEST_CASE("the first contact is met to the tolerance of its search, at steps tha
   for (const double h : {0.1, 0.0137, 1e-3}) {
     const Ran ran = run(falling, steps_of(0.3, h));
     REQUIRE(!ran.events.empty());
-    CHECK(ran.events.front().name == "the upper stop of joint 'path'");
+    CHECK(ran.events.front().name == "joint 'path': displacement at its upper stop");
     // Steps end behind the zero, by less than 1e-10 of their size; positions of the fall are exact but for rounding.
     CHECK(ran.events.front().time == Approx(met).margin(1e-10 * h + 1e-14).epsilon(0));
   }

@@ -155,7 +155,7 @@ loads: {pull: {node: body, force: [")yaml") +
   Motion motion = session.dynamics(steps_of(1, h));
   REQUIRE(motion.finish());
   REQUIRE(events.size() == 1);
-  CHECK(events[0].name == "the release of joint 'path'");
+  CHECK(events[0].name == "joint 'path': displacement is released");
   // The force is linear in t, and the lock's is what holds it.
   CHECK(events[0].time == Approx(0.4).margin(1e-10 * h + 1e-13).epsilon(0));
   CHECK(session.read("joints/path/lock_force")[0] == 0);
