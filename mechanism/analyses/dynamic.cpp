@@ -96,6 +96,13 @@ std::string format_march(const MarchLog& log, const System& system) {
   return text;
 }
 
+std::string format_events(const Motion& motion) {
+  const long count = motion.log().crossings;
+  if (count == 0) return {};
+  return fmt::format("  {} event{}, the last: {}{}\n", count, count == 1 ? "" : "s", motion.last_event(),
+                     motion.stopped_by_event() ? ", which stopped the run" : "");
+}
+
 std::string format_energy(const Session& session, const Motion& motion) {
   std::string text;
   const Energy& energy = motion.energy();
@@ -166,7 +173,7 @@ void DynamicAnalysis::finish(Session& session, Motion& motion, const std::string
   summary.text = heading + format_start(motion.start()) + format_redundant(session.redundant(), joints_not_unique(session.system(), session.acting(), session.state()));
   if (log.steps > 0)
     summary.text += format_steps(log.steps, log.iterations, summary.records, motion.time()) +
-                    format_march(log, session.system()) + format_energy(session, motion);
+                    format_march(log, session.system()) + format_events(motion) + format_energy(session, motion);
 }
 
 }  // namespace bielle::mechanism

@@ -62,7 +62,19 @@ std::string forces(const Component& component, const LocalState& state) {
   } catch (const ComputationError&) {
     return "refuses";
   }
-  return fmt::format("{:.10g}", r.norm());
+  std::string text = fmt::format("{:.10g}", r.norm());
+  // What forces do not show yet: crossings to come, and times at which something begins.
+  Declaration declaration;
+  component.declare(declaration);
+  if (!declaration.crossings.empty()) {
+    VectorX values(static_cast<Eigen::Index>(declaration.crossings.size()));
+    component.calc_crossings(state, values);
+    for (const double value : values) text += fmt::format(" {:.10g}", value);
+  }
+  std::vector<double> times;
+  component.add_break_points(times);
+  for (const double time : times) text += fmt::format(" {:.10g}", time);
+  return text;
 }
 
 /// The first thing of a model that differs between two fingerprints: "rigid_body 'rod'".

@@ -118,8 +118,7 @@ std::string describe_model(const MechanismFile& file) {
   const Model& model = file.model;
   System system(model);
   State state = system.start(0);
-  const std::vector<int> redundant = find_redundant(system, model.environment, state);
-  system.set_aside(redundant);
+  const std::vector<int> redundant = take_out_redundant(system, model.environment, state);
   StartReport report;
   assemble_positions(system, model.environment, state, report);
 
@@ -132,9 +131,13 @@ std::string describe_model(const MechanismFile& file) {
   std::map<std::string, std::map<std::string, std::set<std::string>>> counts;  // section -> type -> names
   for (const Member& member : model.members()) {
     const std::string& type = member.component->type();
-    const bool own_section = type == "drive" || type == "load";
-    counts[own_section ? type + "s" : member.group.substr(0, member.group.find('/'))][type].insert(
-        member.component->name());
+    const bool own_section = type == "drive" || type == "load" || type == "event";
+    if (own_section)
+      counts[type + "s"][type].insert(member.component->name());
+    else if (type.rfind("joint_", 0) == 0)  // what acts on their coordinates: several may act in one joint
+      counts["in joints"][type.substr(6)].insert(fmt::format("{}", counts["in joints"][type.substr(6)].size()));
+    else if (!member.group.empty())  // measures that formulas made for themselves have none
+      counts[member.group.substr(0, member.group.find('/'))][type].insert(member.component->name());
   }
   for (const auto& [section, types] : counts) {
     text += fmt::format("  {:<12}", section);
@@ -145,7 +148,8 @@ std::string describe_model(const MechanismFile& file) {
     }
     text += "\n";
   }
-  const int independent = system.multipliers() - static_cast<int>(redundant.size());
+  int independent = system.multipliers();
+  system.for_each_idle(state, [&](int) { --independent; });
   text += fmt::format("  unknowns     {} displacements and amplitudes, {} first-order, {} multipliers\n", system.dofs(),
                       system.first_orders(), system.multipliers());
   text += fmt::format("  freedom      {} degrees of freedom after {} independent constraints\n",

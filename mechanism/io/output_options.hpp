@@ -8,7 +8,7 @@ namespace bielle::mechanism {
 
 struct OutputOptions {
   Recording recording;
-  bool log = false;  ///< a table of all attempted steps beside the results
+  bool log = false;  ///< a table of all attempted steps next to the results
 };
 
 /// Reads the section, and tells the model's components and groups what to record.

@@ -32,6 +32,28 @@ const VectorX& CoordinateAction::rate_slope(const LocalState& state, CoordinateJ
   return slope;
 }
 
+void CoordinateAction::add_kept(const LocalState& state, CoordinateJet& jet, double distance, Eigen::Ref<VectorX> r) {
+  r.segment(row(state), jet.g().size()) += state.multiplier()[0] * jet.g();
+  r[0] += distance;
+}
+
+void CoordinateAction::add_kept_tangent(const LocalState& state, CoordinateJet& jet, LocalTangent& tangent) {
+  const int at = row(state);
+  const auto n = jet.g().size();
+  tangent.K.block(at, at, n, n) += state.multiplier()[0] * jet.S();
+  tangent.K.block(at, 0, n, 1) += jet.g();
+  tangent.K.block(0, at, 1, n) += jet.g().transpose();
+}
+
+std::pair<double, double> CoordinateAction::calc_kept_rates(const LocalState& state) const {
+  CoordinateJet& jet = calc(state);
+  const LocalState of_joint = state.of(0);
+  VectorX v(of_joint.slots().size()), a(v.size());
+  get_local_velocities(of_joint, v);
+  get_local_accelerations(of_joint, a);
+  return {jet.g().dot(v), jet.g().dot(a) + v.dot(jet.S() * v)};
+}
+
 OutputField CoordinateAction::force_field(const std::string& name, const std::string& description) const {
   std::string units;
   for (const JointCoordinate& each : joint_.coordinates()) units += (units.empty() ? "" : ", ") + std::string(each.force_units());

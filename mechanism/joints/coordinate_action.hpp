@@ -4,6 +4,8 @@
 // coordinate are added along the gradients g and w there (coordinate.hpp).
 #pragma once
 
+#include <utility>
+
 #include "mechanism/joints/joint.hpp"
 #include "mechanism/system/references.hpp"
 
@@ -30,6 +32,12 @@ class CoordinateAction : public Component {
   static int row(const LocalState& state) { return state.slots().reference_row(0); }
   /// v^T W of a jet: derivatives of the rate by positions.
   static const VectorX& rate_slope(const LocalState& state, CoordinateJet& jet);
+  // A constraint on the coordinate, `distance` = 0, as the component's only row.
+  static void add_kept(const LocalState& state, CoordinateJet& jet, double distance, Eigen::Ref<VectorX> r);
+  static void add_kept_tangent(const LocalState& state, CoordinateJet& jet, LocalTangent& tangent);
+  /// First and second time derivative of the coordinate.
+  std::pair<double, double> calc_kept_rates(const LocalState& state) const;
+
   /// A force on the coordinate as one of the results of the joint, which are the sums of what acts there.
   OutputField force_field(const std::string& name, const std::string& description) const;
   void write_force(double force, double* values) const;

@@ -4,21 +4,10 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/joints/joint_lock.hpp"
 #include "mechanism/measures/read_measure.hpp"
 
 namespace bielle::mechanism {
-namespace {
-
-/// The row of a multiplier that keeps a coordinate, in K: B and B^T along the joint's local rows, and d(B^T lambda).
-void add_row(CoordinateJet::VectorMap gradient, CoordinateJet::MatrixMap slope, double lambda, int row,
-             LocalTangent& tangent) {
-  const auto n = gradient.size();
-  tangent.K.block(row, row, n, n) += lambda * slope;
-  tangent.K.block(row, 0, n, 1) += gradient;
-}
-
-}  // namespace
-
 std::vector<OutputField> Drive::output_fields() const {
   return {force_field("drive_force",
                       "force or torque of the drives along the joint's coordinates; zero where none acts")};
@@ -48,26 +37,18 @@ void PositionDrive::declare(Declaration& declaration) const {
 
 void PositionDrive::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
   CoordinateJet& jet = calc(state);
-  r.segment(row(state), jet.g().size()) += state.multiplier()[0] * jet.g();
-  r[0] += distance(state, jet.principal);
+  add_kept(state, jet, distance(state, jet.principal), r);
 }
 
 void PositionDrive::add_tangent(const LocalState& state, LocalTangent& tangent) const {
-  if (!tangent.wants_K) return;
-  CoordinateJet& jet = calc(state);
-  add_row(jet.g(), jet.S(), state.multiplier()[0], row(state), tangent);
-  tangent.K.block(0, row(state), 1, jet.g().size()) += jet.g().transpose();
+  if (tangent.wants_K) add_kept_tangent(state, calc(state), tangent);
 }
 
 void PositionDrive::add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
                                          Eigen::Ref<VectorX> acceleration) const {
-  CoordinateJet& jet = calc(state);
-  const LocalState of_joint = state.of(0);
-  VectorX v(of_joint.slots().size()), a(v.size());
-  get_local_velocities(of_joint, v);
-  get_local_accelerations(of_joint, a);
-  velocity[0] += jet.g().dot(v) - law().derivative(state.time(), 1);
-  acceleration[0] += jet.g().dot(a) + v.dot(jet.S() * v) - law().derivative(state.time(), 2);
+  const auto [first, second] = calc_kept_rates(state);
+  velocity[0] += first - law().derivative(state.time(), 1);
+  acceleration[0] += second - law().derivative(state.time(), 2);
 }
 
 void PositionDrive::add_energy(const LocalState& state, Energy& energy) const {
@@ -94,7 +75,8 @@ void RateDrive::add_tangent(const LocalState& state, LocalTangent& tangent) cons
   const int at = row(state);
   const auto n = jet.w().size();
   if (tangent.wants_K) {
-    add_row(jet.w(), jet.W(), state.multiplier()[0], at, tangent);
+    tangent.K.block(at, at, n, n) += state.multiplier()[0] * jet.W();
+    tangent.K.block(at, 0, n, 1) += jet.w();
     tangent.K.block(0, at, 1, n) += rate_slope(state, jet).transpose();
   }
   if (tangent.wants_C) tangent.C.block(0, at, 1, n) += jet.w().transpose();
@@ -196,7 +178,12 @@ void read_drive(const std::string& name, const YamlValue& entry, Model& model) {
       entry.fail(fmt::format("the {} of joint '{}' is driven by '{}' already", chosen, joint->name(), driver->name()));
 
   const YamlValue value = entry.at(law);
-  if (law == "torque" || law == "force") {
+  const bool by_motion = law != "torque" && law != "force";
+  for (const Component* other : model.components_in(group))
+    if (const auto* lock = dynamic_cast<const JointLock*>(other); by_motion && lock && lock->coordinate().name == chosen)
+      entry.fail(fmt::format("the {} of joint '{}' is `locked` for a time, which a drive by motion contradicts", chosen,
+                             joint->name()));
+  if (!by_motion) {
     auto drive = std::make_unique<ForceDrive>(name, *joint, index);
     model.when_read(Model::Stage::formulas, [drive = drive.get(), value, &model] { drive->read(value, model); });
     model.add(std::move(drive), group);

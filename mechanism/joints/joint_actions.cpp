@@ -87,6 +87,8 @@ StopRange read_stop_range(const YamlValue& entry) {
 }
 
 LockTimes read_lock_times(const YamlValue& entry) {
+  if (entry.is_scalar() && !entry.is_null() && entry.boolean()) return {};  // all the time
+  if (!entry.is_map()) entry.fail("expected `true`, or times: {from, to, release}");
   entry.check_keys({"from", "to", "release"}, "`locked`");
   LockTimes times;
   if (const auto from = entry.find("from")) times.from = from->non_negative_number();

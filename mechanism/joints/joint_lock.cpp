@@ -10,7 +10,10 @@ void JointLock::declare(Declaration& declaration) const {
   row.switched = true;
   declaration.multipliers.push_back(row);
   declaration.memory = {open, 0};  // status, and the value of the coordinate that is kept
-  if (std::isfinite(times_.release)) declaration.crossings = {{"the release", Crossing::Direction::rising}};
+  if (!std::isfinite(times_.release)) return;
+  Crossing release{coordinate().name + " is released", Crossing::Direction::rising};
+  release.begins_on = -1;
+  declaration.crossings = {release};
 }
 
 double JointLock::distance(const LocalState& state, double value) const {
@@ -20,29 +23,18 @@ double JointLock::distance(const LocalState& state, double value) const {
 
 void JointLock::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
   CoordinateJet& jet = calc(state);
-  r.segment(row(state), jet.g().size()) += state.multiplier()[0] * jet.g();
-  r[0] += distance(state, jet.principal);
+  add_kept(state, jet, distance(state, jet.principal), r);
 }
 
 void JointLock::add_tangent(const LocalState& state, LocalTangent& tangent) const {
-  if (!tangent.wants_K) return;
-  CoordinateJet& jet = calc(state);
-  const int at = row(state);
-  const auto n = jet.g().size();
-  tangent.K.block(at, at, n, n) += state.multiplier()[0] * jet.S();
-  tangent.K.block(at, 0, n, 1) += jet.g();
-  tangent.K.block(0, at, 1, n) += jet.g().transpose();
+  if (tangent.wants_K) add_kept_tangent(state, calc(state), tangent);
 }
 
 void JointLock::add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
                                      Eigen::Ref<VectorX> acceleration) const {
-  CoordinateJet& jet = calc(state);
-  const LocalState of_joint = state.of(0);
-  VectorX v(of_joint.slots().size()), a(v.size());
-  get_local_velocities(of_joint, v);
-  get_local_accelerations(of_joint, a);
-  velocity[0] += jet.g().dot(v);
-  acceleration[0] += jet.g().dot(a) + v.dot(jet.S() * v);
+  const auto [first, second] = calc_kept_rates(state);
+  velocity[0] += first;
+  acceleration[0] += second;
 }
 
 std::vector<OutputField> JointLock::output_fields() const {
@@ -62,10 +54,18 @@ void JointLock::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> valu
   if (values.size() > 0) values[0] = std::abs(state.multiplier()[0]) - times_.release;
 }
 
+bool JointLock::is_due(double time) const { return time >= times_.from && time < times_.to; }
+
+/// Only where steps do not end on break points.
+bool JointLock::leaves_branch(const LocalState& state) const {
+  const double status = state.memory()[0];
+  return status != released && is_due(state.time()) != (status == locked);
+}
+
 void JointLock::begin_branch(const LocalState& state, std::span<const int> crossed, Eigen::Ref<VectorX> memory) const {
   if (!crossed.empty()) memory[0] = released;
   if (memory[0] == released) return;
-  const bool now = state.time() >= times_.from && state.time() < times_.to;
+  const bool now = is_due(state.time());
   if (now && memory[0] == open) memory[1] = value(state).value;
   memory[0] = now ? locked : open;
 }

@@ -1,7 +1,8 @@
 // A coordinate that is locked for a time, at the value that it then has.
 //
 // A constraint q - q_lock = 0 that is switched on and off (Component::is_on). Relative motion at the moment of locking
-// is stopped by an inelastic impulse; the lost energy is dissipated. With `release` the lock opens at a force.
+// is stopped by an inelastic impulse; the lost energy is dissipated. With `release` the lock opens at a force, also
+// where the force jumps beyond it.
 #pragma once
 
 #include <limits>
@@ -31,10 +32,12 @@ class JointLock final : public CoordinateAction {
   void add_break_points(std::vector<double>& times) const override;
   void calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const override;
   void begin_branch(const LocalState& state, std::span<const int> crossed, Eigen::Ref<VectorX> memory) const override;
+  bool leaves_branch(const LocalState& state) const override;
   bool is_on(const LocalState& state, int row) const override;
 
  private:
   static constexpr double open = 0, locked = 1, released = 2;  ///< status, in the memory
+  bool is_due(double time) const;
   double distance(const LocalState& state, double value) const;
   LockTimes times_;
 };

@@ -1,6 +1,7 @@
 #include "mechanism/joints/joint_stop.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace bielle::mechanism {
 
@@ -9,7 +10,8 @@ void JointStop::declare(Declaration& declaration) const {
   declaration.damping = range_.damping > 0;
   declaration.kinks = true;  // where the damper lets go
   declaration.memory = {0};  // side in contact
-  declaration.crossings = {{"the upper stop"}, {"the lower stop"}};
+  if (std::isfinite(range_.upper)) declaration.crossings.push_back({coordinate().name + " at its upper stop"});
+  if (std::isfinite(range_.lower)) declaration.crossings.push_back({coordinate().name + " at its lower stop"});
 }
 
 JointStop::Contact JointStop::contact(const LocalState& state, double q, double v) const {
@@ -66,14 +68,22 @@ void JointStop::write_output(const LocalState& state, double* values) const {
 
 void JointStop::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const {
   const double q = value(state).value;
-  values << q - range_.upper, range_.lower - q;
+  Eigen::Index k = 0;
+  if (std::isfinite(range_.upper)) values[k++] = q - range_.upper;
+  if (std::isfinite(range_.lower)) values[k] = range_.lower - q;
+}
+
+bool JointStop::leaves_branch(const LocalState& state) const {
+  const auto [q, v] = value(state);
+  return contact(state, q, v).penetration < 0;
 }
 
 void JointStop::begin_branch(const LocalState& state, std::span<const int> /*crossed*/,
                              Eigen::Ref<VectorX> memory) const {
-  // Behind a crossing the coordinate is beyond the stop by a little, or short of it. On the stop itself its rate tells.
+  // Behind a crossing the coordinate is beyond the stop by a little, or short of it. On the stop itself its rate tells;
+  // what rests there is in contact, and leaves the branch if it is not pressed in.
   const auto [q, v] = value(state);
-  const auto beyond = [](double p, double rate) { return p > 0 || (p == 0 && rate > 0); };
+  const auto beyond = [](double p, double rate) { return p > 0 || (p == 0 && rate >= 0); };
   memory[0] = beyond(q - range_.upper, v) ? 1 : beyond(range_.lower - q, -v) ? -1 : 0;
 }
 

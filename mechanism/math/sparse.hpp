@@ -20,6 +20,14 @@ class SparsePattern {
   int entry_count() const { return static_cast<int>(row_.size()); }
   const std::vector<int>& column_start() const { return column_start_; }
   const std::vector<int>& row() const { return row_; }
+  /// Calls act(place, row, column) for each entry, by columns.
+  template <class Act>
+  void for_each(const Act& act) const {
+    for (int column = 0; column < size_; ++column)
+      for (int k = column_start_[static_cast<std::size_t>(column)];
+           k < column_start_[static_cast<std::size_t>(column) + 1]; ++k)
+        act(k, row_[static_cast<std::size_t>(k)], column);
+  }
   /// Place of an entry among the values, or -1.
   int find(int row, int column) const;
 

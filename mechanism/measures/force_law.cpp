@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -129,10 +130,15 @@ void read_law(const YamlValue& value, const LawVariables& variables, bool of_rat
   const std::vector<std::string> names = {variables.coordinate, variables.rate, "t"};
   if (value.is_map()) {
     value.check_keys({"table"}, "a law of force");
-    const Expression table(fmt::format("table('{}', {})", value.at("table").file_path(),
-                                       of_rate ? variables.rate : variables.coordinate),
-                           names, {}, "/");
-    law.add(StateFormula(table, names.size(), {}));
+    const YamlValue file = value.at("table");
+    const std::string path = std::filesystem::absolute(file.file_path()).string();
+    try {
+      const Expression table(fmt::format("table('{}', {})", path, of_rate ? variables.rate : variables.coordinate),
+                             names);
+      law.add(StateFormula(table, names.size(), {}));
+    } catch (const InputError& error) {
+      file.fail(error.what());
+    }
     return;
   }
   StateFormula formula = read_state_formula(value, names, model, references);

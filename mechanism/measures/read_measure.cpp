@@ -8,6 +8,7 @@
 
 #include "mechanism/measures/combined_measure.hpp"
 #include "mechanism/measures/node_measures.hpp"
+#include "reduce/common/formula_parser.hpp"
 #include "reduce/common/units.hpp"
 
 namespace bielle::mechanism {
@@ -199,8 +200,13 @@ void check_measure_name(const std::string& name, const YamlValue& entry, const M
   const std::vector<std::string> taken = model.announced_measures();
   if (std::find(taken.begin(), taken.end(), name) != taken.end())
     entry.fail(fmt::format("there is a measure or input '{}' already", name));
-  if (name == "t" || entry.parameters().count(name))
-    entry.fail(fmt::format("'{}' is {} already; choose another name", name, name == "t" ? "the time" : "a parameter"));
+  if (entry.parameters().count(name)) entry.fail(fmt::format("'{}' is a parameter already; choose another name", name));
+  const std::vector<std::string> own = {"t", "q", "v", "e", "s"};
+  const auto is_in = [&](const std::vector<std::string>& names) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  if (is_in(own) || is_in(built_in_names()) || is_in(functions))
+    entry.fail(fmt::format("'{}' means something in formulas already; choose another name", name));
   if (words_in(name) != std::vector{name})
     entry.fail("this is a name in formulas: letters, digits and '_', no digit first");
 }

@@ -192,6 +192,7 @@ void Motion::record_step(const MarchStep& step, double before, const EnergyBalan
       books.advance(*time, session_->system_.energy(state, environment));
       session_->record(state, environment, row(step, books));
     }
+    if (parts_.march->stopped()) session_->record(now, environment, *session_->report_);
   } else if ((step.on_grid && parts_.grid_steps % recording.every == 0) || done()) {
     session_->record(now, environment, *session_->report_);
     last_recorded_ = true;
@@ -215,8 +216,10 @@ bool Motion::step() {
   session.report_ = row(step, parts_.books);
   record_step(step, before, books_before);
   const auto& crossings = session.system_.crossings();
-  for (const Passed& passed : step.passed)
-    session.note(Event{passed.time, passed.crossing, crossings[static_cast<std::size_t>(passed.crossing)].name});
+  for (const Passed& passed : step.passed) {
+    last_event_ = crossings[static_cast<std::size_t>(passed.crossing)].name;
+    session.note(Event{passed.time, passed.crossing, last_event_});
+  }
   if (const int every = session.recording_.checkpoint; every > 0 && step.on_grid && parts_.grid_steps % every == 0)
     save_for_sinks();
   if (session.notes_)

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "mechanism/session/energy_balance.hpp"
@@ -45,6 +46,8 @@ class Motion {
   /// row as well. @returns false when it was stopped
   bool finish();
   bool done() const { return parts_.march->done(); }
+  bool stopped_by_event() const { return parts_.march->stopped(); }
+  const std::string& last_event() const { return last_event_; }  ///< its name; empty: there was none
   double begin() const { return parts_.begin; }  ///< [s]
   double end() const { return end_; }            ///< [s]
   double time() const { return state().time; }   ///< [s]
@@ -90,6 +93,7 @@ class Motion {
   double end_ = 0;
   Parts parts_;
   StartReport start_;
+  std::string last_event_;
   bool saved_ = false;         ///< nothing has happened since the last checkpoint
   bool last_recorded_ = true;  ///< the state is in a row
   bool cautioned_ = false;     ///< of joints that turn far in a step

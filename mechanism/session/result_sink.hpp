@@ -23,7 +23,7 @@ struct ResultArray {
 struct Event {
   double time = 0;    ///< [s]
   int crossing = 0;   ///< by number, System::crossings
-  std::string name;   ///< "event 'landed'", "the upper stop of joint 'door'"
+  std::string name;   ///< "event 'landed'", "joint 'door': angle at its upper stop"
 };
 
 class ResultSink {

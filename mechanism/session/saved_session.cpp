@@ -64,6 +64,7 @@ void Session::exchange(Archive& archive, Saved& saved) const {
   archive(saved.loaded.motions);
   archive(saved.acting.gravity);
   archive(saved.acting.load_factor);
+  archive(saved.acting.statics);
   exchange_report(archive, saved.report);
   archive(saved.moving);
   if (saved.moving) return;

@@ -20,16 +20,7 @@ Session::Session(std::unique_ptr<const Model> owned, const Model* model)
       acting_(environment_),
       state_(system_.start(0)),
       shown_(&state_) {
-  std::vector<int> redundant;
-  if (system_.switches()) {  // which constraints are redundant changes with those that are switched
-    system_.begin_branch(state_, environment_);
-    set_redundant_aside(system_, environment_, state_);
-    system_.for_each_redundant(state_, [&](int multiplier) { redundant.push_back(multiplier); });
-  } else {
-    redundant = find_redundant(system_, environment_, state_);
-    system_.set_aside(redundant);
-  }
-  redundant_ = name_constraints(system_, redundant);
+  redundant_ = name_constraints(system_, take_out_redundant(system_, environment_, state_));
 }
 
 Session::Session(Model&& model) : Session(std::make_unique<const Model>(std::move(model)), nullptr) {}
@@ -76,6 +67,7 @@ StartReport Session::assemble() {
 void Session::statics_point(const State& state, double factor, int iterations) {
   shown_ = &state;
   acting_ = environment_;
+  acting_.statics = true;
   acting_.load_factor = factor;
   acting_.gravity *= factor;
   report_.emplace();

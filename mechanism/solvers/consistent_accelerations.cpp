@@ -7,11 +7,14 @@
 // unique, its sign stays the same as long as the solution is unique; and reactions of the opposite sign, from which the
 // search begins once more, lead to the same solution.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
 #include "mechanism/solvers/consistent_start.hpp"
+#include "mechanism/solvers/model_length.hpp"
 #include "mechanism/solvers/reaction_norm.hpp"
 
 namespace bielle::mechanism {
@@ -25,6 +28,7 @@ class AccelerationEquations {
         state_(state),
         saddle_(saddle),
         reactions_(system),
+        length_(model_length(state)),
         v_(system.dofs()),
         a_(system.dofs()),
         r_(system.size()),
@@ -41,28 +45,22 @@ class AccelerationEquations {
 
   /// All unknowns enter linearly.
   void solve_linear() {
-    if (!saddle_.serves()) {
-      saddle_.factor(environment_, state_);
-      solve();
-      return move(1);
-    }
-    // Factors of nearby positions: refined until nothing is gained.
-    constexpr int most = 12;
-    constexpr double accurate = 1e-13;
+    if (!saddle_.serves()) return solve_afresh();
+    // Factors of nearby positions: refined until what is left is rounding. (Differences of such accelerations are taken.)
+    constexpr int most = 20;
+    constexpr double rounding = 1e-11;
     double before = std::numeric_limits<double>::infinity();
     for (int iteration = 0; iteration < most; ++iteration) {
       solve();
       move(1);
       const double size = size_of_all();
-      if (size <= accurate) return;
+      if (size == 0 || (size <= rounding && size > 0.1 * before)) return;
       if (size > 0.3 * before) break;
       before = size;
       evaluate();
     }
     evaluate();
-    saddle_.factor(environment_, state_);
-    solve();
-    move(1);
+    solve_afresh();
   }
 
   void solve_for_algebraic() {
@@ -107,10 +105,17 @@ class AccelerationEquations {
       system_.set_rates(state_, v_, a_);
     }
     if ((found.converged ? found : mirrored).determinant_sign != without)
-      throw_ambiguous("the one found is not the continuation of what there is without friction");
+      throw_ambiguous("the one found is not the continuation of what there is without such forces");
   }
 
  private:
+  void solve_afresh() {
+    saddle_.factor(environment_, state_);
+    solve();
+    move(1);
+    saddle_.serve_no_more();  // those who ask for factors that serve may mean other positions
+  }
+
   void evaluate() {
     const int m = system_.multipliers();
     VectorX velocity(m), acceleration(m);
@@ -156,6 +161,13 @@ class AccelerationEquations {
     for (int i = 0; i < n; ++i) note(i, step_[i], a_[i]);
     for (int i = 0; i < y; ++i) note(n + i, step_[n + i], std::max(std::abs(state_.first_order_rate[i]), std::abs(state_.first_order[i])));
     for (int i = 0; i < system_.multipliers(); ++i) note(n + y + i, step_[n + y + i], state_.multiplier[i]);
+    // Kinds of which nothing is left are measured by the others: accelerations by the model's length, forces by masses.
+    const auto kind_of = [](Kind kind) { return static_cast<std::size_t>(kind); };
+    double &translation = whole[kind_of(Kind::translation)], &rotation = whole[kind_of(Kind::rotation)],
+           &multiplier = whole[kind_of(Kind::multiplier)];
+    translation = std::max(translation, rotation * length_);
+    rotation = std::max(rotation, translation / length_);
+    multiplier = std::max(multiplier, translation * saddle_.scale());
     double most = 0;
     for (std::size_t kind = 0; kind < kind_count; ++kind)
       if (step[kind] > 0) most = std::max(most, step[kind] / std::max(whole[kind], std::numeric_limits<double>::min()));
@@ -271,14 +283,14 @@ class AccelerationEquations {
     const double size = std::max(one.lpNorm<Eigen::Infinity>(), other.lpNorm<Eigen::Infinity>());
     Eigen::Index most = 0;
     if ((one - other).cwiseAbs().maxCoeff(&most) <= 1e-6 * size) return;
-    throw_ambiguous(fmt::format("the reaction {} may be {:.4g} or {:.4g}",
+    throw_ambiguous(fmt::format("the multiplier {} may be {:.4g} or {:.4g}",
                                 system_.unknown_name(system_.size() - system_.multipliers() + static_cast<int>(most)),
                                 one[most], other[most]));
   }
 
   static constexpr const char* advice =
-      "; friction is too strong for rigid parts in this position (Painleve's paradox): give the contact or a part some "
-      "compliance, or reduce the coefficient";
+      "; such forces (friction) are too strong for rigid parts in this position (Painleve's paradox): give a part or the "
+      "contact some compliance, or make them weaker";
   [[noreturn]] void throw_ambiguous(const std::string& how) const {
     throw ComputationError(fmt::format(
         "t = {:.6g} s: forces that depend on reactions leave more than one solution for the accelerations: {}{}",
@@ -295,6 +307,7 @@ class AccelerationEquations {
   State& state_;
   MassSaddle& saddle_;
   ReadReactions reactions_;
+  double length_;
   VectorX v_, a_, r_, step_;
   VectorX begin_;             ///< first-order unknowns
   std::vector<double> size_;  ///< of each algebraic unknown
@@ -311,7 +324,8 @@ void make_accelerations_consistent(const System& system, const Environment& envi
   else if (!system.algebraic().empty())
     equations.solve_for_algebraic();
   else
-    equations.solve_linear();
+    return equations.solve_linear();
+  saddle.serve_no_more();
 }
 
 void make_accelerations_consistent(const System& system, const Environment& environment, State& state) {

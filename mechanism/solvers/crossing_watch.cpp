@@ -14,22 +14,34 @@ CrossingWatch::CrossingWatch(const System& system) : system_(system) {
   const auto count = static_cast<Eigen::Index>(system.crossings().size());
   for (VectorX* vector : {&sides_, &at_start_, &at_low_, &at_high_, &weight_}) vector->setZero(count);
   last_end_.assign(system.crossings().size(), 0);
+  for (Eigen::Index k = 0; k < sides_.size(); ++k)
+    sides_[k] = system.crossings()[static_cast<std::size_t>(k)].crossing.begins_on;
 }
 
-void CrossingWatch::begin(const State& state, const Environment& environment) {
+std::vector<int> CrossingWatch::begin(const State& state, const Environment& environment) {
   system_.calc_crossings(state, environment, at_start_);
-  for (Eigen::Index k = 0; k < sides_.size(); ++k)
-    if (const double side = side_of(at_start_[k]); side != 0) sides_[k] = side;
+  std::vector<int> jumped;
+  for (int k = 0; k < static_cast<int>(sides_.size()); ++k) {
+    const double side = side_of(at_start_[k]);
+    if (side == 0) continue;
+    if (side == -sides_[k] && counts(k)) jumped.push_back(k);
+    sides_[k] = side;
+  }
+  return jumped;
+}
+
+bool CrossingWatch::counts(int k) const {
+  using Direction = Crossing::Direction;
+  const Direction direction = system_.crossings()[static_cast<std::size_t>(k)].crossing.direction;
+  return direction == Direction::both || (direction == Direction::rising) == (sides_[k] < 0);
 }
 
 bool CrossingWatch::has_crossed(int k, double value) const {
   const double side = sides_[k];
   if (side == 0 || side * value > 0) return false;
-  using Direction = Crossing::Direction;
-  const Direction direction = system_.crossings()[static_cast<std::size_t>(k)].crossing.direction;
   // A value of zero at the start has no other side to come from: the sign tells where the motion is.
   if (value == 0 && at_start_[k] == 0) return false;
-  return direction == Direction::both || (direction == Direction::rising) == (side < 0);
+  return counts(k);
 }
 
 void CrossingWatch::collect(const VectorX& values, std::vector<int>& crossed) const {

@@ -22,7 +22,8 @@ class CrossingWatch {
   bool idle() const { return system_.crossings().empty(); }
 
   /// Looks at the start of a step.
-  void begin(const State& state, const Environment& environment);
+  /// @returns the crossings that have come to another side since the last step ended: what they look at has jumped
+  std::vector<int> begin(const State& state, const Environment& environment);
   /// Whether a step of the size h that ends in a state holds a crossing. Begins the search for the first one if it does.
   /// @param tolerance  how far behind the zero the step may end [s]
   bool found(const State& end, const Environment& environment, double h, double tolerance);
@@ -41,6 +42,7 @@ class CrossingWatch {
   /// Crossings with a zero between the start and values at the end of a step.
   void collect(const VectorX& values, std::vector<int>& crossed) const;
   bool has_crossed(int k, double value) const;
+  bool counts(int k) const;  ///< the direction in which a crossing from its side goes
 
   const System& system_;
   VectorX sides_;                ///< +1 or -1: where the motion is; 0: not known yet

@@ -61,7 +61,7 @@ bool LinearStep::nearly_singular() const { return factors_.reciprocal_condition(
 void LinearStep::throw_singular(double time) const {
   const int column = factors_.singular_column();
   const std::string what = column >= 0 ? system_.unknown_name(column) : "an unknown";
-  const char* why = "it has no mass, or nothing holds it, or constraints beside it are redundant";
+  const char* why = "it has no mass, or nothing holds it, or constraints next to it are redundant";
   if (column >= system_.size() - system_.multipliers())
     why = "the constraint repeats what others hold already (redundant)";
   else if (column >= system_.dofs())

@@ -126,17 +126,40 @@ void March::exchange(Archive& archive) {
   stops_->advance(integration_.state().time);
 }
 
-void March::begin_step() {
+void March::begin_branch(double h) {
+  const Jump jump = integration_.begin_branch(h, crossed_);
+  if (jump_listener_) jump_listener_(jump);
+}
+
+void March::begin_step(MarchStep& step) {
   const double h = std::min(size_, stops_->time() - integration_.state().time);
+  const bool jumps = pending_ == Pending::start || pending_ == Pending::branch;
   if (pending_ == Pending::start) integration_.start(h);
   if (pending_ == Pending::restart) integration_.restart(h);
-  if (pending_ == Pending::branch) {
-    const Jump jump = integration_.begin_branch(h, crossed_);
-    if (jump_listener_) jump_listener_(jump);
-  }
+  if (pending_ == Pending::branch) begin_branch(h);
   pending_ = Pending::nothing;
+  if (!watch_.idle()) {
+    std::vector<int> jumped = watch_.begin(integration_.state(), integration_.environment());
+    // On which side of its zero that is which has just been met, rounding tells.
+    std::erase_if(jumped, [&](int k) { return std::find(crossed_.begin(), crossed_.end(), k) != crossed_.end(); });
+    if (jumps) pass_jumps(h, std::move(jumped), step);
+  }
   crossed_.clear();
-  if (!watch_.idle()) watch_.begin(integration_.state(), integration_.environment());
+}
+
+/// Crossings that were jumped over at a discontinuity: they may begin further branches there.
+void March::pass_jumps(double h, std::vector<int> jumped, MarchStep& step) {
+  constexpr int most = 100;
+  for (int k = 0; !jumped.empty(); ++k) {
+    if (k == most) throw_chattering(jumped.front());
+    crossed_.clear();
+    note(jumped, step);
+    const bool restarts = pending_ == Pending::branch;
+    pending_ = Pending::nothing;
+    if (stopped_ || !restarts) return;
+    begin_branch(h);
+    jumped = watch_.begin(integration_.state(), integration_.environment());
+  }
 }
 
 StepReport March::attempt(double h, double end, bool kink) {
@@ -173,18 +196,25 @@ double March::locate(double time, StepReport& report) {
 /// What the crossings at the end of an accepted step ask for.
 void March::pass_crossings(MarchStep& step) {
   const double time = integration_.state().time;
-  const auto& all = integration_.system().crossings();
   crossings_at_once_ = time - last_crossing_ <= 1e-7 * size_ ? crossings_at_once_ + 1 : 0;
   last_crossing_ = time;
   const std::vector<int> passed = watch_.pass();
   constexpr long most = 1000;
-  if (crossings_at_once_ > most)
-    throw ComputationError(fmt::format(
-        "t = {:.6g} s: '{}' happens again and again without the motion going on: give the contact some compliance, or "
-        "the switch some hysteresis",
-        time, all[static_cast<std::size_t>(passed.front())].name));
+  if (crossings_at_once_ > most) throw_chattering(passed.front());
+  note(passed, step);
+}
+
+void March::throw_chattering(int crossing) const {
+  throw ComputationError(fmt::format(
+      "t = {:.6g} s: '{}' happens again and again without the motion going on: give the contact some compliance, or "
+      "the switch some hysteresis",
+      integration_.state().time, integration_.system().crossings()[static_cast<std::size_t>(crossing)].name));
+}
+
+void March::note(const std::vector<int>& passed, MarchStep& step) {
+  const double time = integration_.state().time;
   for (const int k : passed) {
-    const Crossing& crossing = all[static_cast<std::size_t>(k)].crossing;
+    const Crossing& crossing = integration_.system().crossings()[static_cast<std::size_t>(k)].crossing;
     step.passed.push_back({time, k});
     crossed_.push_back(k);
     ++log_.crossings;
@@ -216,7 +246,12 @@ void March::refuse_by_error(double h, double error) {
 MarchStep March::advance() {
   constexpr int most = 2;
   const bool adaptive = options_.tolerance > 0;
-  begin_step();
+  MarchStep step{{}, 0, adaptive, {}};
+  begin_step(step);
+  if (stopped_) {
+    step.on_grid = false;
+    return step;
+  }
   int too_large = 0;  // errors, one after the other
   while (true) {
     const double time = integration_.state().time, left = stops_->time() - time;
@@ -265,7 +300,8 @@ MarchStep March::advance() {
       log_.smallest = log_.smallest > 0 ? std::min(log_.smallest, h) : h;
       log_.largest = std::max(log_.largest, h);
     }
-    MarchStep step{report, error, adaptive, {}};
+    step.report = report;
+    step.error = error;
     if (crossing > 0) pass_crossings(step);
     if (branch_left) pending_ = Pending::branch;
     if (crossing > 0 && crossing < h) {

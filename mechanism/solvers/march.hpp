@@ -77,7 +77,8 @@ class March {
   bool stopped() const { return stopped_; }  ///< by a crossing
   /// Forces have changed from outside: the next step begins another branch.
   void begin_branch() { pending_ = pending_ == Pending::start ? pending_ : Pending::branch; }
-  /// Takes one step. What a kink at its end asks for is done when the next one begins.
+  /// Takes one step. What a kink at its end asks for is done when the next one begins; where a crossing stops the run
+  /// there, that is all, and the step has no size.
   /// @throws ComputationError when Newton's method fails with the smallest steps too: 1/1024 of the fixed size, or
   /// 1e-10
   ///         of the span
@@ -92,9 +93,13 @@ class March {
  private:
   class Stops;
   enum class Pending { nothing, start, restart, branch };
-  void begin_step();
+  void begin_step(MarchStep& step);
+  void begin_branch(double h);
+  void pass_jumps(double h, std::vector<int> jumped, MarchStep& step);
+  void note(const std::vector<int>& passed, MarchStep& step);
   double locate(double time, StepReport& report);
   StepReport attempt(double h, double end, bool kink);
+  [[noreturn]] void throw_chattering(int crossing) const;
   void pass_crossings(MarchStep& step);
   void refuse_by_error(double h, double error);
   void refuse_by_newton(double h, const StepReport& report);

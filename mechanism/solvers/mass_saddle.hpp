@@ -19,6 +19,7 @@ class MassSaddle {
   const VectorX& floor() const { return floor_; }
   /// step = -(matrix)^-1 r. @param r,step (size)
   void solve(const Eigen::Ref<const VectorX>& r, Eigen::Ref<VectorX> step) const { linear_.solve(r, step); }
+  double scale() const { return linear_.scale(); }  ///< of the masses
   /// Sign of the last matrix's determinant.
   int determinant_sign() const { return linear_.determinant_sign(); }
 

@@ -10,14 +10,6 @@ namespace {
 
 constexpr double delta = 1e-7;
 
-template <class Act>
-void for_each_entry(const SparsePattern& pattern, const Act& act) {
-  for (int column = 0; column < pattern.size(); ++column)
-    for (int k = pattern.column_start()[static_cast<std::size_t>(column)];
-         k < pattern.column_start()[static_cast<std::size_t>(column) + 1]; ++k)
-      act(k, pattern.row()[static_cast<std::size_t>(k)], column);
-}
-
 /// Unknowns here: dofs, then multipliers. @returns -1 for first-order unknowns
 int number(const System& system, int unknown) {
   if (unknown < system.dofs()) return unknown;
@@ -33,7 +25,7 @@ bool is_constraint(const System& system, int row, int column) {
 SparsePattern make_pattern(const System& system) {
   const int n = system.dofs();
   std::vector<std::pair<int, int>> entries;
-  for_each_entry(system.pattern(), [&](int, int row, int column) {
+  system.pattern().for_each([&](int, int row, int column) {
     if (!is_constraint(system, row, column)) return;
     entries.emplace_back(number(system, row), column);
     entries.emplace_back(column, number(system, row));
@@ -51,7 +43,7 @@ SparsePattern make_pattern(const System& system) {
 ReactionNorm::ReactionNorm(const System& system)
     : system_(system), pattern_(make_pattern(system)), factors_(pattern_) {
   from_.assign(2 * static_cast<std::size_t>(system.pattern().entry_count()), -1);
-  for_each_entry(system.pattern(), [&](int k, int row, int column) {
+  system.pattern().for_each([&](int k, int row, int column) {
     if (!is_constraint(system, row, column)) return;
     from_[2 * static_cast<std::size_t>(k)] = pattern_.find(number(system, row), column);
     from_[2 * static_cast<std::size_t>(k) + 1] = pattern_.find(column, number(system, row));
@@ -79,7 +71,7 @@ void ReactionNorm::factor(const Environment& environment, const State& state) {
   system_.tangent(whole, environment, TangentWeights{0, 0, 0, 0, 1, true}, nullptr, tangent_);
   const double arm = redundancy_arm(system_, environment, whole);
   std::fill(values_.begin(), values_.end(), 0.0);
-  for_each_entry(system_.pattern(), [&](int k, int row, int column) {
+  system_.pattern().for_each([&](int k, int row, int column) {
     if (!is_constraint(system_, row, column)) return;
     for (const std::size_t side : {0U, 1U})
       values_[static_cast<std::size_t>(from_[2 * static_cast<std::size_t>(k) + side])] =
@@ -124,7 +116,7 @@ VectorX ReactionNorm::smallest(const VectorX& multiplier) const {
   const int n = system_.dofs(), m = system_.multipliers();
   VectorX f = VectorX::Zero(n), Bu(m), u = VectorX::Zero(n), solution(n + m);
   const auto for_each_constraint = [&](const auto& act) {
-    for_each_entry(system_.pattern(), [&](int k, int row, int column) {
+    system_.pattern().for_each([&](int k, int row, int column) {
       if (is_constraint(system_, row, column))
         act(number(system_, row) - n, column, tangent_[static_cast<std::size_t>(k)]);
     });

@@ -106,6 +106,19 @@ void set_redundant_aside(const System& system, const Environment& environment, S
   }
 }
 
+std::vector<int> take_out_redundant(System& system, const Environment& environment, State& state) {
+  if (!system.switches()) {
+    const std::vector<int> redundant = find_redundant(system, environment, state);
+    system.set_aside(redundant);
+    return redundant;
+  }
+  system.begin_branch(state, environment);
+  set_redundant_aside(system, environment, state);
+  std::vector<int> redundant;
+  system.for_each_redundant(state, [&](int multiplier) { redundant.push_back(multiplier); });
+  return redundant;
+}
+
 std::string describe_singularity(const System& system, const Environment& environment, const State& state) {
   constexpr double near = 0.02;
   std::vector<int> repeating = find_redundant(system, environment, state, near);
@@ -161,9 +174,8 @@ void check_set_aside(const System& system, const Environment& environment, const
       return;
     const int equation = system.size() - system.multipliers() + multiplier;
     throw ComputationError(
-        fmt::format("t = {:.6g} s: {} looked redundant at the start and was set aside, but is violated by {:.3g} {}: "
-                    "it contradicts the "
-                    "joints and drives before it",
+        fmt::format("t = {:.6g} s: {} looked redundant and was set aside, but is violated by {:.3g} {}: it "
+                    "contradicts the joints, locks and drives before it",
                     state.time, system.equation_name(equation), violation, system.equation_units(equation)));
   });
 }

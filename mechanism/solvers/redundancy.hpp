@@ -25,6 +25,12 @@ State with_redundant(const System& system, const State& state);
 /// its nodes [m], redundant ones included.
 double redundancy_arm(const System& system, const Environment& environment, const State& state);
 
+/// Takes what is redundant where a motion is to begin out of the equations, for good or, where constraints can be
+/// switched, for as long as it is redundant. Call before solvers are made.
+/// @param state  as System::start gives it
+/// @returns multipliers, ascending
+std::vector<int> take_out_redundant(System& system, const Environment& environment, State& state);
+
 /// Where constraints can be switched (System::switches): marks those that repeat others among the ones that are on, and
 /// takes the marks from the others.
 void set_redundant_aside(const System& system, const Environment& environment, State& state);

@@ -15,19 +15,10 @@ std::vector<bool> find_holonomic(const System& system) {
   return holonomic;
 }
 
-/// Calls act(entry, row, column) for each entry of a pattern.
-template <class Act>
-void for_each_entry(const SparsePattern& pattern, const Act& act) {
-  for (int column = 0; column < pattern.size(); ++column)
-    for (int k = pattern.column_start()[static_cast<std::size_t>(column)];
-         k < pattern.column_start()[static_cast<std::size_t>(column) + 1]; ++k)
-      act(k, pattern.row()[static_cast<std::size_t>(k)], column);
-}
-
 SparsePattern large_pattern(const System& system, const std::vector<bool>& holonomic) {
   const int n = system.dofs(), first = system.size() - system.multipliers(), eta = system.size(), mu = eta + n;
   std::vector<std::pair<int, int>> entries;
-  for_each_entry(system.pattern(), [&](int, int row, int column) {
+  system.pattern().for_each([&](int, int row, int column) {
     entries.emplace_back(row, column);
     if (column >= n) return;
     entries.emplace_back(row, eta + column);
@@ -51,7 +42,7 @@ StabilisedStep::StabilisedStep(const System& system)
       places_(static_cast<std::size_t>(system.pattern().entry_count())),
       factors_(pattern_) {
   const int n = system.dofs(), first = system.size() - system.multipliers(), eta = system.size(), mu = eta + n;
-  for_each_entry(system.pattern(), [&](int k, int row, int column) {
+  system.pattern().for_each([&](int k, int row, int column) {
     Places& places = places_[static_cast<std::size_t>(k)];
     places.tangent = pattern_.find(row, column);
     if (column >= n) return;
@@ -93,7 +84,7 @@ void StabilisedStep::add_residual(const State& state, const Environment& environ
   const int n = system_.dofs(), m = system_.multipliers(), first = system_.size() - m;
   auto balance = r.segment(system_.size(), n);
   balance = weight_.cwiseProduct(eta);
-  for_each_entry(system_.pattern(), [&](int k, int row, int column) {
+  system_.pattern().for_each([&](int k, int row, int column) {
     if (places_[static_cast<std::size_t>(k)].constraint >= 0)
       balance[column] -= constraint_[static_cast<std::size_t>(k)] * mu[row - first];
   });

@@ -40,6 +40,8 @@ struct Crossing {
   /// Forces, rates or constraints may change behind it: the motion is started anew there. Otherwise it is only noted.
   bool restarts = true;
   bool stops = false;  ///< the run ends there
+  /// The side that every motion comes from, +1 or -1: one that begins beyond has crossed. 0: any.
+  int begins_on = 0;
 };
 
 /// Collects what a component needs. Names come back in messages and results: "moment z of joint 'main'".

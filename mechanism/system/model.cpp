@@ -89,6 +89,7 @@ void Model::connect() {
     stage.clear();
   }
   for (std::size_t k = 0; k < announced_.size(); ++k) find_measure(announced_[k].name);
+  announced_.clear();
 }
 
 void Model::announce_measure(const std::string& name, std::function<void()> make) {

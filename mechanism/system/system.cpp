@@ -59,7 +59,7 @@ System::System(const Model& model) : model_(model), kinematics_(model) {
         switched_.push_back({index, k, slots.multiplier_begin + k});
     for (int k = 0; k < static_cast<int>(declaration.crossings.size()); ++k) {
       const Crossing& crossing = declaration.crossings[static_cast<std::size_t>(k)];
-      crossings_.push_back({index, k, crossing, crossing.name.empty() ? describe(member) : fmt::format("{} of {}", crossing.name, describe(member))});
+      crossings_.push_back({index, k, crossing, describe(member) + (crossing.name.empty() ? "" : ": " + crossing.name)});
     }
     if (!declaration.passive) acting_.push_back(index);
     reads_reactions_ = reads_reactions_ || declaration.reads_reactions;

@@ -45,7 +45,7 @@ struct MemberCrossing {
   std::size_t member;
   int index;  ///< among the member's own
   Crossing crossing;
-  std::string name;  ///< with its owner: "gap closes of joint 'latch'"
+  std::string name;  ///< with its owner: "joint 'door': angle at its upper stop"
 };
 
 /// Why a constraint is out of the equations (State::idle).

@@ -96,7 +96,7 @@ std::vector<Sample> joint_samples() {
                                {"stiffness.angle", "'x'", "x"},
                                {"damping", "{turn: 1}", "turn"},
                                {"damping.angle", "-1", ""},
-                               {"rest", "{angle: 1}", "stiffness"},
+                               {"stiffness", "", "give its `stiffness`"},
                                {"rest.displacement", "far", ""},
                                {"preload", "1", "several coordinates"},
                                {"preload.angle", "'q'", "q"},

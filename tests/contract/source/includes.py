@@ -10,11 +10,11 @@ import re
 # "" is the program's own folder: what stands beside main.
 FOLDERS = {
     "reduce": ["common", "superelement", "spectral", "mesh", "fe", "reduction", ""],
-    "mechanism": ["math", "system", "elements", "joints", "solvers", "session", "analyses", "io", ""],
+    "mechanism": ["math", "system", "measures", "elements", "joints", "solvers", "session", "analyses", "io", ""],
 }
 SHARED = ["common", "superelement", "spectral"]
-# Integration schemes know no element and no joint.
-FORBIDDEN = {("mechanism", "solvers"): ["elements", "joints"]}
+# Integration schemes know no measure, no element and no joint.
+FORBIDDEN = {("mechanism", "solvers"): ["measures", "elements", "joints"]}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"')
 

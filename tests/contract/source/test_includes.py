@@ -23,13 +23,16 @@ class Includes(unittest.TestCase):
                    ("reduce/main.cpp", "reduce/reduction/a.hpp"), ("mechanism/io/a.cpp", "mechanism/math/so3.hpp"),
                    ("mechanism/elements/a.cpp", "reduce/superelement/superelement.hpp"),
                    ("mechanism/solvers/a.cpp", "reduce/spectral/a.hpp"), ("mechanism/analyses/a.cpp", "mechanism/session/session.hpp"),
-                   ("mechanism/io/a.cpp", "mechanism/analyses/analysis.hpp")]
+                   ("mechanism/io/a.cpp", "mechanism/analyses/analysis.hpp"),
+                   ("mechanism/joints/a.cpp", "mechanism/measures/a.hpp")]
         refused = [("reduce/common/a.hpp", "reduce/mesh/mesh.hpp"), ("reduce/mesh/a.hpp", "reduce/body_file.hpp"),
                    ("mechanism/system/a.cpp", "mechanism/elements/beam.hpp"), ("mechanism/io/a.cpp", "reduce/fe/a.hpp"),
                    ("mechanism/session/a.cpp", "mechanism/io/results_file.hpp"),
                    ("mechanism/session/a.cpp", "mechanism/analyses/analysis.hpp"),
                    ("mechanism/joints/a.cpp", "reduce/body_file.hpp"), ("reduce/fe/a.cpp", "mechanism/math/so3.hpp"),
-                   ("mechanism/solvers/a.cpp", "mechanism/joints/a.hpp"), ("reduce/fe/a.cpp", "material.hpp"),
+                   ("mechanism/solvers/a.cpp", "mechanism/joints/a.hpp"),
+                   ("mechanism/solvers/a.cpp", "mechanism/measures/a.hpp"), ("mechanism/measures/a.cpp", "mechanism/joints/a.hpp"),
+                   ("reduce/fe/a.cpp", "material.hpp"),
                    ("reduce/fe/a.cpp", "../mesh/mesh.hpp"), ("reduce/fe/a.cpp", "tests/support/a.hpp"),
                    ("reduce/fe/a.cpp", "reduce/elsewhere/a.hpp")]
         for path, included in allowed:

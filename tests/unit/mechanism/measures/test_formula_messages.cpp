@@ -47,7 +47,8 @@ TEST_CASE("functions of nodes take two different nodes") {
   CHECK_THAT(message("angle(pin, ground, 'end plate')"), Contains("expected two nodes") && Contains("angle(a, b)"));
   CHECK_THAT(message("distance(pin, pin)"), Contains("two different nodes"));
   CHECK_THAT(message("distance(pin, ground).x"), Contains("nothing can follow it"));
-  CHECK_THAT(message("distance(pin, 2)"), Contains("takes names"));
+  CHECK_THAT(message("distance(pin, 2)"), Contains("no node '2'") && Contains("'end plate'"));
+  CHECK_THAT(message("distance(pin, 2*t)"), Contains("takes names"));
 }
 
 TEST_CASE("names of several words are quoted, and a quote that is not closed is told") {

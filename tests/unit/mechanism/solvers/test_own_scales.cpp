@@ -1,4 +1,4 @@
-// Unknowns that bring their scale are judged by it: a bristle of a micrometre beside a pressure of a hundred bar.
+// Unknowns that bring their scale are judged by it: a bristle of a micrometre in one model with a pressure of a hundred bar.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -87,7 +87,7 @@ struct March01 {
 
 }  // namespace
 
-TEST_CASE("Newton's method solves for a bristle as well beside a pressure as alone") {
+TEST_CASE("Newton's method solves for a bristle as well next to a pressure as alone") {
   for (const bool reuse : {false, true}) {
     NewtonOptions options, strict;
     options.reuse_tangent = strict.reuse_tangent = reuse;
@@ -102,7 +102,7 @@ TEST_CASE("Newton's method solves for a bristle as well beside a pressure as alo
   }
 }
 
-TEST_CASE("Newton's method solves for small amplitudes as well beside large ones as alone, with mass and without") {
+TEST_CASE("Newton's method solves for small amplitudes as well next to large ones as alone, with mass and without") {
   const auto amplitude = [](double size, double mass) {
     const Declaration::Scalar unknown{"value", "m", 0, ConstraintKind::holonomic, size};
     return std::make_unique<ScalarAmplitude>("amplitude", unknown, ScalarAmplitude::Law{mass, 1, 1e3, size, 30});
@@ -132,7 +132,7 @@ TEST_CASE("Newton's method solves for small amplitudes as well beside large ones
     }
 }
 
-TEST_CASE("adaptive steps keep the error of a bristle to its tolerance beside a pressure") {
+TEST_CASE("adaptive steps keep the error of a bristle to its tolerance next to a pressure") {
   const Ready alone(bristle()), together(bristle(), pressure());
   for (const double tolerance : {1e-4, 1e-5}) {
     CAPTURE(tolerance);

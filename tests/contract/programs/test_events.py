@@ -1,0 +1,92 @@
+"""Events of bielle-mechanism: noted in the results file, ending runs, and the same across restarts."""
+
+import math
+import os
+import shutil
+import unittest
+
+import h5py
+import numpy as np
+
+from command import CommandTest
+from test_long_runs import datasets
+
+# An arm that falls on a stop again and again, with a flap that is locked for a time and clamped by a weak catch.
+MODEL = """\
+gravity: [0, 0, -9.81]
+nodes:
+  arm: {position: [0.5, 0, 0]}
+  flap: {position: [1.2, 0, 0], velocity: [0, 0, 1.2], angular_velocity: [0, -6, 0]}
+elements:
+  arm: {type: rigid_body, node: arm, mass: 2, inertia: [0.01, 0.2, 0.2]}
+  flap: {type: rigid_body, node: flap, mass: 0.3, inertia: [0.001, 0.01, 0.01]}
+joints:
+  main: {type: hinge, nodes: [ground, arm], position: [0, 0, 0], axis: [0, 1, 0],
+         stops: {range: [~, 0.4], stiffness: 4000, damping: 20}}
+  tip: {type: hinge, nodes: [arm, flap], position: [1, 0, 0], axis: [0, 1, 0],
+        locked: {from: 0.1234, to: 0.6543}}
+events:
+  fast: {when: main.angle.rate, crosses: 2}
+  level: {when: main.angle, crosses: 0.2, direction: falling}
+output: {checkpoint: EVERY}
+analysis:
+  - {type: dynamic, duration: DURATION, step: 1e-3}
+"""
+
+
+class Events(CommandTest):
+    program = "bielle-mechanism"
+
+    def run_model(self, name, every, duration, *arguments):
+        self.write(f"{name}.yaml", MODEL.replace("EVERY", str(every)).replace("DURATION", str(duration)))
+        done = self.run_program(f"{name}.yaml", "--quiet", *arguments)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_a_restarted_run_equals_the_whole_one_events_and_all(self):
+        # The same steps to the last bit need the same checkpoints: pivots are chosen anew there.
+        self.run_model("whole", 70, 1.2)
+        with h5py.File(os.path.join(self.folder, "whole.h5")) as whole:
+            events = whole["analysis_1/events/time"][:]
+            names = whole["crossings"][()].decode().splitlines()
+            checkpoints = whole["checkpoints/analysis_1/rows"].shape[0]
+            expected = {name: data[:] for name, data in datasets(whole["analysis_1"]).items()}
+        self.assertGreater(len(events), 8)
+        self.assertTrue(np.all(np.diff(events) >= 0))
+        self.assertIn("the upper stop of joint 'main'", names)
+        # Cut off behind each of several checkpoints: before the lock, within, between contacts.
+        for keep in (1, 3, 8, 12, checkpoints - 1):
+            shutil.copy(os.path.join(self.folder, "whole.h5"), os.path.join(self.folder, "part.h5"))
+            with h5py.File(os.path.join(self.folder, "part.h5"), "r+") as part:
+                for data in datasets(part["checkpoints/analysis_1"]).values():
+                    if data.shape and data.shape[0] == checkpoints:
+                        data.resize(keep, axis=0)
+                part.attrs["complete"] = 0
+            self.run_model("part", 70, 1.2, "--restart", "part.h5")
+            with h5py.File(os.path.join(self.folder, "part.h5")) as part:
+                self.assertEqual(part.attrs["complete"], 1)
+                found = datasets(part["analysis_1"])
+                self.assertEqual(sorted(found), sorted(expected))
+                for name, data in found.items():
+                    np.testing.assert_array_equal(data[:], expected[name], err_msg=f"{name}, {keep}")
+
+    def test_an_event_that_stops_ends_the_run_as_complete(self):
+        self.write("model.yaml", """\
+gravity: [0, 0, -10]
+nodes: {stone: {position: [0, 0, 2], fixed: [rx, ry, rz]}}
+elements: {stone: {type: point_mass, node: stone, mass: 1}}
+events: {landed: {when: stone.position.z, crosses: 1.3, direction: falling, action: stop}}
+analysis: [{type: dynamic, duration: 5, step: 0.1}]
+""")
+        done = self.run_program("model.yaml")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with h5py.File(os.path.join(self.folder, "model.h5")) as results:
+            self.assertEqual(results.attrs["complete"], 1)
+            landed = math.sqrt(0.7 / 5)  # exact for the scheme; located to 1e-10 of a step
+            self.assertAlmostEqual(results["analysis_1/time"][-1], landed, delta=2e-11)
+            self.assertEqual(results["analysis_1/events/time"][:].tolist(), [results["analysis_1/time"][-1]])
+            name = results["crossings"][()].decode().splitlines()[int(results["analysis_1/events/crossing"][0])]
+            self.assertEqual(name, "event 'landed'")
+
+
+if __name__ == "__main__":
+    unittest.main()
