@@ -7,6 +7,7 @@
 #include "mechanism/analyses/analysis_table.hpp"
 #include "mechanism/analyses/newton_reader.hpp"
 #include "mechanism/analyses/summary_text.hpp"
+#include "mechanism/session/unique_reactions.hpp"
 #include "mechanism/solvers/model_length.hpp"
 
 namespace bielle::mechanism {
@@ -169,7 +170,7 @@ void DynamicAnalysis::finish(Session& session, Motion& motion, const std::string
   summary.numbers["end_time"] = {motion.time()};
   summary.numbers["steps"] = {static_cast<double>(log.steps)};
   summary.numbers["balance"] = {motion.balance()};
-  summary.text = heading + format_start(motion.start()) + format_redundant(session.redundant());
+  summary.text = heading + format_start(motion.start()) + format_redundant(session.redundant(), joints_not_unique(session.system(), session.acting(), session.state()));
   if (log.steps > 0)
     summary.text += format_steps(log.steps, log.iterations, summary.records, motion.time()) +
                     format_march(log, session.system()) + format_events(motion) + format_energy(session, motion);

@@ -5,6 +5,7 @@
 #include "mechanism/analyses/analysis_table.hpp"
 #include "mechanism/analyses/newton_reader.hpp"
 #include "mechanism/analyses/summary_text.hpp"
+#include "mechanism/session/unique_reactions.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -75,7 +76,7 @@ void StaticAnalysis::solve(Session& session, AnalysisSummary& summary) const {
   summary.text = options_.path ? fmt::format("static, arc length, {} points to load factor {:.6g}\n", report.points,
                                              report.load_factor)
                                : fmt::format("static, {} load step{}\n", report.points, report.points == 1 ? "" : "s");
-  summary.text += format_redundant(session.redundant());
+  summary.text += format_redundant(session.redundant(), joints_not_unique(session.system(), session.acting(), session.state()));
   if (report.points == 0) return;
   summary.text += format_steps(report.points, report.iterations, summary.records, session.time());
   for (const double factor : report.limit_points)

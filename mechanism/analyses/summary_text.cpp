@@ -1,6 +1,7 @@
 #include "mechanism/analyses/summary_text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace bielle::mechanism {
 
@@ -26,10 +27,19 @@ std::string format_start(const StartReport& start) {
   return text;
 }
 
-std::string format_redundant(const std::vector<std::string>& redundant) {
+std::string describe_not_unique(const std::vector<std::string>& joints) {
+  if (joints.empty()) return {};
+  if (joints.size() == 1)
+    return fmt::format("the reaction of joint '{}' is not unique: the smallest is reported", joints.front());
+  return fmt::format("the reactions of joints '{}' are not unique: the smallest are reported",
+                     fmt::join(joints, "', '"));
+}
+
+std::string format_redundant(const std::vector<std::string>& redundant, const std::vector<std::string>& not_unique) {
   std::string text;
   for (const std::string& name : redundant)
-    text += fmt::format("  redundant: {}; set aside, without reactions\n", name);
+    text += fmt::format("  redundant: {}; set aside\n", name);
+  if (!not_unique.empty()) text += fmt::format("  {}\n", describe_not_unique(not_unique));
   return text;
 }
 

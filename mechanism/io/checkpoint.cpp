@@ -178,9 +178,15 @@ void rewind_to(Hdf5File& file, const Checkpoint& checkpoint) {
   file.truncate_rows(group + "/time", checkpoint.rows);
   file.flush();
   // Events are no rows over time; how many there were stands in the checkpoint (ResultsFile::exchange).
+  // What an analysis says at its end (`reaction_unique`) it will say again.
+  std::vector<std::string> of_the_end;
   for_each_dataset(file, group, [&](const std::string& dataset) {
-    if (dataset.rfind(group + "/events/", 0) != 0) file.truncate_rows(dataset, checkpoint.rows);
+    if (file.shape(dataset).empty())
+      of_the_end.push_back(dataset);
+    else if (dataset.rfind(group + "/events/", 0) != 0)
+      file.truncate_rows(dataset, checkpoint.rows);
   });
+  for (const std::string& dataset : of_the_end) file.remove(dataset);
   const std::string checkpoints = root + group;
   file.truncate_rows(checkpoints + "/state", file.shape(checkpoints + "/rows")[0]);
   file.flush();

@@ -11,6 +11,7 @@
 #include "mechanism/elements/beam_element.hpp"
 #include "mechanism/elements/rigid_body.hpp"
 #include "mechanism/joints/joint.hpp"
+#include "mechanism/session/unique_reactions.hpp"
 #include "mechanism/solvers/massless_direction.hpp"
 #include "mechanism/solvers/redundancy.hpp"
 
@@ -155,7 +156,9 @@ std::string describe_model(const MechanismFile& file) {
                       system.dofs() - independent, independent);
   text += format_start(report);
   for (const std::string& names : name_constraints(system, redundant))
-    text += fmt::format("  redundant    {}: set aside, without reactions\n", names);
+    text += fmt::format("  redundant    {}: set aside\n", names);
+  if (const std::vector<std::string> joints = joints_not_unique(system, model.environment, state); !joints.empty())
+    text += fmt::format("  reactions    {}\n", describe_not_unique(joints));
   text += describe_nodes(model, system, state);
   text += describe_elements(model);
   for (const Member& member : model.members()) {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/measures/input_measure.hpp"
+#include "mechanism/session/unique_reactions.hpp"
 #include "mechanism/solvers/redundancy.hpp"
 #include "mechanism/solvers/statics.hpp"
 #include "reduce/common/error.hpp"
@@ -238,6 +239,8 @@ void Session::write(const ResultArray& array) {
 }
 
 void Session::end_analysis() {
+  if (open_ && rows_ > 0)
+    for (const ResultArray& array : unique_reaction_arrays(system_, acting_, *shown_)) write(array);
   open_ = false;
   for (ResultSink* sink : sinks_) sink->end_analysis();
 }

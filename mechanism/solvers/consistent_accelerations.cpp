@@ -27,6 +27,7 @@ class AccelerationEquations {
         environment_(environment),
         state_(state),
         saddle_(saddle),
+        reactions_(system),
         length_(model_length(state)),
         v_(system.dofs()),
         a_(system.dofs()),
@@ -118,10 +119,7 @@ class AccelerationEquations {
   void evaluate() {
     const int m = system_.multipliers();
     VectorX velocity(m), acceleration(m);
-    if (system_.reads_reactions() && ReactionNorm::needed(system_, state_)) {
-      if (!norm_) norm_ = std::make_unique<ReactionNorm>(system_);
-      norm_->balance(environment_, state_);
-    }
+    reactions_.balance(environment_, state_);
     system_.residual(state_, environment_, r_);
     system_.constraint_rates(state_, environment_, velocity, acceleration);
     r_.tail(m) = acceleration;
@@ -308,7 +306,7 @@ class AccelerationEquations {
   const Environment& environment_;
   State& state_;
   MassSaddle& saddle_;
-  std::unique_ptr<ReactionNorm> norm_;
+  ReadReactions reactions_;
   double length_;
   VectorX v_, a_, r_, step_;
   VectorX begin_;             ///< first-order unknowns

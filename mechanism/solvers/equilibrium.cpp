@@ -22,6 +22,7 @@ Equilibrium::Equilibrium(const LoadRamp& ramp, const NewtonOptions& options)
       options_(options),
       linear_(system_),
       convergence_(system_, options),
+      reactions_(system_),
       r_(system_.size()),
       delta_(system_.size()) {}
 
@@ -171,6 +172,9 @@ void Equilibrium::move(State& state, const State& base, double part) const {
   state.multiplier = base.multiplier + part * delta_.tail(system_.multipliers());
 }
 
-void Equilibrium::evaluate(const State& state) { residual_at_rest(system_, environment_, state, r_, &scale_); }
+void Equilibrium::evaluate(State& state) {
+  reactions_.balance(environment_, state);
+  residual_at_rest(system_, environment_, state, r_, &scale_);
+}
 
 }  // namespace bielle::mechanism

@@ -5,6 +5,7 @@
 
 #include "mechanism/solvers/convergence.hpp"
 #include "mechanism/solvers/load_ramp.hpp"
+#include "mechanism/solvers/reaction_norm.hpp"
 
 namespace bielle::mechanism {
 
@@ -38,13 +39,14 @@ class Equilibrium {
   void solve();
   void factor(const State& state, double inertia = 0);
   void move(State& state, const State& base, double part) const;
-  void evaluate(const State& state);
+  void evaluate(State& state);
 
   const LoadRamp& ramp_;
   const System& system_;
   NewtonOptions options_;
   LinearStep linear_;
   Convergence convergence_;
+  ReadReactions reactions_;
   Environment environment_;  ///< of the load factor in hand
   VectorX r_, delta_;
   ResidualScale scale_;

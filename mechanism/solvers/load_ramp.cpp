@@ -1,7 +1,5 @@
 #include "mechanism/solvers/load_ramp.hpp"
 
-#include "mechanism/solvers/reaction_norm.hpp"
-
 namespace bielle::mechanism {
 
 void LoadRamp::set_off(State& state) const {
@@ -50,13 +48,7 @@ void LoadRamp::motion_derivative(const State& state, const Environment& environm
 
 void residual_at_rest(const System& system, const Environment& environment, const State& state, Eigen::Ref<VectorX> r,
                       ResidualScale* scale) {
-  if (system.reads_reactions() && ReactionNorm::needed(system, state)) {
-    State balanced = state;
-    ReactionNorm(system).balance(environment, balanced);
-    system.residual(balanced, environment, r, scale);
-  } else {
-    system.residual(state, environment, r, scale);
-  }
+  system.residual(state, environment, r, scale);
   const int first = system.size() - system.multipliers();
   for (int i = 0; i < system.multipliers(); ++i)
     if (system.constraint_kind(i) == ConstraintKind::nonholonomic) r[first + i] = 0;

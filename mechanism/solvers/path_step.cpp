@@ -19,6 +19,7 @@ PathStep::PathStep(const LoadRamp& ramp, const NewtonOptions& options, const Sta
       options_(options),
       linear_(system_),
       convergence_(system_, options),
+      reactions_(system_),
       weights_(system_.dofs()),
       extent_(model_extent(state)) {
   linear_.assemble(state, ramp.environment(ramp.begin()), at_rest, nullptr);
@@ -80,6 +81,7 @@ bool PathStep::iterate(const State& base, const PathCondition& condition, double
   for (trial.iterations = 0;; ++trial.iterations) {
     const Environment environment = ramp_.environment(trial.factor);
     place(base, trial);
+    reactions_.balance(environment, trial.state);
     residual_at_rest(system_, environment, trial.state, r, &scale);
     const double g = condition.value(trial);
     const bool reached = convergence_.reached(r, scale);

@@ -5,6 +5,7 @@
 
 #include "mechanism/solvers/convergence.hpp"
 #include "mechanism/solvers/load_ramp.hpp"
+#include "mechanism/solvers/reaction_norm.hpp"
 
 namespace bielle::mechanism {
 
@@ -54,6 +55,7 @@ class PathStep {
   NewtonOptions options_;
   LinearStep linear_;
   Convergence convergence_;
+  ReadReactions reactions_;
   VectorX weights_;  ///< W (dofs), diagonal
   double extent_;
   std::string why_;

@@ -38,15 +38,6 @@ SparsePattern make_pattern(const System& system) {
   return SparsePattern(n + system.multipliers(), std::move(entries));
 }
 
-/// The state with its redundant constraints in the equations.
-State with_redundant(const System& system, const State& state) {
-  State whole = state;
-  if (whole.idle.empty()) whole.idle.assign(static_cast<std::size_t>(system.multipliers()), Idle::active);
-  for (char& idle : whole.idle)
-    if (idle == Idle::redundant) idle = Idle::active;
-  return whole;
-}
-
 }  // namespace
 
 ReactionNorm::ReactionNorm(const System& system)
@@ -97,9 +88,9 @@ void ReactionNorm::factor(const Environment& environment, const State& state) {
     if (slots.multipliers == 0) continue;
     MatrixX H = MatrixX::Zero(slots.multipliers, slots.multipliers);
     system_.model().members()[m].component->add_reaction_norm(LocalState(whole, slots, environment), arm, H);
-    // What makes no wrench is kept small all the same.
-    const double floor = 1e-9 * std::max(H.diagonal().maxCoeff(), 1e-30);
-    for (int k = 0; k < slots.multipliers; ++k) H(k, k) += floor;
+    // What makes no wrench is kept small all the same; each beside itself, since units part forces from moments over
+    // arms.
+    for (int k = 0; k < slots.multipliers; ++k) H(k, k) = H(k, k) > 0 ? (1 + 1e-9) * H(k, k) : 1;
     for (int k = 0; k < H.size(); ++k)
       values_[static_cast<std::size_t>(norm_places_[static_cast<std::size_t>(norm_begin_[m] + k)])] =
           -delta * H.data()[k];
@@ -147,6 +138,15 @@ void ReactionNorm::balance(const Environment& environment, State& state) {
   if (!needed(system_, state)) return;
   factor(environment, state);
   state.reaction = smallest(state.multiplier);
+}
+
+void ReadReactions::balance(const Environment& environment, State& state) {
+  if (!system_.reads_reactions() || !ReactionNorm::needed(system_, state)) {
+    state.reaction.resize(0);
+    return;
+  }
+  if (!norm_) norm_ = std::make_unique<ReactionNorm>(system_);
+  norm_->balance(environment, state);
 }
 
 std::vector<int> ReactionNorm::not_unique(const Environment& environment, const State& state) {

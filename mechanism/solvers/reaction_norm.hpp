@@ -45,4 +45,17 @@ class ReactionNorm {
   VectorX scale_, diagonal_values_;
 };
 
+/// The reactions that forces read: what every residual of a system with such forces comes behind.
+class ReadReactions {
+ public:
+  explicit ReadReactions(const System& system) : system_(system) {}
+  /// Sets the state's `reaction` where forces read reactions and constraints are redundant; empties it otherwise, so
+  /// that none is read that belongs to another state.
+  void balance(const Environment& environment, State& state);
+
+ private:
+  const System& system_;
+  std::unique_ptr<ReactionNorm> norm_;  ///< made where it is needed
+};
+
 }  // namespace bielle::mechanism

@@ -14,26 +14,36 @@
 namespace bielle::mechanism {
 namespace {
 
-/// The longest arm at which a constraint's force acts about a node [m]: the largest quotient of entries by rotations
-/// and by translations in a column of B^T. It depends on neither units nor the place of the origin. Where there is none
-/// but rounding of positions, translations and rotations do not mix, and any length will do.
+/// The longest arm at which a component's constraints act about its nodes [m]: the quotient of what the columns of B^T
+/// that belong to it have by rotations and by translations, both in squares over all columns that have forces. It
+/// depends on neither units, the place of the origin, nor the axes that the component or the nodes have. Where there is
+/// none but rounding of positions, translations and rotations do not mix, and any length will do.
 double longest_arm(const System& system, const std::vector<double>& values, double positions) {
+  constexpr double rounding = 1e-12;
   const SparsePattern& pattern = system.pattern();
   const int first = system.size() - system.multipliers();
-  double arm = 0;
-  for (int column = first; column < system.size(); ++column) {
-    double translation = 0, rotation = 0;
-    for (int k = pattern.column_start()[static_cast<std::size_t>(column)];
-         k < pattern.column_start()[static_cast<std::size_t>(column) + 1]; ++k) {
-      const int row = pattern.row()[static_cast<std::size_t>(k)];
-      if (row >= first) continue;
-      double& largest = system.kind(row) == Kind::translation ? translation : rotation;
-      if (system.kind(row) == Kind::translation || system.kind(row) == Kind::rotation)
-        largest = std::max(largest, std::abs(values[static_cast<std::size_t>(k)]));
+  double area = 0;
+  for (const Slots& slots : system.slots()) {
+    double forces = 0, moments = 0;
+    for (int column = first + slots.multiplier_begin; column < first + slots.multiplier_begin + slots.multipliers;
+         ++column) {
+      double force = 0, moment = 0;
+      for (int k = pattern.column_start()[static_cast<std::size_t>(column)];
+           k < pattern.column_start()[static_cast<std::size_t>(column) + 1]; ++k) {
+        const int row = pattern.row()[static_cast<std::size_t>(k)];
+        if (row >= system.dofs()) continue;
+        const double square = values[static_cast<std::size_t>(k)] * values[static_cast<std::size_t>(k)];
+        if (system.kind(row) == Kind::translation) force += square;
+        if (system.kind(row) == Kind::rotation) moment += square;
+      }
+      if (!(std::sqrt(force) * positions > rounding * std::sqrt(moment))) continue;
+      forces += force;
+      moments += moment;
     }
-    if (translation > 0) arm = std::max(arm, rotation / translation);
+    if (forces > 0) area = std::max(area, moments / forces);
   }
-  return arm > 1e-12 * positions ? arm : positions;
+  const double arm = std::sqrt(area);
+  return arm > rounding * positions ? arm : positions;
 }
 
 }  // namespace
@@ -72,9 +82,17 @@ std::vector<int> find_redundant(const System& system, const Environment& environ
   return dependent;
 }
 
+State with_redundant(const System& system, const State& state) {
+  State whole = state;
+  if (whole.idle.empty()) whole.idle.assign(static_cast<std::size_t>(system.multipliers()), Idle::active);
+  for (char& idle : whole.idle)
+    if (idle == Idle::redundant) idle = Idle::active;
+  return whole;
+}
+
 double redundancy_arm(const System& system, const Environment& environment, const State& state) {
   std::vector<double> values;
-  system.tangent(state, environment, TangentWeights{0, 0, 0, 0, 1, true}, nullptr, values);
+  system.tangent(with_redundant(system, state), environment, TangentWeights{0, 0, 0, 0, 1, true}, nullptr, values);
   return longest_arm(system, values, model_length(state));
 }
 

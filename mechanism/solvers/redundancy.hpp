@@ -18,8 +18,11 @@ namespace bielle::mechanism {
 std::vector<int> find_redundant(const System& system, const Environment& environment, const State& state,
                                 double least = 0);
 
-/// The length L by which moments are compared with forces: the longest arm at which a constraint's force acts about a
-/// node [m].
+/// The state with its redundant constraints in the equations.
+State with_redundant(const System& system, const State& state);
+
+/// The length L by which moments are compared with forces: the longest arm at which a component's constraints act about
+/// its nodes [m], redundant ones included.
 double redundancy_arm(const System& system, const Environment& environment, const State& state);
 
 /// Takes what is redundant where a motion is to begin out of the equations, for good or, where constraints can be

@@ -65,17 +65,11 @@ void TimeIntegration::evaluate() {
   system_.displace(next_, state_, dq_);
   system_.set_rates(next_, v_new_, a_new_);
   ResidualScale scale;
-  balance_reactions(next_);
+  reactions_.balance(environment_, next_);
   system_.residual(next_, environment_, r_evaluated_.head(system_.size()), &scale);
   if (stabilised_) stabilised_->add_residual(next_, environment_, eta_, mu_, r_evaluated_);
   r_.swap(r_evaluated_);
   scale_ = scale;
-}
-
-void TimeIntegration::balance_reactions(State& state) {
-  if (!system_.reads_reactions() || !ReactionNorm::needed(system_, state)) return;
-  if (!norm_) norm_ = std::make_unique<ReactionNorm>(system_);
-  norm_->balance(environment_, state);
 }
 
 double TimeIntegration::size_of_residual() const { return convergence_.size_of(r_.head(system_.size())); }

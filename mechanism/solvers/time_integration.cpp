@@ -29,7 +29,8 @@ TimeIntegration::TimeIntegration(const System& system, const Environment& enviro
       options_(options),
       convergence_(system, options),
       form_(form),
-      saddle_(system) {
+      saddle_(system),
+      reactions_(system) {
   allocate();
   start_report_ = make_consistent(system_, environment_, state_);
   take_rates();
@@ -47,7 +48,8 @@ TimeIntegration::TimeIntegration(const System& system, const Environment& enviro
       options_(options),
       convergence_(system, options),
       form_(form),
-      saddle_(system) {
+      saddle_(system),
+      reactions_(system) {
   allocate();
   exchange(archive);
   next_ = state_;
@@ -330,6 +332,11 @@ State TimeIntegration::interpolated(double time) const {
     state.first_order[k] = (1 - s) * before.first_order[k] + s * after.first_order[k];
   state.first_order_rate = (1 - s) * before.first_order_rate + s * after.first_order_rate;
   state.multiplier = (1 - s) * before.multiplier + s * after.multiplier;
+  state.reaction.resize(0);
+  if (before.reaction.size() > 0 || after.reaction.size() > 0) {
+    const auto read = [](const State& at) { return at.reaction.size() > 0 ? at.reaction : at.multiplier; };
+    state.reaction = (1 - s) * read(before) + s * read(after);
+  }
   return state;
 }
 

@@ -147,7 +147,6 @@ class TimeIntegration {
   void move_and_follow(double part);
   void still_algebraic();
   void evaluate();  ///< residual and its scale at the attempt
-  void balance_reactions(State& state);
   double size_of_residual() const;
   void improve(StepReport& report);
   void factor(StepReport& report);
@@ -191,7 +190,7 @@ class TimeIntegration {
   double turn_ = 0;                     ///< of constraints in the last accepted step [rad]
   bool turning_ = false;                ///< fast enough for velocities to be corrected, now or before
   MassSaddle saddle_;
-  std::unique_ptr<ReactionNorm> norm_;  ///< where forces read reactions that redundancy leaves undetermined
+  ReadReactions reactions_;
   VectorX eta_, mu_;                    ///< of the attempt: see there
   VectorX last_dq_;                     ///< of the last accepted step
 };

@@ -16,6 +16,13 @@ void Component::add_blocks(const LocalState& /*state*/, BlockTangent& /*tangent*
   throw std::logic_error("component type '" + type_ + "' gives no derivatives");
 }
 
+void Component::add_reaction_norm(const LocalState& /*state*/, double arm, Eigen::Ref<MatrixX> H) const {
+  Declaration declaration;
+  declare(declaration);
+  for (Eigen::Index k = 0; k < H.rows(); ++k)
+    H(k, k) += declaration.multipliers[static_cast<std::size_t>(k)].units == "N m" ? 1 / (arm * arm) : 1;
+}
+
 std::unique_ptr<Measure> Component::make_measure(const std::string& /*name*/, const std::string& measure) const {
   throw std::logic_error("component type '" + type_ + "' has no measure '" + measure + "'");
 }

@@ -202,11 +202,10 @@ class Component {
   virtual bool leaves_branch(const LocalState& /*state*/) const { return false; }
 
   /// Adds the component's part of the norm of reactions, a quadratic form of its own multipliers: the square of the
-  /// force [N^2], and of the moment over the arm. Where reactions are not unique, the smallest are reported.
+  /// force [N^2], and of the moment over the arm. Where reactions are not unique, the smallest are reported. Default:
+  /// each multiplier by itself, as a moment where it is declared in N m.
   /// @param H  (multipliers, multipliers)
-  virtual void add_reaction_norm(const LocalState& /*state*/, double /*arm*/, Eigen::Ref<MatrixX> H) const {
-    H.diagonal().array() += 1;
-  }
+  virtual void add_reaction_norm(const LocalState& state, double arm, Eigen::Ref<MatrixX> H) const;
 
   /// What formulas may use of the component: "angle", "angle.rate", "reaction.x".
   virtual std::vector<std::string> measure_names() const { return {}; }
