@@ -207,8 +207,8 @@ void March::pass_crossings(MarchStep& step) {
 
 void March::throw_chattering(int crossing) const {
   throw ComputationError(fmt::format(
-      "t = {:.6g} s: '{}' happens again and again without the motion going on: give the contact some compliance, or "
-      "the switch some hysteresis",
+      "t = {:.6g} s: {} is met again and again without the motion going on; give the contact some compliance, or the "
+      "switch some hysteresis",
       integration_.state().time, integration_.system().crossings()[static_cast<std::size_t>(crossing)].name));
 }
 
