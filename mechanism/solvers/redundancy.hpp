@@ -3,7 +3,7 @@
 // A planar mechanism of hinges, closed in space, is the everyday case. The columns of B^T (one per multiplier, scaled
 // to length one, translations in arms of the constraints) are eliminated in the order of the file; a column that
 // vanishes depends on those before it. Its row leaves the equations and its multiplier stays zero: the motion is
-// unaffected, and the reactions are those of the joints that were written first.
+// unaffected. Reported are the reactions of smallest norm (reaction_norm.hpp).
 #pragma once
 
 #include <string>

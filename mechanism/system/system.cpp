@@ -61,9 +61,11 @@ System::System(const Model& model) : model_(model), kinematics_(model) {
       const Crossing& crossing = declaration.crossings[static_cast<std::size_t>(k)];
       crossings_.push_back({index, k, crossing, describe(member) + (crossing.name.empty() ? "" : ": " + crossing.name)});
     }
-    if (!declaration.passive) acting_.push_back(index);
-    reads_reactions_ = reads_reactions_ || declaration.reads_reactions;
-    kinks_ = kinks_ || declaration.kinks || declaration.reads_reactions;
+    if (!declaration.passive) {  // measures are read by what acts
+      acting_.push_back(index);
+      reads_reactions_ = reads_reactions_ || declaration.reads_reactions;
+      kinks_ = kinks_ || declaration.kinks || declaration.reads_reactions;
+    }
     slots_.push_back(slots);
     declarations.push_back(std::move(declaration));
   }
