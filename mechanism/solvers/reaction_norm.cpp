@@ -88,7 +88,7 @@ void ReactionNorm::factor(const Environment& environment, const State& state) {
     if (slots.multipliers == 0) continue;
     MatrixX H = MatrixX::Zero(slots.multipliers, slots.multipliers);
     system_.model().members()[m].component->add_reaction_norm(LocalState(whole, slots, environment), arm, H);
-    // What makes no wrench is kept small all the same; each beside itself, since units part forces from moments over
+    // What makes no wrench is kept small all the same; relative to itself, since units part forces from moments over
     // arms.
     for (int k = 0; k < slots.multipliers; ++k) H(k, k) = H(k, k) > 0 ? (1 + 1e-9) * H(k, k) : 1;
     for (int k = 0; k < H.size(); ++k)

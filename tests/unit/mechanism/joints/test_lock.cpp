@@ -279,7 +279,7 @@ joints:
 }
 
 TEST_CASE("a lock that steps cannot end on closes with the next one") {
-  // More kinks than steps: a torque that tells nothing beside the speeds jumps at each of them.
+  // More kinks than steps: a torque too small to change the speeds jumps at each of them.
   std::string text = rotors(false);
   std::string kinks = "0*t";
   for (int k = 1; k <= 12; ++k) kinks += " + 1e-9*pulse(t, " + std::to_string(0.05 * k + 0.011) + ", 2)";

@@ -200,7 +200,7 @@ Eigen::Index check_smallest(const ReadyModel& model, const State& state) {
   MatrixX W = wrenches(model, state);
   for (Eigen::Index row = 0; row < W.rows(); ++row)
     if (row % 6 >= 3) W.row(row) /= L;
-  // Moments over the arm: what is small is small beside forces.
+  // Moments over the arm: what is small is small relative to forces.
   MatrixX Bt = transposed_constraints(model, state);
   for (int i = 0; i < model.system.dofs(); ++i)
     if (model.system.kind(i) == Kind::rotation) Bt.row(i) /= L;

@@ -228,7 +228,7 @@ TEST_CASE("constraints of others and derivatives of forces by multipliers come e
     CHECK(distance(alone.topRightCorner(n, m), alone.bottomLeftCorner(m, n).transpose()) < 1e-14);
     // Nothing else: derivatives by multipliers less those of the forces.
     CHECK(distance(alone.topRightCorner(n, m), by_multipliers - forces.topRightCorner(n, m)) < accurate);
-    // With `reactions` they count in full beside any stiffness.
+    // With `reactions` they count in full with any stiffness.
     TangentWeights weights{0, 0, 1, 1, 1, true};
     weights.reactions = true;
     CHECK(distance(tangent_of(system, environment, point, weights).topRightCorner(n, m), by_multipliers) < accurate);
