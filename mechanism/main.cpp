@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "mechanism/io/describe_model.hpp"
 #include "mechanism/io/mechanism_file.hpp"
@@ -11,6 +12,8 @@
 #include "reduce/common/command_line.hpp"
 #include "reduce/common/error.hpp"
 #include "reduce/common/progress.hpp"
+#include "reduce/common/run_program.hpp"
+#include "reduce/spectral/blas.hpp"
 
 namespace {
 
@@ -28,6 +31,18 @@ std::map<std::string, std::string> read_overrides(const std::vector<std::string>
   return overrides;
 }
 
+/// @throws InputError where a continued run would replace the results of another one that nobody has named
+std::string default_results(const std::string& model, const std::string& restart) {
+  namespace fs = std::filesystem;
+  const std::string results = fs::path(model).replace_extension(".h5").string();
+  std::error_code none;
+  if (!restart.empty() && fs::exists(results, none) && !fs::equivalent(results, restart, none))
+    throw InputError(fmt::format("{}: exists, and the run that goes on from '{}' would replace it: say with -o where its "
+                                 "results go",
+                                 results, restart));
+  return results;
+}
+
 int body(int argc, char** argv) {
   CLI::App app{"Computes the motion of a mechanism of rigid bodies, beams, superelements and joints.",
                "bielle-mechanism"};
@@ -43,19 +58,27 @@ int body(int argc, char** argv) {
   add_common_options(app, common);
   if (!parse_command_line(app, argc, argv)) return 0;
 
+  // Matrices of a mechanism are small, and its own threads share the elements: those of BLAS would only be in their way.
+  const BlasThreads one(1);
   const MechanismFile file = read_mechanism_file(model_path, read_overrides(settings));
+  Progress progress(common.quiet);
+  for (const std::string& doubt : file.doubts) progress.warn(doubt);
   if (check) {
     fmt::print("{}", describe_model(file));
     return 0;
   }
   if (file.analyses.empty()) throw InputError(fmt::format("{}: nothing to do: the file has no `analysis`", model_path));
-  if (results_path.empty()) results_path = std::filesystem::path(model_path).replace_extension(".h5").string();
-  Progress progress(common.quiet);
-  const std::vector<AnalysisSummary> summaries = run_analyses(file, results_path, progress, restart_path);
+  if (results_path.empty()) results_path = default_results(model_path, restart_path);
+  const std::vector<AnalysisSummary> summaries =
+      run_analyses(file, results_path, progress, restart_path, common.threads);
   if (!common.quiet) fmt::print("{}", format_summary(file, summaries, progress.phases(), results_path));
   return 0;
 }
 
 }  // namespace
 
-int main(int argc, char** argv) { return bielle::run_program("bielle-mechanism", body, argc, argv); }
+int main(int argc, char** argv) {
+  const int status = bielle::run_program("bielle-mechanism", body, argc, argv);
+  std::fflush(nullptr);
+  _exit(status);  // libraries that clean up at exit hang there when memory has run out
+}

@@ -1,6 +1,5 @@
 #include "reduce/body_file.hpp"
 
-#include <algorithm>
 #include <map>
 #include <optional>
 
@@ -8,7 +7,11 @@
 #include <fmt/format.h>
 
 #include "reduce/body_axes.hpp"
+#include "reduce/body_interfaces.hpp"
 #include "reduce/body_materials.hpp"
+#include "reduce/body_pieces.hpp"
+#include "reduce/body_points.hpp"
+#include "reduce/body_surfaces.hpp"
 #include "reduce/common/yaml_file.hpp"
 #include "reduce/mesh/place.hpp"
 
@@ -16,88 +19,14 @@ namespace bielle::reduce {
 
 namespace {
 
-// "rod.yaml:17: interfaces.big_end"
-std::string place_of(const YamlValue& value) {
-  return fmt::format("{}:{}: {}", value.file(), value.line(), value.path());
-}
-
-// Names become paths in the superelement file.
-void check_name(const std::string& name, const YamlValue& value) {
-  if (name.empty() || name.find('/') != std::string::npos) value.fail("expected a name without '/'");
-}
-
-std::optional<CylinderSelector> read_cylinder(const std::optional<YamlValue>& value) {
-  if (!value) return {};
-  value->check_keys({"point", "axis", "radius"}, "a cylinder");
-  return CylinderSelector{value->at("point").vector3(), value->at("axis").direction(),
-                          value->at("radius").positive_number()};
-}
-
-std::optional<PlaneSelector> read_plane(const std::optional<YamlValue>& value) {
-  if (!value) return {};
-  value->check_keys({"point", "normal"}, "a plane");
-  return PlaneSelector{value->at("point").vector3(), value->at("normal").direction()};
-}
-
-std::optional<BoxSelector> read_box(const std::optional<YamlValue>& value) {
-  if (!value) return {};
-  if (value->size() != 2) value->fail("expected two opposite corners: [[x, y, z], [x, y, z]]");
-  const Eigen::Vector3d a = value->at(0).vector3(), b = value->at(1).vector3();
-  return BoxSelector{a.cwiseMin(b), a.cwiseMax(b)};
-}
-
-SurfaceSelector read_selector(const YamlValue& value) {
-  if (value.is_scalar()) return value.text();
-  value.check_keys({"cylinder", "plane", "box"}, "a surface given by its shape");
-  if (value.entries().empty())
-    value.fail("expected a shape: cylinder, plane or box, or several that it lies on at once");
-  return ShapeSelector(read_cylinder(value.find("cylinder")), read_plane(value.find("plane")),
-                       read_box(value.find("box")));
-}
-
-// Reads `surface` of an interface or load, registers it, and returns the name of its group in the mesh: that of the
-// physical group, or "interfaces.<name>" where shapes make a new one.
-std::string read_surface(const YamlValue& owner, MeshRequest& request) {
-  const YamlValue value = owner.at("surface");
-  SurfaceSelection selection;
-  selection.located = place_of(value);
-  if (value.is_sequence()) {
-    for (const YamlValue& item : value.items()) selection.selectors.push_back(read_selector(item));
-    if (selection.selectors.empty()) value.fail("expected at least one surface");
-  } else {
-    selection.selectors.push_back(read_selector(value));
-  }
-  const auto* physical = std::get_if<std::string>(&selection.selectors.front());
-  selection.group = physical != nullptr && selection.selectors.size() == 1 ? *physical : owner.path();
-  request.surfaces.push_back(selection);
-  return selection.group;
-}
-
-std::array<bool, 6> read_directions(const YamlValue& value, Tie tie) {
-  static const std::vector<std::string> names = {"x", "y", "z", "rx", "ry", "rz"};
-  std::array<bool, 6> kept{};
-  for (const YamlValue& item : value.items()) {
-    const auto found = std::find(names.begin(), names.end(), item.word(names, "a direction"));
-    const std::size_t k = found - names.begin();
-    if (kept[k]) item.fail(fmt::format("'{}' stands here twice", *found));
-    if (k >= 3 && tie == Tie::free) item.fail("the nodes of a free interface have no rotations; expected x, y or z");
-    kept[k] = true;
-  }
-  if (value.size() == 0) value.fail("expected at least one direction out of x, y, z, rx, ry, rz");
-  return kept;
-}
-
 InterfaceRequest read_interface(const std::string& name, const YamlValue& value, MeshRequest& request) {
   value.check_keys({"surface", "tie", "position", "axes", "rotation_vector", "directions"}, "an interface");
   check_name(name, value);
   InterfaceRequest interface;
   interface.name = name;
   interface.located = place_of(value);
-  interface.group = read_surface(value, request);
-  if (const auto tie = value.find("tie")) {
-    const std::string word = tie->word({"rigid", "average", "free"}, "a tie");
-    interface.tie = word == "rigid" ? Tie::rigid : word == "average" ? Tie::average : Tie::free;
-  }
+  interface.group = read_surface(value, "surface", request);
+  if (const auto tie = value.find("tie")) interface.tie = read_tie(*tie);
   if (interface.tie == Tie::free) {
     interface.kept = {true, true, true, false, false, false};
     for (const char* key : {"position", "axes", "rotation_vector"})
@@ -117,12 +46,13 @@ InterfaceRequest read_interface(const std::string& name, const YamlValue& value,
 }
 
 LoadRequest read_load(const std::string& name, const YamlValue& value, MeshRequest& request) {
-  value.check_keys({"surface", "pressure", "traction", "force"}, "a load");
+  value.check_keys({"surface", "pressure", "traction", "force", "residual"}, "a load");
   check_name(name, value);
   LoadRequest load;
   load.name = name;
   load.located = place_of(value);
-  load.group = read_surface(value, request);
+  load.group = read_surface(value, "surface", request);
+  if (const auto residual = value.find("residual")) load.residual = residual->boolean();
   if (value.has("pressure") + value.has("traction") + value.has("force") != 1)
     value.fail("expected exactly one of pressure [Pa], traction [x, y, z in Pa], force [x, y, z in N]");
   if (const auto pressure = value.find("pressure")) {
@@ -158,9 +88,11 @@ void read_mesh(const YamlValue& root, MeshRequest& request) {
     for (const auto& [name, size] : sizes->entries()) request.sizes[name] = {size.positive_number(), place_of(size)};
 }
 
-// `mesh.sizes` may name interfaces and loads: their groups take their place.
+// `mesh.sizes` may name interfaces, loads and points: their groups take their place.
 void resolve_sizes(const ReductionOptions& options, MeshRequest& request) {
   std::map<std::string, std::string> group_of;
+  for (const PointRequest& point : options.points)
+    if (!point.group.empty()) group_of[point.name] = point.group;
   for (const LoadRequest& load : options.loads) group_of[load.name] = load.group;
   for (const InterfaceRequest& interface : options.interfaces) group_of[interface.name] = interface.group;
   std::map<std::string, GroupSize> resolved;
@@ -179,7 +111,7 @@ void read_regions(const YamlValue& root, BodyFile& body) {
   std::vector<std::string> names;
   for (const auto& [name, value] : materials.entries()) {
     options.materials.emplace(name, read_material(value));
-    for (const std::string& doubt : doubts_about_material(value)) body.doubts.push_back(doubt);
+    doubt_material(value);
     names.push_back(name);
   }
   if (names.empty()) materials.fail("expected at least one material");
@@ -194,7 +126,7 @@ void read_regions(const YamlValue& root, BodyFile& body) {
   }
   if (options.regions.empty()) regions.fail("expected at least one region, e.g. all: " + names.front());
   if (options.regions.contains("all") && options.regions.size() > 1)
-    regions.fail("'all' is the whole body: other regions beside it would have two materials");
+    regions.fail("'all' is the whole body: with other regions, cells would have two materials");
 }
 
 void read_modes(const YamlValue& value, ReductionOptions& options) {
@@ -230,6 +162,8 @@ RecoveryExtent read_extent(const YamlValue& value) {
 }
 
 void read_recovery(const YamlValue& value, ReductionOptions& options) {
+  if (const auto strain = value.find("strain"))
+    strain->fail("strain follows from stress and material: `stress: surface` or `stress: all` gives both");
   value.check_keys({"displacement", "stress"}, "the recovery");
   if (const auto displacement = value.find("displacement")) options.displacement_recovery = read_extent(*displacement);
   if (const auto stress = value.find("stress")) options.stress_recovery = read_extent(*stress);
@@ -238,18 +172,13 @@ void read_recovery(const YamlValue& value, ReductionOptions& options) {
 }
 
 void read_parameters(YamlValue& root) {
-  const auto given = root.find("parameters");
-  if (!given) return;
-  Parameters parameters;
-  for (const auto& [name, value] : given->entries()) {
-    parameters[name] = value.number();  // may use those above it
-    root.set_parameters(parameters);
-  }
+  if (const auto given = root.find("parameters"))
+    for (const auto& [name, value] : given->entries()) root.set_parameter(name, value.number());  // may use those above it
 }
 
 BodyFile read(YamlValue root) {
   root.check_keys({"body", "parameters", "geometry", "length_unit", "mesh", "materials", "regions", "interfaces",
-                   "modes", "damping", "loads", "recovery"},
+                   "modes", "damping", "loads", "points", "recovery", "pieces"},
                   "a body file");
   read_parameters(root);
   BodyFile body;
@@ -270,8 +199,11 @@ BodyFile read(YamlValue root) {
   if (const auto damping = root.find("damping")) read_damping(*damping, body.options);
   if (const auto loads = root.find("loads"))
     for (const auto& [name, value] : loads->entries()) body.options.loads.push_back(read_load(name, value, body.mesh));
+  if (const auto points = root.find("points")) body.options.points = read_points(*points, body.mesh);
   if (const auto recovery = root.find("recovery")) read_recovery(*recovery, body.options);
+  if (const auto pieces = root.find("pieces")) body.pieces = read_pieces(*pieces, body.mesh.cuts);
   resolve_sizes(body.options, body.mesh);
+  body.doubts = root.doubts();
   return body;
 }
 

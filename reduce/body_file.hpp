@@ -7,6 +7,7 @@
 
 #include "reduce/mesh/mesh_request.hpp"
 #include "reduce/reduction/options.hpp"
+#include "reduce/reduction/piece_options.hpp"
 
 namespace bielle::reduce {
 
@@ -14,12 +15,14 @@ namespace bielle::reduce {
 struct BodyFile {
   MeshRequest mesh;
   ReductionOptions options;
-  std::vector<std::string> doubts;  ///< sentences about values that are possible but hardly meant, each with its place
+  std::optional<PiecesRequest> pieces;  ///< at the planes `mesh.cuts`; absent: the body stays whole
+  std::vector<std::string>
+      doubts;  ///< sentences about values that are possible but probably not intended, each with its place
 };
 
 /// Reads and checks a body file: keys, types, ranges, names that the file itself must explain. What only the geometry
 /// knows (its groups, whether interfaces overlap) is checked by import_mesh and by the reduction, which get the place
-/// of each wish in the file along with it.
+/// of each request in the file along with it.
 /// @throws InputError `file:line: key: what was expected; did you mean ...`
 BodyFile read_body_file(const std::string& path);
 

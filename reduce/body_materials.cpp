@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "reduce/body_axes.hpp"
+#include "reduce/common/plausible.hpp"
 #include "reduce/common/yaml_file.hpp"
 
 namespace bielle::reduce {
@@ -54,19 +55,6 @@ Material anisotropic(const YamlValue& value) {
   return Material::anisotropic(value.at("stiffness").matrix(6, 6), density(value));
 }
 
-// Values that solids have.
-struct PlausibleRange {
-  double low, high;
-  const char* text;
-};
-constexpr PlausibleRange plausible_modulus{1e6, 2e12, "1e6 (soft rubber) to 1.2e12 Pa (diamond); steel has 210e9"};
-constexpr PlausibleRange plausible_density{25, 25000, "25 (foam) to 23000 kg/m^3 (osmium); steel has 7850"};
-
-void add_doubt(const YamlValue& place, double value, const PlausibleRange& range, std::vector<std::string>& doubts) {
-  if (value >= range.low && value <= range.high) return;
-  doubts.push_back(place.located(fmt::format("is {:g} meant? Solids have {}", value, range.text)));
-}
-
 }  // namespace
 
 Material read_material(const YamlValue& value) {
@@ -87,15 +75,13 @@ Material read_material(const YamlValue& value) {
   return material;
 }
 
-std::vector<std::string> doubts_about_material(const YamlValue& value) {
-  std::vector<std::string> doubts;
+void doubt_material(const YamlValue& value) {
   for (const char* key : {"young", "E1", "E2", "E3", "G12", "G13", "G23"})
-    if (const auto modulus = value.find(key)) add_doubt(*modulus, modulus->number(), plausible_modulus, doubts);
+    if (const auto modulus = value.find(key)) doubt_outside(*modulus, modulus->number(), plausible_modulus);
   if (const auto stiffness = value.find("stiffness"))
-    add_doubt(*stiffness, stiffness->matrix(6, 6).diagonal().maxCoeff(), plausible_modulus, doubts);
+    doubt_outside(*stiffness, stiffness->matrix(6, 6).diagonal().maxCoeff(), plausible_modulus);
   const YamlValue density = value.at("density");
-  add_doubt(density, density.number(), plausible_density, doubts);
-  return doubts;
+  doubt_outside(density, density.number(), plausible_density);
 }
 
 Eigen::Matrix<double, 6, 6> rotate_elasticity(const Eigen::Matrix<double, 6, 6>& elasticity,

@@ -19,11 +19,9 @@ namespace bielle::reduce {
 /// @throws InputError with the place: keys of two kinds, moduli out of range, a material that is not stable
 Material read_material(const YamlValue& value);
 
-/// Sentences about values that are possible but that no solid has, as another system of units gives them: moduli
-/// outside 1e6 (soft rubber) to 2e12 Pa (diamond: 1.2e12), densities outside 25 (light foam) to 25000 kg/m^3 (osmium:
-/// 22590).
+/// Doubts values that are possible but that no solid has, as another system of units gives them (plausible.hpp).
 /// @param value  a material that read_material has accepted
-std::vector<std::string> doubts_about_material(const YamlValue& value);
+void doubt_material(const YamlValue& value);
 
 /// Rotates elastic constants: C'_ijkl = R_im R_jn R_ko R_lp C_mnop.
 /// @param elasticity  C in the material's axes, order xx yy zz yz xz xy [Pa]

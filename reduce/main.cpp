@@ -1,7 +1,6 @@
 // bielle-reduce: a body file in, a superelement out.
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
+#include <cstdio>
 #include <filesystem>
 #include <optional>
 
@@ -12,13 +11,16 @@
 #include "reduce/body_file.hpp"
 #include "reduce/common/command_line.hpp"
 #include "reduce/common/error.hpp"
+#include "reduce/common/file_checks.hpp"
 #include "reduce/common/progress.hpp"
+#include "reduce/common/run_program.hpp"
 #include "reduce/mesh/checks.hpp"
 #include "reduce/mesh/describe.hpp"
 #include "reduce/mesh/import.hpp"
-#include "reduce/reduction/reduce_body.hpp"
+#include "reduce/reduction/reduce_pieces.hpp"
 #include "reduce/spectral/blas.hpp"
 #include "reduce/summary.hpp"
+#include "reduce/summary_of_pieces.hpp"
 
 namespace {
 
@@ -28,21 +30,43 @@ using namespace bielle::reduce;
 /// Refuses before the long work what would fail, or hurt, after it.
 void check_output(const std::string& path, const std::string& input, const std::string& geometry) {
   namespace fs = std::filesystem;
-  const fs::path folder = fs::path(path).parent_path();
-  if (!folder.empty() && !fs::is_directory(folder)) {
-    throw InputError(fmt::format("{}: there is no folder '{}'", path, folder.string()));
-  }
-  if (access(folder.empty() ? "." : folder.c_str(), W_OK) != 0) {
-    throw InputError(fmt::format("{}: no file can be written there: {}", path, std::strerror(errno)));
-  }
-  if (fs::exists(path) && !fs::is_regular_file(path)) {
-    throw InputError(fmt::format("{}: is a folder or a device; expected a file name for the superelement", path));
-  }
+  check_output_file(path);
   for (const std::string& source : {input, geometry}) {
     std::error_code missing;
     if (fs::equivalent(path, source, missing)) {
       throw InputError(fmt::format("{}: the superelement would replace its own input", path));
     }
+  }
+}
+
+std::string written(const std::string& path) {
+  return fmt::format("written: {} ({:.1f} MB)\n", path, 1e-6 * std::filesystem::file_size(path));
+}
+
+void reduce_whole(const Mesh& mesh, const BodyFile& file, const std::string& output, Progress& progress,
+                  const CommonOptions& common) {
+  ReductionReport report;
+  const Superelement body = reduce_body(mesh, file.options, progress, common.threads, &report);
+  progress.start("writing");
+  write_superelement(body, output);
+  progress.finish();
+  if (!common.quiet) {
+    fmt::print("{}\n{}{}{}{}", summary(mesh), describe(body), describe(report.checks),
+               describe(report, progress.phases()), written(output));
+  }
+}
+
+void reduce_in_pieces(const Mesh& mesh, const BodyFile& file, const std::string& output, Progress& progress,
+                      const CommonOptions& common) {
+  std::vector<Check> checks;
+  const CutBody body =
+      reduce_pieces(mesh, file.mesh.cuts, file.options, *file.pieces, progress, common.threads, &checks);
+  progress.start("writing");
+  write_cut_body(body, output);
+  progress.finish();
+  if (!common.quiet) {
+    fmt::print("{}\n{}{}{}{}", summary(mesh), describe(body), describe(checks), describe({}, progress.phases()),
+               written(output));
   }
 }
 
@@ -60,20 +84,13 @@ void reduce(const std::string& input, std::string output, const CommonOptions& c
     progress.warn(doubt);
   }
   const Mesh mesh = import_mesh(file.mesh, progress);
-  ReductionReport report;
-  const Superelement body = reduce_body(mesh, file.options, progress, common.threads, &report);
-  progress.start("writing");
-  write_superelement(body, output);
-  progress.finish();
-  if (!common.quiet) {
-    fmt::print("{}\n{}{}{}written: {} ({:.1f} MB)\n", summary(mesh), describe(body), describe(report.checks),
-               describe(report, progress.phases()), output, 1e-6 * std::filesystem::file_size(output));
-  }
+  file.pieces ? reduce_in_pieces(mesh, file, output, progress, common)
+              : reduce_whole(mesh, file, output, progress, common);
 }
 
+/// @param title  what stands before the description
 /// @throws ComputationError when a check fails
-void inspect(const std::string& path) {
-  const Superelement body = read_superelement(path);
+void inspect(const Superelement& body, const std::string& path, const std::string& title) {
   const std::vector<Check> checks = check_superelement(body);
   std::string stored;
   for (const auto& [name, value] : body.checks) {
@@ -82,7 +99,7 @@ void inspect(const std::string& path) {
       stored += fmt::format("  {:28} {:8.1e}\n", name, value);
     }
   }
-  fmt::print("{}: {}\n{}{}", path, body.created_by, describe(body), describe(checks));
+  fmt::print("{}{}{}", title, describe(body), describe(checks));
   if (!stored.empty()) {
     fmt::print("stored by the reduction, which alone had the mesh's matrices\n{}", stored);
   }
@@ -90,6 +107,18 @@ void inspect(const std::string& path) {
     if (!check.passed()) {
       throw ComputationError(fmt::format("{}: the check {} fails: {}", path, check.name, check.meaning));
     }
+  }
+}
+
+void inspect(const std::string& path) {
+  if (!holds_pieces(path)) {
+    const Superelement body = read_superelement(path);
+    return inspect(body, path, fmt::format("{}: {}\n", path, body.created_by));
+  }
+  const CutBody body = read_cut_body(path);
+  fmt::print("{}: {}\n{}", path, body.created_by, describe(body));
+  for (std::size_t k = 0; k < body.pieces.size(); ++k) {
+    inspect(body.pieces[k], path + ": " + group_of_piece(k), fmt::format("\npiece {}\n", k + 1));
   }
 }
 
@@ -149,4 +178,8 @@ int body(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) { return bielle::run_program("bielle-reduce", body, argc, argv); }
+int main(int argc, char** argv) {
+  const int status = bielle::run_program("bielle-reduce", body, argc, argv);
+  std::fflush(nullptr);
+  _exit(status);  // libraries that clean up at exit hang there when memory has run out
+}

@@ -5,24 +5,27 @@
 
 #include <fmt/format.h>
 
+#include "reduce/common/counted.hpp"
+
 namespace bielle::reduce {
 
 namespace {
 
 constexpr Eigen::Index shown_modes = 40, shown_free = 12, shown_interfaces = 20;
+constexpr std::size_t shown_points = 20;
 
-/// Rounding residue beside the largest component reads as zero.
+/// Rounding residue relative to the largest component reads as zero.
 std::string place(const Eigen::Vector3d& x) {
   const double least = 1e-12 * x.cwiseAbs().maxCoeff();
   const auto clean = [&](double value) { return std::abs(value) < least ? 0.0 : value; };
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", clean(x.x()), clean(x.y()), clean(x.z()));
 }
 
-std::string directions(const Interface& interface) {
+std::string directions(const std::array<bool, 6>& chosen) {
   constexpr const char* names[] = {"x", "y", "z", "rx", "ry", "rz"};
   std::string result;
   for (int axis = 0; axis < 6; ++axis) {
-    if (interface.kept[axis]) {
+    if (chosen[axis]) {
       result += fmt::format("{}{}", result.empty() ? "" : " ", names[axis]);
     }
   }
@@ -41,8 +44,8 @@ std::string interfaces_of(const Superelement& body) {
       result += fmt::format("  ... and {} more\n", body.interfaces.size() - shown_interfaces);
       break;
     }
-    result +=
-        fmt::format("  {:{}}  at {} m, {}\n", interface.name, width, place(interface.position), directions(interface));
+    result += fmt::format("  {:{}}  at {} m, {}\n", interface.name, width, place(interface.position),
+                          directions(interface.kept));
   }
   return result;
 }
@@ -56,7 +59,17 @@ std::string mass_of(const Superelement& body) {
       body.total_mass, place(body.centre), j(0, 0), j(1, 1), j(2, 2), j(0, 1), j(0, 2), j(1, 2));
 }
 
+std::string residual_vectors_of(const Superelement& body) {
+  if (body.residual_vectors == 0) {
+    return "";
+  }
+  const Eigen::VectorXd frequencies = body.frequencies.tail(body.residual_vectors);
+  return fmt::format("{}, with pseudo-frequencies of {:.6g} to {:.6g} Hz\n",
+                     counted(body.residual_vectors, "residual vector"), frequencies.minCoeff(), frequencies.maxCoeff());
+}
+
 std::string modes_of(const Superelement& body) {
+  const Eigen::Index modes = body.fixed_boundary_modes();
   if (body.modes() == 0) {
     return "no fixed-boundary modes: the body deforms as its interfaces move it\n";
   }
@@ -70,17 +83,19 @@ std::string modes_of(const Superelement& body) {
     }
     return line + "\n";
   };
+  if (modes == 0) {
+    return "no fixed-boundary modes\n";
+  }
   std::string result = fmt::format(
       "fixed-boundary modes and their effective mass, in % of the body's mass and inertia about its centre\n"
       "  mode         [Hz]       x       y       z      rx      ry      rz\n");
-  for (Eigen::Index k = 0; k < std::min(body.modes(), shown_modes); ++k) {
+  for (Eigen::Index k = 0; k < std::min(modes, shown_modes); ++k) {
     result += row(fmt::format("{}", k + 1), fmt::format("{:.6g}", body.frequencies(k)), body.effective_mass.row(k));
   }
-  if (body.modes() > shown_modes) {
-    result +=
-        fmt::format("  ... and {} more, up to {:.6g} Hz\n", body.modes() - shown_modes, body.frequencies.maxCoeff());
+  if (modes > shown_modes) {
+    result += fmt::format("  ... and {} more, up to {:.6g} Hz\n", modes - shown_modes, body.frequencies(modes - 1));
   }
-  return result + row("sum", "", body.effective_mass.colwise().sum());
+  return result + row("sum", "", body.effective_mass.topRows(modes).colwise().sum());
 }
 
 std::string free_of(const Superelement& body) {
@@ -95,6 +110,26 @@ std::string free_of(const Superelement& body) {
   return result + (frequencies.size() > shown_free ? " ...\n" : "\n");
 }
 
+std::string points_of(const Superelement& body) {
+  if (body.points.empty()) {
+    return "";
+  }
+  std::size_t width = 0, shown = 0;
+  for (const auto& [name, point] : body.points) {
+    width = std::max(width, name.size());
+  }
+  std::string result = "points\n";
+  for (const auto& [name, point] : body.points) {
+    if (shown++ == shown_points) {
+      return result + fmt::format("  ... and {} more\n", body.points.size() - shown_points);
+    }
+    const std::string residual = directions(point.residual);
+    result += fmt::format("  {:{}}  at {} m{}\n", name, width, place(point.position),
+                          residual.empty() ? "" : ", residual vectors for " + residual);
+  }
+  return result;
+}
+
 std::string extras_of(const Superelement& body) {
   std::string result;
   for (const auto& [name, pattern] : body.loads) {
@@ -102,7 +137,7 @@ std::string extras_of(const Superelement& body) {
   }
   result += result.empty() ? "" : "\n";
   result += body.displacement_recovery.size() > 0
-                ? fmt::format("displacements can be recovered at {} points", body.mesh.points.cols())
+                ? fmt::format("displacements can be recovered at {}", counted(body.mesh.points.cols(), "point"))
                 : std::string("displacements cannot be recovered");
   result += body.stress_recovery.size() > 0 ? fmt::format(", stresses at {}\n", body.stress_nodes.size())
                                             : std::string(", stresses cannot\n");
@@ -112,9 +147,15 @@ std::string extras_of(const Superelement& body) {
 }  // namespace
 
 std::string describe(const Superelement& body) {
-  return fmt::format("{}: {} coordinates, {} of interfaces and {} of modes\n", body.name.empty() ? "body" : body.name,
-                     body.size(), body.interface_directions(), body.modes()) +
-         interfaces_of(body) + mass_of(body) + modes_of(body) + free_of(body) + extras_of(body);
+  const Eigen::Index modes = body.fixed_boundary_modes();
+  const std::string kinds = body.residual_vectors == 0
+                                ? fmt::format("{} of interfaces and {} of modes", body.interface_directions(), modes)
+                                : fmt::format("{} of interfaces, {} of modes and {} of residual vectors",
+                                              body.interface_directions(), modes, body.residual_vectors);
+  return fmt::format("{}: {}, {}\n", body.name.empty() ? "body" : body.name, counted(body.size(), "coordinate"),
+                     kinds) +
+         interfaces_of(body) + points_of(body) + mass_of(body) + modes_of(body) + residual_vectors_of(body) +
+         free_of(body) + extras_of(body);
 }
 
 std::string describe(const std::vector<Check>& checks) {
@@ -130,11 +171,11 @@ std::string describe(const ReductionReport& report, const std::vector<PhaseRepor
   std::string result;
   if (report.factor.unknowns > 0) {
     result += fmt::format(
-        "factorisation: {} unknowns, {} numbers in the factor ({:.0f} MB), {:.3g} GFLOP at {:.3g} GFLOP/s, ordering "
-        "{:.2f} s, "
-        "numbers {:.2f} s; {} single solutions for the modes\n",
-        report.factor.unknowns, report.factor.nonzeros, report.factor.memory_MB(), 1e-9 * report.factor.flops,
-        report.factor.speed(), report.factor.ordering_seconds, report.factor.factorisation_seconds, report.solves);
+        "factorisation: {}, {} in the factor ({:.0f} MB), {:.3g} GFLOP at {:.3g} GFLOP/s, ordering {:.2f} s, "
+        "numbers {:.2f} s; {} for the modes\n",
+        counted(report.factor.unknowns, "unknown"), counted(report.factor.nonzeros, "number"),
+        report.factor.memory_MB(), 1e-9 * report.factor.flops, report.factor.speed(), report.factor.ordering_seconds,
+        report.factor.factorisation_seconds, counted(report.solves, "single solution"));
   }
   double total = 0;
   for (const PhaseReport& phase : phases) {

@@ -9,8 +9,8 @@
 
 namespace bielle::reduce {
 
-/// Interfaces, mass properties, fixed-boundary modes with their effective masses, free-free frequencies, load patterns
-/// and what can be recovered.
+/// Interfaces, mass properties, fixed-boundary modes with their effective masses, residual vectors, free-free
+/// frequencies, load patterns, points and what can be recovered.
 std::string describe(const Superelement& body);
 
 /// One line for each check with its verdict.

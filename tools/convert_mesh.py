@@ -29,7 +29,7 @@ def main(arguments):
     for text in mesh.notes:
         messages.note(f"{source}: {text}")
     counts = ", ".join(f"{len(cells)} {kind}" for kind, cells in mesh.cells.items())
-    print(f"{target}: {len(mesh.points)} points, {counts}")
+    print(f"{target}: {messages.counted(len(mesh.points), 'point')}, {counts}")
     for title, groups in (("surfaces", mesh.surfaces), ("volumes", mesh.volumes)):
         print(f"  {title}: " + (", ".join(sorted(groups)) or "none named"))
 

@@ -9,6 +9,7 @@ AnalysisSummary Analysis::run(Session& session) const {
   session.begin_analysis(type_, expected_rows(session.recording()));
   solve(session, summary);
   session.end_analysis();
+  summary.text += session.gathered();
   return summary;
 }
 
@@ -17,6 +18,7 @@ AnalysisSummary Analysis::go_on(Session& session, const std::vector<double>& che
   session.begin_analysis(type_, 0, &sink);
   solve_rest(session, checkpoint, sink, summary);
   session.end_analysis();
+  summary.text += session.gathered();
   return summary;
 }
 

@@ -1,7 +1,6 @@
 // `assembly`: positions and velocities are made consistent, and recorded.
 #include "mechanism/analyses/analysis_table.hpp"
 #include "mechanism/analyses/summary_text.hpp"
-#include "mechanism/session/unique_reactions.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -15,7 +14,7 @@ class AssemblyAnalysis : public Analysis {
   void solve(Session& session, AnalysisSummary& summary) const override {
     const StartReport start = session.assemble();
     summary.records = session.rows();
-    summary.text = type() + "\n" + format_start(start) + format_redundant(session.redundant(), joints_not_unique(session.system(), session.acting(), session.state()));
+    summary.text = type() + "\n" + format_start(start) + format_mobility(session);
   }
 };
 

@@ -7,8 +7,8 @@
 #include "mechanism/analyses/analysis_table.hpp"
 #include "mechanism/analyses/newton_reader.hpp"
 #include "mechanism/analyses/summary_text.hpp"
-#include "mechanism/session/unique_reactions.hpp"
-#include "mechanism/solvers/model_length.hpp"
+#include "mechanism/solvers/newton/model_length.hpp"
+#include "reduce/common/counted.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -60,6 +60,11 @@ StepOptions read_stepping(const YamlValue& entry, double duration) {
     options.size = entry.at("step").positive_number();
     if (entry.has("largest_step")) entry.at("largest_step").fail("is for adaptive steps: give a `tolerance` as well");
   }
+  constexpr double most_steps = 1e9;  // years
+  if (!(duration / options.size <= most_steps))
+    entry.at(entry.has("step") ? "step" : "duration")
+        .fail(fmt::format("{:.3g} s in steps of {:.3g} s are {:.3g} steps; expected at most {:.0e}", duration, options.size,
+                          duration / options.size, most_steps));
   if (options.size > duration)
     entry.at("step").fail(fmt::format("{:.6g} s is longer than the duration, {:.6g} s", options.size, duration));
   return options;
@@ -67,6 +72,8 @@ StepOptions read_stepping(const YamlValue& entry, double duration) {
 
 /// Gap in the balance of energy, relative to the largest energy, from which results are not to be trusted unseen.
 constexpr double doubtful = 0.05;
+/// No scheme adds energy to a motion that its steps resolve: from this share on a gain is worth a word.
+constexpr double gained = 0.01;
 
 /// Newton's method knows positions to some 1e-9 of the model's size; energies below the work of the largest forces
 /// along that mean nothing [J].
@@ -83,37 +90,49 @@ std::string format_march(const MarchLog& log, const System& system) {
   std::string text;
   if (log.most_iterations > 0)
     text += fmt::format(
-        "  {} factorisations; at most {} iterations, at t = {:.6g} s{}\n", log.factorisations, log.most_iterations,
-        log.most_iterations_at,
+        "  {}; at most {}, at t = {:.6g} s{}\n", counted(log.factorisations, "factorisation"),
+        counted(log.most_iterations, "iteration"), log.most_iterations_at,
         log.slowest_equation < 0 ? "" : " (worst residual: " + system.equation_name(log.slowest_equation) + ")");
-  if (log.shortened > 0) text += fmt::format("  {} iterations were shortened by the line search\n", log.shortened);
+  if (log.shortened > 0)
+    text += fmt::format("  {} shortened by the line search\n", counted(log.shortened, "iteration"));
   if (log.steps > 0 && log.largest > log.smallest * (1 + 1e-6))
     text += fmt::format("  steps from {:.3g} to {:.3g} s\n", log.smallest, log.largest);
-  if (log.refused_by_error > 0) text += fmt::format("  {} steps refused for their local error\n", log.refused_by_error);
+  if (log.refused_by_error > 0)
+    text += fmt::format("  {} refused for the local error\n", counted(log.refused_by_error, "step"));
   if (log.refused_by_newton > 0)
-    text += fmt::format("  {} steps refused because they could not be solved; the last: {}\n", log.refused_by_newton,
-                        log.hardest);
+    text += fmt::format("  {} refused because Newton's method failed; the last: {}\n",
+                        counted(log.refused_by_newton, "step"), log.hardest);
   return text;
 }
 
 std::string format_events(const Motion& motion) {
   const long count = motion.log().crossings;
   if (count == 0) return {};
-  return fmt::format("  {} event{}, the last: {}{}\n", count, count == 1 ? "" : "s", motion.last_event(),
+  return fmt::format("  {}, the last: {}{}\n", counted(count, "event"), motion.last_event(),
                      motion.stopped_by_event() ? ", which stopped the run" : "");
 }
 
-std::string format_energy(const Session& session, const Motion& motion) {
-  std::string text;
+/// Where the gap in the balance comes from. @param gap  relative to the largest energy; negative: energy is missing
+std::string explain_gap(double gap, const Scheme& scheme) {
+  if (gap > 0) return "gained by errors of the steps";
+  const bool dissipates = scheme.gamma > 0.5 + 1e-12;  // order 1 in gamma - 1/2, whatever the form
+  return dissipates ? "lost to numerical dissipation and errors of the steps"
+                    : "lost by errors of the steps; this scheme does not dissipate";
+}
+
+std::string format_energy(const Session& session, const Motion& motion, const Scheme& scheme) {
   const Energy& energy = motion.energy();
   const double balance = motion.balance(), largest = motion.books().largest();
-  if (largest > 0)
-    text += fmt::format(
-        "  energy at the end [J]: kinetic {:.6g}, elastic {:.6g}, gravity {:.6g}; input {:.6g}, dissipated {:.6g}\n"
-        "  balance {:.3g} J, {:.2g} of the largest energy (negative: numerical dissipation)\n",
-        energy.kinetic, energy.elastic, energy.gravity, energy.input, energy.dissipation, balance, balance / largest);
-  if (largest > energy_noise(session) && std::abs(balance) > doubtful * largest)
+  std::string text = fmt::format(
+      "  energy at the end [J]: kinetic {:.6g}, elastic {:.6g}, gravity {:.6g}; input {:.6g}, dissipated {:.6g}\n",
+      energy.kinetic, energy.elastic, energy.gravity, energy.input, energy.dissipation);
+  if (!(largest > energy_noise(session))) return text + "  nothing moved\n";
+  const double gap = balance / largest;
+  text += fmt::format("  balance {:.3g} J, {:.2g} of the largest energy ({})\n", balance, gap, explain_gap(gap, scheme));
+  if (std::abs(gap) > doubtful)
     text += "  DOUBTFUL: so large a gap in the balance means steps too long for the motion, or a motion that jumps\n";
+  else if (gap > gained)
+    text += "  energy grows: take smaller steps, or give a `tolerance`\n";
   return text;
 }
 
@@ -170,10 +189,11 @@ void DynamicAnalysis::finish(Session& session, Motion& motion, const std::string
   summary.numbers["end_time"] = {motion.time()};
   summary.numbers["steps"] = {static_cast<double>(log.steps)};
   summary.numbers["balance"] = {motion.balance()};
-  summary.text = heading + format_start(motion.start()) + format_redundant(session.redundant(), joints_not_unique(session.system(), session.acting(), session.state()));
+  summary.text = heading + format_start(motion.start()) + format_mobility(session);
   if (log.steps > 0)
-    summary.text += format_steps(log.steps, log.iterations, summary.records, motion.time()) +
-                    format_march(log, session.system()) + format_events(motion) + format_energy(session, motion);
+    summary.text += format_steps(log.steps, log.iterations, summary.records) +
+                    fmt::format(", until t = {:.6g} s\n", motion.time()) + format_march(log, session.system()) +
+                    format_events(motion) + format_energy(session, motion, options_.scheme);
 }
 
 }  // namespace bielle::mechanism

@@ -1,7 +1,7 @@
 // The key `newton` of analyses: how the equations of a step are solved.
 #pragma once
 
-#include "mechanism/solvers/convergence.hpp"
+#include "mechanism/solvers/newton/convergence.hpp"
 #include "reduce/common/yaml_file.hpp"
 
 namespace bielle::mechanism {

@@ -5,7 +5,8 @@
 #include "mechanism/analyses/analysis_table.hpp"
 #include "mechanism/analyses/newton_reader.hpp"
 #include "mechanism/analyses/summary_text.hpp"
-#include "mechanism/session/unique_reactions.hpp"
+#include "mechanism/reading/names.hpp"
+#include "reduce/common/counted.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -21,7 +22,7 @@ PathEnd read_path_end(const YamlValue& entry, const Model& model) {
     end.load_factor = entry.at("load_factor").number();
     return end;
   }
-  end.node = model.node_named_by(entry.at("node"));
+  end.node = node_named_by(entry.at("node"), model);
   end.displacement = entry.at("displacement").number();
   if (const auto direction = entry.find("direction")) {
     const std::string axis =
@@ -73,12 +74,12 @@ void StaticAnalysis::solve(Session& session, AnalysisSummary& summary) const {
   summary.records = session.rows();
   summary.numbers["load_factor"] = {report.load_factor};
   summary.numbers["limit_points"] = report.limit_points;
-  summary.text = options_.path ? fmt::format("static, arc length, {} points to load factor {:.6g}\n", report.points,
-                                             report.load_factor)
-                               : fmt::format("static, {} load step{}\n", report.points, report.points == 1 ? "" : "s");
-  summary.text += format_redundant(session.redundant(), joints_not_unique(session.system(), session.acting(), session.state()));
+  summary.text = options_.path ? fmt::format("static, arc length, {} to load factor {:.6g}\n",
+                                             counted(report.points, "point"), report.load_factor)
+                               : fmt::format("static, {}\n", counted(report.points, "load step"));
+  summary.text += format_mobility(session);
   if (report.points == 0) return;
-  summary.text += format_steps(report.points, report.iterations, summary.records, session.time());
+  summary.text += format_steps(report.points, report.iterations, summary.records) + "\n";
   for (const double factor : report.limit_points)
     summary.text += fmt::format("  limit point at load factor {:.9g}\n", factor);
 }

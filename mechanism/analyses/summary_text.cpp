@@ -1,7 +1,13 @@
 #include "mechanism/analyses/summary_text.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include "mechanism/session/unique_reactions.hpp"
+#include "mechanism/system/loose_parts.hpp"
+#include "reduce/common/counted.hpp"
 
 namespace bielle::mechanism {
 
@@ -35,17 +41,36 @@ std::string describe_not_unique(const std::vector<std::string>& joints) {
                      fmt::join(joints, "', '"));
 }
 
-std::string format_redundant(const std::vector<std::string>& redundant, const std::vector<std::string>& not_unique) {
-  std::string text;
-  for (const std::string& name : redundant)
-    text += fmt::format("  redundant: {}; set aside\n", name);
-  if (!not_unique.empty()) text += fmt::format("  {}\n", describe_not_unique(not_unique));
+std::string describe_loose(const System& system) {
+  constexpr std::size_t most = 5;
+  const std::vector<int> nodes = loose_parts(system);
+  if (nodes.empty()) return {};
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < std::min(most, nodes.size()); ++k) names.push_back(system.model().node(nodes[k]).name);
+  return fmt::format("joined to nothing that is held: {} '{}'{}", nodes.size() == 1 ? "the part of node" : "the parts of nodes",
+                     fmt::join(names, "', '"), nodes.size() > most ? fmt::format(" and {} more", nodes.size() - most) : "");
+}
+
+std::string format_mobility(const Session& session) {
+  const Mobility& mobility = session.mobility();
+  std::string text = mobility.degrees > 0
+                         ? fmt::format("  {}\n", counted(mobility.degrees, "degree of freedom", "degrees of freedom"))
+                         : "  0 degrees of freedom: nothing moves but by drives and prescribed motions\n";
+  if (const std::string loose = describe_loose(session.system()); !loose.empty()) text += fmt::format("  {}\n", loose);
+  for (const std::string& name : session.redundant()) text += fmt::format("  redundant: {}; set aside\n", name);
+  for (const std::string& name : mobility.nearly_redundant)
+    text += fmt::format(
+        "  nearly redundant: {} differs from what others hold by less than a thousandth; as it is, it takes a degree of "
+        "freedom away and may bear any force: are axes and positions exact?\n",
+        name);
+  if (const auto joints = joints_not_unique(session.system(), session.acting(), session.state()); !joints.empty())
+    text += fmt::format("  {}\n", describe_not_unique(joints));
   return text;
 }
 
-std::string format_steps(long steps, long iterations, long records, double end_time) {
-  return fmt::format("  {} steps, {:.2f} Newton iterations per step, {} rows recorded, until t = {:.6g} s\n", steps,
-                     static_cast<double>(iterations) / static_cast<double>(steps), records, end_time);
+std::string format_steps(long steps, long iterations, long records) {
+  return fmt::format("  {}, {:.2f} Newton iterations per step, {} recorded", counted(steps, "step"),
+                     static_cast<double>(iterations) / static_cast<double>(steps), counted(records, "row"));
 }
 
 }  // namespace bielle::mechanism

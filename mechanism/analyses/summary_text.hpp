@@ -4,18 +4,20 @@
 #include <string>
 #include <vector>
 
-#include "mechanism/solvers/consistent_start.hpp"
+#include "mechanism/session/session.hpp"
+#include "mechanism/solvers/start/start_report.hpp"
 
 namespace bielle::mechanism {
 
 /// What the start had to change; nothing, where that is nothing.
 std::string format_start(const StartReport& start);
-/// Constraints set aside, by joint, and the joints whose reactions they leave open.
-std::string format_redundant(const std::vector<std::string>& redundant, const std::vector<std::string>& not_unique);
+/// How many ways there are to move, constraints set aside or nearly so, joints whose reactions they leave open.
+std::string format_mobility(const Session& session);
 /// "the reactions of joints 'a', 'b' are not unique: the smallest are reported"; nothing where all are.
 std::string describe_not_unique(const std::vector<std::string>& joints);
-/// @param records   rows
-/// @param end_time  [s]
-std::string format_steps(long steps, long iterations, long records, double end_time);
+/// "joined to nothing that is held: the part of node 'lost'"; nothing where all parts are.
+std::string describe_loose(const System& system);
+/// @param records  rows
+std::string format_steps(long steps, long iterations, long records);
 
 }  // namespace bielle::mechanism

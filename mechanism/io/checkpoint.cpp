@@ -2,13 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <sstream>
 
 #include <fmt/format.h>
 
-#include "mechanism/solvers/model_length.hpp"
+#include "mechanism/model/gatherer.hpp"
+#include "mechanism/solvers/newton/model_length.hpp"
 #include "mechanism/system/system.hpp"
+#include "reduce/common/checksum.hpp"
+#include "reduce/common/counted.hpp"
 #include "reduce/common/hdf5_file.hpp"
 
 namespace bielle::mechanism {
@@ -17,7 +21,7 @@ namespace {
 const std::string root = "/checkpoints";
 
 /// Of the numbers in a checkpoint: one more whenever what is exchanged with the Archive, or its order, changes.
-constexpr int format = 3;
+constexpr int format = 6;
 
 std::string analysis_name(int analysis) { return fmt::format("/analysis_{}", analysis); }
 
@@ -130,16 +134,66 @@ std::string fingerprint(const Model& model) {
     text += fmt::format("{} '{}' {}\n", component.type(), component.name(),
                         forces(component, LocalState(probe, system.slots()[m], model.environment)));
   }
+  for (const Member& member : model.members())
+    if (const auto gatherer = member.component->make_gatherer()) text += gatherer->what() + "\n";
   return text;
 }
+
+namespace {
+
+[[noreturn]] void fail_damaged(const Hdf5File& file, const std::string& what) {
+  throw InputError(
+      fmt::format("{}: {}: the checkpoints are damaged, and no run can go on from them", file.path(), what));
+}
+
+/// How many rows of its analysis the last checkpoint counts.
+std::size_t recorded_rows(const Hdf5File& file, int analysis, const std::vector<double>& rows) {
+  const std::string time = analysis_name(analysis) + "/time";
+  const double last = rows.back();
+  const Shape shape = file.has(time) ? file.shape(time) : Shape{0};
+  if (shape.size() != 1) fail_damaged(file, time + " is no list of numbers");
+  const auto there = static_cast<double>(shape[0]);
+  if (!(last >= 1 && last <= there && last == std::floor(last)))
+    fail_damaged(file, fmt::format("a checkpoint counts {} rows of {}, of which there are {}", last, time, there));
+  return static_cast<std::size_t>(last);
+}
+
+std::vector<double> last_state(const Hdf5File& file, const std::string& group, std::size_t count) {
+  const Shape shape = file.shape(group + "/state");
+  if (shape.size() != 2 || shape[0] < count)
+    fail_damaged(file, fmt::format("{}/state has not one row for each of {}", group, counted(count, "checkpoint")));
+  const std::vector<double> states = file.read(group + "/state");
+  const auto begin = states.begin() + static_cast<std::ptrdiff_t>((count - 1) * shape[1]);
+  return {begin, begin + static_cast<std::ptrdiff_t>(shape[1])};
+}
+
+std::int64_t sum_of(const Checkpoint& checkpoint) {
+  Checksum sum;
+  sum.add(static_cast<double>(checkpoint.rows));
+  sum.add(checkpoint.values);
+  return sum.value();
+}
+
+/// Files of before have no sums.
+void check_sum(const Hdf5File& file, const std::string& group, std::size_t count, const Checkpoint& checkpoint) {
+  if (!file.has(group + "/checksum")) return;
+  const std::vector<double> sums = file.read(group + "/checksum");
+  if (sums.size() < count || sums[count - 1] != static_cast<double>(sum_of(checkpoint)))
+    fail_damaged(file, group + "/state does not hold the numbers that were written");
+}
+
+}  // namespace
 
 Checkpoint read_checkpoint(const std::string& results_path, const Model& model) {
   const Hdf5File file = Hdf5File::open(results_path);
   Checkpoint checkpoint;
   if (file.has(root))
     for (int k = 1; file.has(analysis_name(k)); ++k)
-      if (const std::string rows = root + analysis_name(k) + "/rows"; file.has(rows) && file.shape(rows)[0] > 0)
-        checkpoint.analysis = k;
+      if (const std::string rows = root + analysis_name(k) + "/rows"; file.has(rows)) {
+        const Shape shape = file.shape(rows);
+        if (shape.size() != 1) fail_damaged(file, rows + " is no list of numbers");
+        if (shape[0] > 0) checkpoint.analysis = k;
+      }
   if (checkpoint.analysis == 0)
     throw InputError(
         fmt::format("{}: holds no checkpoint to go on from; a run writes them with `output: {{checkpoint: "
@@ -148,23 +202,25 @@ Checkpoint read_checkpoint(const std::string& results_path, const Model& model) 
   check_fingerprint(results_path, file.read_text(root + "/model"), fingerprint(model));
   const std::string group = root + analysis_name(checkpoint.analysis);
   const std::vector<double> rows = file.read(group + "/rows");
-  checkpoint.rows = static_cast<std::size_t>(rows.back());
-  const Shape shape = file.shape(group + "/state");
-  const std::vector<double> states = file.read(group + "/state");
-  const auto begin = states.begin() + static_cast<std::ptrdiff_t>((rows.size() - 1) * shape[1]);
-  checkpoint.values.assign(begin, begin + static_cast<std::ptrdiff_t>(shape[1]));
+  checkpoint.rows = recorded_rows(file, checkpoint.analysis, rows);
+  checkpoint.values = last_state(file, group, rows.size());
+  check_sum(file, group, rows.size(), checkpoint);
   return checkpoint;
 }
 
 void append_checkpoint(Hdf5File& file, const Model& model, const Checkpoint& checkpoint) {
-  const std::string group = root + analysis_name(checkpoint.analysis), state = group + "/state", rows = group + "/rows";
+  const std::string group = root + analysis_name(checkpoint.analysis), state = group + "/state", rows = group + "/rows",
+                    sums = group + "/checksum";
   if (!file.has(root + "/model")) file.write_text(root + "/model", fingerprint(model));
   if (!file.has(rows)) {
     constexpr std::size_t together = 16;
     file.create_rows(state, {checkpoint.values.size()}, "-", "all that a run goes on from", together);
+    file.create_rows(sums, {}, "-", "of each state and its number of rows", 1024);
     file.create_rows(rows, {}, "-", "of the analysis's results that belong to each checkpoint", 1024);
   }
   file.append_rows(state, checkpoint.values);
+  const auto sum = static_cast<double>(sum_of(checkpoint));
+  if (file.has(sums)) file.append_rows(sums, {&sum, 1});
   file.flush();
   const auto count = static_cast<double>(checkpoint.rows);
   file.append_rows(rows, {&count, 1});
@@ -181,14 +237,17 @@ void rewind_to(Hdf5File& file, const Checkpoint& checkpoint) {
   // What an analysis says at its end (`reaction_unique`) it will say again.
   std::vector<std::string> of_the_end;
   for_each_dataset(file, group, [&](const std::string& dataset) {
-    if (file.shape(dataset).empty())
+    if (file.grows(dataset)) {
+      if (dataset.rfind(group + "/events/", 0) != 0) file.truncate_rows(dataset, checkpoint.rows);
+    } else if (!file.is_text(dataset)) {  // texts are names and attributes of what is recorded
       of_the_end.push_back(dataset);
-    else if (dataset.rfind(group + "/events/", 0) != 0)
-      file.truncate_rows(dataset, checkpoint.rows);
+    }
   });
   for (const std::string& dataset : of_the_end) file.remove(dataset);
   const std::string checkpoints = root + group;
-  file.truncate_rows(checkpoints + "/state", file.shape(checkpoints + "/rows")[0]);
+  for (const char* dataset : {"/state", "/checksum"})
+    if (file.has(checkpoints + dataset))
+      file.truncate_rows(checkpoints + dataset, file.shape(checkpoints + "/rows")[0]);
   file.flush();
 }
 

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include "mechanism/elements/beam.hpp"
-#include "mechanism/elements/load.hpp"
-#include "mechanism/elements/rigid_body.hpp"
-#include "mechanism/elements/spring_damper.hpp"
-#include "mechanism/elements/superelement_body.hpp"
-#include "mechanism/joints/drive.hpp"
-#include "mechanism/joints/lower_pairs.hpp"
+#include "mechanism/elements/beam/beam.hpp"
+#include "mechanism/elements/forces/load.hpp"
+#include "mechanism/elements/forces/spring_damper.hpp"
+#include "mechanism/elements/rigid_body/rigid_body.hpp"
+#include "mechanism/elements/superelement/superelement_body.hpp"
+#include "mechanism/joints/actions/drive.hpp"
+#include "mechanism/joints/pairs/lower_pairs.hpp"
 
 namespace bielle::mechanism {
 
@@ -29,20 +29,6 @@ const std::vector<ComponentType>& component_table() {
       {Section::loads, "load", read_load},
   };
   return table;
-}
-
-const char* section_name(Section section) {
-  switch (section) {
-    case Section::elements:
-      return "elements";
-    case Section::joints:
-      return "joints";
-    case Section::drives:
-      return "drives";
-    case Section::loads:
-      break;
-  }
-  return "loads";
 }
 
 void read_component(Section section, const std::string& name, const YamlValue& entry, Model& model) {

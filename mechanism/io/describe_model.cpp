@@ -1,113 +1,146 @@
 #include "mechanism/io/describe_model.hpp"
 
-#include <cmath>
+#include <array>
 #include <map>
-#include <set>
 
-#include <Eigen/LU>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "mechanism/analyses/summary_text.hpp"
-#include "mechanism/elements/beam_element.hpp"
-#include "mechanism/elements/rigid_body.hpp"
-#include "mechanism/joints/joint.hpp"
+#include "mechanism/model/description.hpp"
 #include "mechanism/session/unique_reactions.hpp"
-#include "mechanism/solvers/massless_direction.hpp"
-#include "mechanism/solvers/redundancy.hpp"
+#include "mechanism/solvers/constraints/redundancy.hpp"
+#include "mechanism/solvers/start/assemble_positions.hpp"
+#include "mechanism/solvers/start/massless_direction.hpp"
+#include "reduce/common/counted.hpp"
 
 namespace bielle::mechanism {
 namespace {
 
-std::string format_vector(const Vector3& v) {
-  // Rounding residue of orthogonal axes reads as zero.
-  const auto clean = [](double x) { return std::abs(x) < 1e-14 ? 0.0 : x; };
-  return fmt::format("({:.6g}, {:.6g}, {:.6g})", clean(v.x()), clean(v.y()), clean(v.z()));
+constexpr std::array described_sections = {Section::elements, Section::joints,   Section::drives,
+                                           Section::loads,    Section::measures, Section::events};
+
+/// What formulas have made for themselves is no entry of the file.
+bool is_own(const Member& member) {
+  return member.entry.section != Section::measures || member.recorded != Recorded::no;
 }
 
-/// What the user's numbers made of bodies and beams.
-std::string describe_elements(const Model& model) {
-  std::string text;
-  std::map<std::string, std::vector<const BeamElement*>> beams;
-  for (const Member& member : model.members()) {
-    const Component* component = member.component.get();
-    if (const auto* body = dynamic_cast<const RigidBody*>(component)) {
-      const MassProperties& p = body->properties();
-      const Matrix3& J = p.inertia;
-      text += fmt::format("  element '{}' ({}): mass {:.6g} kg, centre {}", body->name(), body->type(), p.mass,
-                          format_vector(p.centre));
-      if (!J.isZero(0))
-        text +=
-            fmt::format(", inertia about it xx {:.6g}, yy {:.6g}, zz {:.6g}, xy {:.6g}, xz {:.6g}, yz {:.6g} kg m^2",
-                        J(0, 0), J(1, 1), J(2, 2), J(0, 1), J(0, 2), J(1, 2));
-      text += "\n";
-    }
-    if (const auto* beam = dynamic_cast<const BeamElement*>(component)) beams[beam->name()].push_back(beam);
+/// One line of a list of counts: "  elements     3 (beam 2, rigid_body 1)".
+std::string count_line(const std::string& title, const std::string& noun, const std::map<std::string, int>& types) {
+  if (types.empty()) return {};
+  int total = 0;
+  std::vector<std::string> parts;
+  for (const auto& [type, count] : types) {
+    total += count;
+    parts.push_back(types.size() == 1 ? type : fmt::format("{} {}", type, count));
   }
-  const auto section = [](const char* where, const BeamElement& element) {
-    const Matrix6& C = element.section();
-    const bool coupled = !C.isDiagonal(1e-12);
-    const std::string line = fmt::format(
-        "    section in the middle of {} element: EA {:.6g}, GAy {:.6g}, GAz {:.6g} N, GJ {:.6g}, EIy {:.6g}, EIz "
-        "{:.6g} N "
-        "m^2{}\n",
-        where, C(0, 0), C(1, 1), C(2, 2), C(3, 3), C(4, 4), C(5, 5),
-        coupled ? " about the node line, and coupling terms" : "");
-    if (!coupled) return line;
-    const Vector6 alone = C.inverse().diagonal().cwiseInverse();
-    return line + fmt::format("      against one moment alone: GJ {:.6g}, EIy {:.6g}, EIz {:.6g} N m^2\n", alone[3],
-                              alone[4], alone[5]);
-  };
-  for (const auto& [name, elements] : beams) {
-    double length = 0, mass = 0;
-    for (const BeamElement* element : elements) {
-      length += element->length();
-      mass += element->mass();
+  const bool says_more = types.size() > 1 || types.begin()->first != noun;
+  return fmt::format("  {:<12} {}{}\n", title, total, says_more ? fmt::format(" ({})", fmt::join(parts, ", ")) : "");
+}
+
+/// How many entries of each type there are. A beam counts once, whatever it is divided into.
+std::string count_entries(const Model& model) {
+  std::string text;
+  std::map<std::string, int> in_joints;  // what acts there: several may act in one joint
+  for (const Section section : described_sections) {
+    std::map<std::string, int> types;
+    for (const std::string& name : model.names_in(section)) {
+      bool first = true;
+      for (const std::size_t m : model.members_of({section, name})) {
+        const Member& member = model.members()[m];
+        if (member.entry != Entry{section, name} || !is_own(member)) continue;
+        if (first)
+          ++types[member.component->type()];
+        else if (section == Section::joints)
+          ++in_joints[member.component->type()];
+        first = false;
+      }
     }
-    text += fmt::format("  element '{}' (beam): length {:.6g} m, mass {:.6g} kg, elements {}\n", name, length, mass,
-                        elements.size());
-    const bool uniform = elements.front()->section() == elements.back()->section();
-    text += section(uniform ? "each" : "the first", *elements.front());
-    if (!uniform) text += section("the last", *elements.back());
+    text += count_line(section_name(section), section_noun(section), types);
+    if (section == Section::joints) text += count_line("in joints", "", in_joints);
   }
   return text;
 }
 
-/// Nodes that nothing uses, and directions that no mass resists.
-std::string describe_nodes(const Model& model, const System& system, const State& state) {
+/// Every entry as its components describe it.
+std::string describe_entries(const Model& model, const System& system, const State& state) {
   std::string text;
-  std::set<int> used;
-  for (const Slots& slots : system.slots()) used.insert(slots.nodes.begin(), slots.nodes.end());
+  for (const Section section : described_sections)
+    for (const std::string& name : model.names_in(section)) {
+      const Entry entry{section, name};
+      Description description(model);
+      std::string type;
+      for (const std::size_t m : model.members_of(entry)) {
+        const Member& member = model.members()[m];
+        if (member.entry != entry || !is_own(member)) continue;  // a drive in its joint is an entry of its own
+        if (type.empty()) type = member.component->type();
+        member.component->describe(LocalState(state, system.slots()[m], model.environment), description);
+      }
+      if (type.empty()) continue;
+      const std::string noun = section_noun(section);
+      const std::vector<std::string> lines = description.lines();
+      text += fmt::format("  {} '{}'{}{}{}\n", noun, name, type == noun ? "" : fmt::format(" ({})", type),
+                          lines[0].empty() ? "" : ": ", lines[0]);
+      for (std::size_t k = 1; k < lines.size(); ++k) text += "    " + lines[k] + "\n";
+    }
+  return text;
+}
+
+/// "rotation y, rotation z of node 'pin'". @param unknowns  of the node
+std::string name_directions(const System& system, int node, const std::vector<int>& unknowns) {
+  const NodeFreedom& freedom = system.kinematics().freedom(node);
+  std::vector<std::string> names;
+  for (const int unknown : unknowns) {
+    Eigen::Index direction = 0;
+    freedom.G.col(unknown - freedom.begin).cwiseAbs().maxCoeff(&direction);
+    names.push_back(fmt::format("{} {}", direction < 3 ? "displacement" : "rotation", "xyz"[direction % 3]));
+  }
+  return fmt::format("{} of node '{}'", fmt::join(names, ", "), system.model().node(node).name);
+}
+
+/// Nodes that nothing is attached to.
+std::string describe_unused(const Model& model, const System& system) {
+  std::vector<bool> used(model.nodes().size(), false);
+  for (const Slots& slots : system.slots())
+    for (const int node : slots.nodes) used[static_cast<std::size_t>(node)] = true;
   for (const Node& node : model.nodes())
-    if (node.carrier) used.insert(*node.carrier);
-  for (int k = 0; k < static_cast<int>(model.nodes().size()); ++k)
-    if (used.count(k) == 0 && model.node(k).name != "ground")
+    if (node.carrier) used[static_cast<std::size_t>(*node.carrier)] = true;
+  std::string text;
+  for (std::size_t k = 1; k < used.size(); ++k)  // the ground comes first, and may stand alone
+    if (!used[k])
       text +=
-          fmt::format("  unused       node '{}': no element, joint or load is attached to it\n", model.node(k).name);
+          fmt::format("  unused       node '{}': no element, joint or load is attached to it\n", model.nodes()[k].name);
+  return text;
+}
+
+/// Directions that no mass resists.
+std::string describe_massless(const Model& model, const System& system, const State& state) {
   std::vector<double> values;
   system.tangent(state, model.environment, {0, 0, 1, 0, 0}, nullptr, values);
-  const auto mass = [&](int row, int column) {
-    const int place = system.pattern().find(row, column);
-    return place < 0 ? 0.0 : values[static_cast<std::size_t>(place)];
+  const auto has_mass = [&](int unknown) {
+    const int place = system.pattern().find(unknown, unknown);
+    return place >= 0 && values[static_cast<std::size_t>(place)] != 0;
   };
+  std::string text;
   std::map<std::string, int> inner;  // nodes inside of elements without mass, by the element
   for (int k = 0; k < static_cast<int>(model.nodes().size()); ++k) {
     const Node& node = model.node(k);
     const NodeFreedom& freedom = system.kinematics().freedom(k);
     std::vector<int> without;
     for (int i = freedom.begin; i < freedom.begin + freedom.count; ++i)
-      if (mass(i, i) == 0) without.push_back(i);
+      if (!has_mass(i)) without.push_back(i);
     if (node.internal && !without.empty() && static_cast<int>(without.size()) == freedom.count)
       ++inner[node.name.substr(0, node.name.rfind('.'))];
     else if (without.size() == 6)
       text += fmt::format("  massless     node '{}'\n", node.name);
-    else
-      for (const int i : without) text += fmt::format("  massless     {}\n", system.unknown_name(i));
+    else if (!without.empty())
+      text += fmt::format("  massless     {}\n", name_directions(system, k, without));
     if (const auto direction = massless_direction(system, values, k))
       text += fmt::format("  massless     {}\n", massless_name(system, k, *direction));
   }
   for (const auto& [element, count] : inner)
-    text += fmt::format("  massless     {} inner node{} of '{}'\n", count, count == 1 ? "" : "s", element);
-  if (text.find("massless") != std::string::npos)
+    text += fmt::format("  massless     {} of '{}'\n", counted(count, "inner node"), element);
+  if (!text.empty())
     text += "               what has no mass must be held (`fixed`), joined to something, or given inertia by a body\n";
   return text;
 }
@@ -127,49 +160,24 @@ std::string describe_model(const MechanismFile& file) {
   for (const Node& node : model.nodes()) internal += node.internal;
   text += fmt::format("  nodes        {}{}\n", model.nodes().size() - static_cast<std::size_t>(internal),
                       internal > 0 ? fmt::format(" and {} inside of elements", internal) : "");
-  // By the names that the user gave: a beam counts once, whatever it is divided into.
-  std::map<std::string, std::map<std::string, std::set<std::string>>> counts;  // section -> type -> names
-  for (const Member& member : model.members()) {
-    const std::string& type = member.component->type();
-    const bool own_section = type == "drive" || type == "load" || type == "event";
-    if (own_section)
-      counts[type + "s"][type].insert(member.component->name());
-    else if (type.rfind("joint_", 0) == 0)  // what acts on their coordinates: several may act in one joint
-      counts["in joints"][type.substr(6)].insert(fmt::format("{}", counts["in joints"][type.substr(6)].size()));
-    else if (!member.group.empty())  // measures that formulas made for themselves have none
-      counts[member.group.substr(0, member.group.find('/'))][type].insert(member.component->name());
-  }
-  for (const auto& [section, types] : counts) {
-    text += fmt::format("  {:<12}", section);
-    const char* separator = " ";
-    for (const auto& [type, names] : types) {
-      text += fmt::format("{}{} {}", separator, names.size(), type);
-      separator = ", ";
-    }
-    text += "\n";
-  }
-  int independent = system.multipliers();
-  system.for_each_idle(state, [&](int) { --independent; });
-  text += fmt::format("  unknowns     {} displacements and amplitudes, {} first-order, {} multipliers\n", system.dofs(),
-                      system.first_orders(), system.multipliers());
-  text += fmt::format("  freedom      {} degrees of freedom after {} independent constraints\n",
-                      system.dofs() - independent, independent);
+  text += count_entries(model);
+  const Mobility mobility = count_mobility(system, model.environment, state);
+  text += fmt::format("  unknowns     {}, {} of first order, {}\n",
+                      counted(system.dofs(), "displacement or amplitude", "displacements and amplitudes"),
+                      system.first_orders(), counted(system.multipliers(), "multiplier"));
+  text += fmt::format("  freedom      {} after {}\n",
+                      counted(mobility.degrees, "degree of freedom", "degrees of freedom"),
+                      counted(mobility.independent, "independent constraint"));
   text += format_start(report);
   for (const std::string& names : name_constraints(system, redundant))
     text += fmt::format("  redundant    {}: set aside\n", names);
+  if (const std::string loose = describe_loose(system); !loose.empty()) text += fmt::format("  loose        {}\n", loose);
+  for (const std::string& names : mobility.nearly_redundant)
+    text += fmt::format("  nearly       redundant: {}\n", names);
   if (const std::vector<std::string> joints = joints_not_unique(system, model.environment, state); !joints.empty())
     text += fmt::format("  reactions    {}\n", describe_not_unique(joints));
-  text += describe_nodes(model, system, state);
-  text += describe_elements(model);
-  for (const Member& member : model.members()) {
-    const auto* joint = dynamic_cast<const Joint*>(member.component.get());
-    if (!joint) continue;
-    const NodeState& first = state.nodes[static_cast<std::size_t>(joint->frames().first)];
-    const Matrix3 axes = first.R * joint->frames().on_first.R;
-    text += fmt::format("  joint '{}' ({}): at {}, x {}, z {}\n", joint->name(), joint->type(),
-                        format_vector(first.x + first.R * joint->frames().on_first.x), format_vector(axes.col(0)),
-                        format_vector(axes.col(2)));
-  }
+  text += describe_unused(model, system) + describe_massless(model, system, state);
+  text += describe_entries(model, system, state);
   return text;
 }
 

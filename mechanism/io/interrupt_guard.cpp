@@ -16,13 +16,17 @@ void note(int) { interrupted = 1; }
 }  // namespace
 
 InterruptGuard::InterruptGuard()
-    : previous_int_(std::signal(SIGINT, note)), previous_term_(std::signal(SIGTERM, note)) {
+    : previous_int_(std::signal(SIGINT, note)),
+      previous_term_(std::signal(SIGTERM, note)),
+      previous_hup_(std::signal(SIGHUP, note)) {
   interrupted = 0;
+  if (previous_hup_ == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup: the run is to outlive its terminal
 }
 
 InterruptGuard::~InterruptGuard() {
   std::signal(SIGINT, previous_int_);
   std::signal(SIGTERM, previous_term_);
+  std::signal(SIGHUP, previous_hup_);
 }
 
 void InterruptGuard::check(double time, const std::string& advice) const {

@@ -1,11 +1,11 @@
-// Runs that are interrupted end with their last step.
+// Interrupted runs end after the current step.
 #pragma once
 
 #include <string>
 
 namespace bielle::mechanism {
 
-/// While it lives, an interrupt (Ctrl-C) or a request to end lets the step in hand finish; then the run stops.
+/// While it lives, an interrupt (Ctrl-C), a termination request or the end of the terminal lets the current step finish; then the run stops.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -19,7 +19,7 @@ class InterruptGuard {
 
  private:
   using Handler = void (*)(int);
-  Handler previous_int_, previous_term_;
+  Handler previous_int_, previous_term_, previous_hup_;
 };
 
 }  // namespace bielle::mechanism

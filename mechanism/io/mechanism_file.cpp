@@ -2,15 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 
 #include "mechanism/analyses/analysis_table.hpp"
+#include "mechanism/elements/superelement/body_points.hpp"
 #include "mechanism/io/component_table.hpp"
 #include "mechanism/measures/input_measure.hpp"
 #include "mechanism/measures/measure_event.hpp"
 #include "mechanism/measures/read_measure.hpp"
-#include "mechanism/system/read_frame.hpp"
+#include "mechanism/reading/names.hpp"
+#include "mechanism/reading/read_frame.hpp"
+#include "reduce/common/plausible.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -18,38 +22,47 @@ namespace {
 constexpr const char* direction_names[] = {"x", "y", "z", "rx", "ry", "rz"};
 const std::vector<std::string> directions(std::begin(direction_names), std::end(direction_names));
 
+constexpr PlausibleRange plausible_gravity{0, 300, "Lengths are in metres: on the earth 9.81 m/s^2"};
+
 std::size_t direction_index(const std::string& name) {
   return static_cast<std::size_t>(std::find(directions.begin(), directions.end(), name) - directions.begin());
 }
 
 /// Evaluates the parameters; each may use those written before it.
-Parameters read_parameters(YamlValue& root, const std::map<std::string, std::string>& overrides) {
-  Parameters parameters;
+void read_parameters(YamlValue& root, const std::map<std::string, std::string>& overrides) {
   std::vector<std::string> names;
   if (const auto section = root.find("parameters"))
     for (const auto& [name, value] : section->entries()) {
       const auto given = overrides.find(name);
       try {
-        parameters[name] = given == overrides.end() ? value.number() : Expression(given->second, {}, parameters)({});
+        root.set_parameter(name, given == overrides.end() ? value.number()
+                                                          : Expression(given->second, {}, root.parameters())({}));
       } catch (const std::runtime_error& error) {
         if (given == overrides.end()) throw;
         throw InputError(fmt::format("--set {}={}: {}", name, given->second, error.what()));
       }
       names.push_back(name);
-      root.set_parameters(parameters);
     }
   for (const auto& [name, expression] : overrides)
-    if (!parameters.count(name))
+    if (!root.parameters().count(name))
       throw InputError(fmt::format("--set {}={}: {} has no parameter '{}'{}", name, expression, root.file(), name,
                                    did_you_mean(name, names)));
-  return parameters;
+}
+
+/// Each item of a list once. @param seen  names so far
+void check_once(const YamlValue& item, const std::string& name, std::set<std::string>& seen) {
+  if (!seen.insert(name).second) item.fail(fmt::format("'{}' stands in this list twice", name));
 }
 
 void read_holds(const YamlValue& entry, Node& node) {
   if (const auto fixed = entry.find("fixed")) {
     if (fixed->is_sequence()) {
-      for (const YamlValue& item : fixed->items())
-        node.freedom[direction_index(item.word(directions, "a direction"))] = Freedom::fixed;
+      std::set<std::string> seen;
+      for (const YamlValue& item : fixed->items()) {
+        const std::string direction = item.word(directions, "a direction");
+        check_once(item, direction, seen);
+        node.freedom[direction_index(direction)] = Freedom::fixed;
+      }
     } else if (fixed->boolean()) {
       node.freedom.fill(Freedom::fixed);
     }
@@ -62,6 +75,7 @@ void read_holds(const YamlValue& entry, Node& node) {
         value.fail("this direction is fixed as well");
       node.freedom[k] = Freedom::prescribed;
       node.motion[k] = value.expression({"t"});
+      doubt_jumps(value, node.motion[k], "the prescribed motion");
     }
     // Rotations are prescribed together: those that are fixed stay zero.
     const auto rotations = node.freedom.begin() + 3;
@@ -110,31 +124,44 @@ void read_node(const std::string& name, const YamlValue& entry, Model& model) {
   model.add_node(std::move(node));
 }
 
+/// The entries of a section by names under which results can stand.
+std::vector<std::pair<std::string, YamlValue>> named_entries(const YamlValue& section) {
+  auto entries = section.entries();
+  for (const auto& [name, entry] : entries) check_name(name, entry);
+  return entries;
+}
+
 MechanismFile read_mechanism(YamlValue root, const std::map<std::string, std::string>& overrides) {
-  root.check_keys(
-      {"mechanism", "gravity", "parameters", "nodes", "elements", "joints", "drives", "loads", "measures", "inputs", "events", "analysis",
-       "output"},
-      "a mechanism file");
+  root.check_keys({"mechanism", "gravity", "parameters", "nodes", "elements", "joints", "drives", "loads", "measures",
+                   "inputs", "events", "analysis", "output", "points"},
+                  "a mechanism file");
   MechanismFile file;
   file.text = root.source_text();
-  file.model.parameters = read_parameters(root, overrides);
-  root.set_parameters(file.model.parameters);
+  read_parameters(root, overrides);
+  file.model.parameters = root.parameters();
   if (root.has("mechanism")) file.model.title = root.at("mechanism").text();
-  if (root.has("gravity")) file.model.environment.gravity = root.at("gravity").vector3();
+  if (const auto gravity = root.find("gravity")) {
+    file.model.environment.gravity = gravity->vector3();
+    constexpr double most = 1e60;  // weights stay numbers
+    if (!(file.model.environment.gravity.cwiseAbs().maxCoeff() < most))
+      gravity->fail("expected accelerations in m/s^2; no force can be computed with these");
+    doubt_outside(*gravity, file.model.environment.gravity.norm(), plausible_gravity);
+  }
 
   if (root.has("nodes"))
-    for (const auto& [name, entry] : root.at("nodes").entries()) read_node(name, entry, file.model);
+    for (const auto& [name, entry] : named_entries(root.at("nodes"))) read_node(name, entry, file.model);
+  if (const auto points = root.find("points")) read_body_points(*points, root.find("elements"), file.model);
   for (const Section section : {Section::elements, Section::joints, Section::drives, Section::loads}) {
     const auto entries = root.find(section_name(section));
     if (!entries) continue;
-    for (const auto& [name, entry] : entries->entries()) read_component(section, name, entry, file.model);
+    for (const auto& [name, entry] : named_entries(*entries)) read_component(section, name, entry, file.model);
   }
   if (const auto measures = root.find("measures"))
-    for (const auto& [name, entry] : measures->entries()) read_measure(name, entry, file.model);
+    for (const auto& [name, entry] : named_entries(*measures)) read_measure(name, entry, file.model);
   if (const auto inputs = root.find("inputs"))
-    for (const auto& [name, entry] : inputs->entries()) read_input(name, entry, file.model);
+    for (const auto& [name, entry] : named_entries(*inputs)) read_input(name, entry, file.model);
   if (const auto events = root.find("events"))
-    for (const auto& [name, entry] : events->entries()) read_event(name, entry, file.model);
+    for (const auto& [name, entry] : named_entries(*events)) read_event(name, entry, file.model);
   file.model.connect();
   if (file.model.members().empty()) root.fail("the mechanism has no elements, joints or loads");
 
@@ -143,6 +170,7 @@ MechanismFile read_mechanism(YamlValue root, const std::map<std::string, std::st
   double end = 0;
   for (const auto& analysis : file.analyses) end += analysis->duration();
   if (const auto output = root.find("output")) file.output = read_output(*output, end, file.model);
+  file.doubts = root.doubts();
   return file;
 }
 

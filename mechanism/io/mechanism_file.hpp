@@ -8,7 +8,7 @@
 
 #include "mechanism/analyses/analysis.hpp"
 #include "mechanism/io/output_options.hpp"
-#include "mechanism/system/model.hpp"
+#include "mechanism/model/model.hpp"
 
 namespace bielle::mechanism {
 
@@ -18,6 +18,8 @@ struct MechanismFile {
   OutputOptions output;
   std::string text;  ///< of the file
   std::string path;  ///< of the file; empty when read from a text
+  /// Sentences about values that are possible and probably not meant, each with its place.
+  std::vector<std::string> doubts;
 };
 
 /// Reads a mechanism file.

@@ -1,17 +1,22 @@
 // The section `output` of a mechanism file: which rows of results are recorded, and what is in them.
 #pragma once
 
+#include <optional>
+
+#include "mechanism/model/model.hpp"
 #include "mechanism/session/recording.hpp"
-#include "mechanism/system/model.hpp"
+#include "mechanism/session/results_rows.hpp"
+#include "reduce/common/yaml_file.hpp"
 
 namespace bielle::mechanism {
 
 struct OutputOptions {
   Recording recording;
-  bool log = false;  ///< a table of all attempted steps next to the results
+  std::optional<ResultsLayout> layout;  ///< nothing: what suits the size of the model
+  bool log = false;                     ///< a table of all attempted steps next to the results
 };
 
-/// Reads the section, and tells the model's components and groups what to record.
+/// Reads the section and sets what the model's components record.
 /// @param end  of the last dynamic analysis [s]
 /// @throws InputError
 OutputOptions read_output(const YamlValue& entry, double end, Model& model);

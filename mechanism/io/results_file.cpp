@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/io/results_datasets.hpp"
 #include "mechanism/io/results_stream.hpp"
 #include "mechanism/system/system.hpp"
 
@@ -11,7 +12,29 @@ namespace bielle::mechanism {
 
 namespace {
 
-constexpr std::int64_t results_version = 1;
+/// By layout: what reads names only knows the first.
+std::int64_t version_of(ResultsLayout layout) { return layout == ResultsLayout::named ? 1 : 2; }
+
+/// The layout of a file that is gone on with.
+ResultsLayout layout_of(const Hdf5File& file, std::optional<ResultsLayout> wanted) {
+  ResultsLayout found = ResultsLayout::named;  // of files that do not say
+  if (file.has_attribute("/", "layout") &&
+      file.read_text_attribute("/", "layout") == layout_name(ResultsLayout::stacked))
+    found = ResultsLayout::stacked;
+  if (wanted && *wanted != found)
+    throw InputError(
+        fmt::format("{}: has the layout '{}', and the model asks for '{}': a run goes on with the layout "
+                    "that it began with",
+                    file.path(), layout_name(found), layout_name(*wanted)));
+  return found;
+}
+
+std::unique_ptr<ResultsStream> extend(const std::string& path, const Model& model,
+                                      std::optional<ResultsLayout> wanted) {
+  Hdf5File file = Hdf5File::open_to_extend(path);
+  const ResultsLayout layout = layout_of(file, wanted);
+  return std::make_unique<ResultsStream>(std::move(file), model, layout);
+}
 
 void begin_run(ResultsStream& stream, const std::string& input_text) {
   Hdf5File& file = stream.file();
@@ -28,20 +51,23 @@ std::string group_of(int analysis) { return fmt::format("/analysis_{}", analysis
 
 }  // namespace
 
-ResultsFile::ResultsFile(const std::string& path, const Model& model, const std::string& input_text)
-    : stream_(std::make_unique<ResultsStream>(Hdf5File::create(path), model)) {
+ResultsFile::ResultsFile(const std::string& path, const Model& model, const std::string& input_text,
+                         std::optional<ResultsLayout> layout)
+    : stream_(std::make_unique<ResultsStream>(Hdf5File::create(path), model, layout)) {
   Hdf5File& file = stream_->file();
   file.write_attribute("/", "format", std::string("bielle results"));
-  file.write_attribute("/", "version", results_version);
+  file.write_attribute("/", "version", version_of(stream_->layout()));
+  file.write_attribute("/", "layout", std::string(layout_name(stream_->layout())));
   file.write_attribute("/", "name", model.title);
   file.write_attribute("/", "created_by", std::string("bielle-mechanism ") + BIELLE_VERSION);
   begin_run(*stream_, input_text);
 }
 
 ResultsFile::ResultsFile(const std::string& path, const Model& model, const std::string& input_text,
-                         const Checkpoint& checkpoint)
-    : stream_(std::make_unique<ResultsStream>(Hdf5File::open_to_extend(path), model)), analysis_(checkpoint.analysis) {
+                         const Checkpoint& checkpoint, std::optional<ResultsLayout> layout)
+    : stream_(extend(path, model, layout)), analysis_(checkpoint.analysis) {
   Hdf5File& file = stream_->file();
+  stream_->check_datasets(group_of(analysis_));  // before anything is taken out
   rewind_to(file, checkpoint);
   stream_->resume(group_of(analysis_), checkpoint.rows);
   file.remove("/input");
@@ -54,7 +80,7 @@ ResultsFile::~ResultsFile() = default;
 void ResultsFile::name_equations(const System& system) {
   std::string names;
   for (int i = 0; i < system.size(); ++i)
-    names += fmt::format("{} [{}]\n", system.equation_name(i), system.equation_units(i));
+    fmt::format_to(std::back_inserter(names), "{} [{}]\n", system.equation_name(i), system.equation_units(i));
   Hdf5File& written = file();
   if (!written.has("/equations")) written.write_text("/equations", names);
   std::string crossings;
@@ -79,6 +105,10 @@ void ResultsFile::record(const State& state, const std::vector<Slots>& slots, co
 void ResultsFile::write(const ResultArray& array) {
   const std::string units = array.units.empty() ? "-" : array.units;
   file().write(analysis_group() + "/" + array.dataset, array.values, array.shape, units, array.description);
+}
+
+void ResultsFile::write(const EntryNumbers& numbers) {
+  write_numbers(file(), analysis_group(), stream_->rows().kinds(), stream_->layout(), numbers);
 }
 
 void ResultsFile::note(const Event& event) {
@@ -106,7 +136,7 @@ void ResultsFile::exchange(Archive& archive) {
   stream_->rows().exchange(archive);
   archive(events_);
   if (!archive.restoring()) return;
-  // Those behind the point where the run goes on will come again.
+  // Those after the point where the run goes on will come again.
   Hdf5File& file = stream_->file();
   for (const char* dataset : {"/events/crossing", "/events/time"})
     if (const std::string name = analysis_group() + dataset; file.has(name))
@@ -115,7 +145,7 @@ void ResultsFile::exchange(Archive& archive) {
 
 void ResultsFile::end_analysis() {
   stream_->wait_until_all_is_written();
-  stream_->link_from_root();  // also what was written beside the rows
+  stream_->link_from_root();  // also what was written in addition to the rows
 }
 
 void ResultsFile::complete() {

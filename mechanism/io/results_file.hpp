@@ -7,11 +7,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "mechanism/io/checkpoint.hpp"
 #include "mechanism/session/result_sink.hpp"
+#include "mechanism/session/results_rows.hpp"
 
 namespace bielle {
 class Hdf5File;
@@ -27,11 +29,15 @@ class ResultsFile : public ResultSink {
  public:
   /// Replaces an existing file. The model must outlive this object.
   /// @param input_text  text of the mechanism file
+  /// @param layout      nothing: by names, or stacked where there would be too many datasets
   /// @throws ComputationError when the file cannot be created
-  ResultsFile(const std::string& path, const Model& model, const std::string& input_text);
-  /// Goes on with an existing file behind a checkpoint: what came after it is taken out. The analysis of the checkpoint
-  /// is the running one.
-  ResultsFile(const std::string& path, const Model& model, const std::string& input_text, const Checkpoint& checkpoint);
+  ResultsFile(const std::string& path, const Model& model, const std::string& input_text,
+              std::optional<ResultsLayout> layout = {});
+  /// Goes on with an existing file from a checkpoint: what came after it is taken out. The analysis of the checkpoint
+  /// is the running one. @param layout  nothing: that of the file
+  /// @throws InputError when the file has another layout, or other outputs
+  ResultsFile(const std::string& path, const Model& model, const std::string& input_text, const Checkpoint& checkpoint,
+              std::optional<ResultsLayout> layout = {});
   ~ResultsFile()
       override;  ///< writes the rows that wait; the file stays `complete = false` unless complete() was called
 
@@ -53,10 +59,11 @@ class ResultsFile : public ResultSink {
 
   /// A dataset of the running analysis, besides its rows.
   void write(const ResultArray& array) override;
+  void write(const EntryNumbers& numbers) override;
   /// Appends to /analysis_k/events.
   void note(const Event& event) override;
 
-  /// Writes the rows that wait and, behind them, a point to go on from. @param archive  with all of it but what belongs
+  /// Writes the rows that wait and, after them, a point to go on from. @param archive  with all of it but what belongs
   /// to the file itself
   void checkpoint(Archive& archive) override;
   /// What rows to come take from those before.
@@ -73,7 +80,7 @@ class ResultsFile : public ResultSink {
  private:
   std::unique_ptr<ResultsStream> stream_;
   int analysis_ = 0;  ///< number of the running one
-  long events_ = 0;  ///< of the running analysis
+  long events_ = 0;   ///< of the running analysis
 };
 
 }  // namespace bielle::mechanism

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include <fmt/format.h>
+#include "mechanism/io/results_datasets.hpp"
 
 namespace bielle::mechanism {
 
@@ -22,6 +22,8 @@ constexpr int wait_per_writing = 10;
 constexpr std::size_t queue_bytes = std::size_t{8} << 20, most_queued = 128;
 // Rows are written in blocks of at most so many bytes and rows.
 constexpr std::size_t block_bytes = std::size_t{32} << 20, most_block_rows = 512;
+// Rows of a column of so many numbers are written one by one: a call costs less than copying them beside each other.
+constexpr std::size_t large_column = 8192;
 // The file grows by so many bytes of results, or by less when the number of rows is known.
 constexpr std::size_t known_growth_bytes = std::size_t{1} << 30, unknown_growth_bytes = std::size_t{4} << 20;
 constexpr std::size_t most_growth_rows = std::size_t{1} << 20, unknown_growth_rows = 8192;
@@ -38,6 +40,9 @@ std::size_t bytes_of(const State& state) {
 }
 
 }  // namespace
+
+ResultsStream::ResultsStream(Hdf5File results, const Model& model, std::optional<ResultsLayout> layout)
+    : model_(model), rows_(model), layout_(layout_for(rows_, layout)), file_(std::move(results)) {}
 
 // -- the run's side
 
@@ -64,22 +69,15 @@ void ResultsStream::begin(const std::string& group, std::size_t expected_rows) {
 void ResultsStream::resume(const std::string& group, std::size_t recorded) {
   begin(group, 0);
   recorded_ = recorded;
-  name_datasets();
-  for (const std::string& dataset : datasets_)
-    if (!file_.has(dataset))
-      throw InputError(fmt::format("{}: '{}' is not in it: a run goes on with the outputs that it began with",
-                                   file_.path(), dataset));
-  for (const std::string section : {"nodes", "joints", "elements"}) {
-    if (!file_.has(group_ + "/" + section)) continue;
-    for (const std::string& name : file_.names_in(group_ + "/" + section))
-      if (!model_.records(section + "/" + name))
-        throw InputError(
-            fmt::format("{}: holds '{}/{}', which `only` leaves out now: a run goes on with the outputs that "
-                        "it began with",
-                        file_.path(), section, name));
-  }
+  prepare_columns();
   created_ = true;
   link_from_root();
+}
+
+void ResultsStream::check_datasets(const std::string& group) {
+  begin(group, 0);
+  prepare_columns();
+  check_same_datasets(file_, group_, model_, rows_, layout_, columns_);
 }
 
 void ResultsStream::make_room(const State& state) {
@@ -141,8 +139,8 @@ void ResultsStream::write_until_told_to_stop() {
     std::exception_ptr failed;
     std::size_t done = 0;
     try {
-      for (std::size_t k = 0; k < taken_.count; ++k) {
-        make_row(taken_.instants[k]);
+      for (std::size_t k = 0; k < taken_.count;) {
+        k += make_rows(k);
         if (block_.rows < block_.times.size()) continue;
         done += block_.rows;
         write_block();
@@ -166,25 +164,37 @@ void ResultsStream::write_until_told_to_stop() {
   }
 }
 
-void ResultsStream::make_row(const Instant& instant) {
-  if (!created_) create_datasets();
+std::size_t ResultsStream::make_rows(std::size_t first) {
+  if (!created_) create_columns();
   if (block_.times.empty()) {
     block_.times.resize(pieces_in(block_bytes, row_bytes(), most_block_rows));
     block_.values.resize(block_.times.size() * rows_.size());
   }
-  rows_.fill(instant.state, *instant.slots, instant.environment, instant.step,
-             block_.values.data() + block_.rows * rows_.size());
-  block_.times[block_.rows++] = instant.step.time.value_or(instant.state.time);
+  const std::size_t count = std::min(taken_.count - first, block_.times.size() - block_.rows);
+  views_.clear();
+  for (std::size_t k = first; k < first + count; ++k) {
+    const Instant& instant = taken_.instants[k];
+    views_.push_back({&instant.state, instant.slots, &instant.environment, &instant.step});
+    block_.times[block_.rows + k - first] = instant.step.time.value_or(instant.state.time);
+  }
+  rows_.fill(views_, block_.values.data() + block_.rows * rows_.size());
+  block_.rows += count;
+  return count;
 }
 
 /// The file never counts a row that is not whole: first the data, then the times.
 void ResultsStream::write_block() {
   for (std::size_t k = 0; k < datasets_.size(); ++k) {
-    const ResultsColumn& column = rows_.columns()[k];
+    const ResultsColumn& column = columns_[k];
+    const double* first = block_.values.data() + column.begin;
+    if (block_.rows == 1 || column.size >= large_column) {
+      for (std::size_t row = 0; row < block_.rows; ++row)
+        file_.append_rows(datasets_[k], {first + row * rows_.size(), column.size});
+      continue;
+    }
     together_.resize(block_.rows * column.size);
     for (std::size_t row = 0; row < block_.rows; ++row)
-      std::copy_n(block_.values.data() + row * rows_.size() + column.begin, column.size,
-                  together_.data() + row * column.size);
+      std::copy_n(first + row * rows_.size(), column.size, together_.data() + row * column.size);
     file_.append_rows(datasets_[k], together_, block_.rows);
   }
   file_.flush();
@@ -196,29 +206,25 @@ void ResultsStream::write_block() {
 
 // -- the datasets of an analysis
 
-void ResultsStream::name_datasets() {
+void ResultsStream::prepare_columns() {
+  if (columns_.empty()) columns_ = rows_.columns(layout_);
   datasets_.clear();
-  for (const ResultsColumn& column : rows_.columns()) datasets_.push_back(group_ + "/" + column.dataset);
+  for (const ResultsColumn& column : columns_) datasets_.push_back(group_ + "/" + column.dataset);
   time_dataset_ = group_ + "/time";
 }
 
-void ResultsStream::create_datasets() {
+/// All of it reaches the file at once, with the flush.
+void ResultsStream::create_columns() {
   const std::size_t known = std::min(expected_rows_, most_growth_rows);
   const std::size_t chunk_rows = known > 0 ? pieces_in(known_growth_bytes, row_bytes(), known)
                                            : pieces_in(unknown_growth_bytes, row_bytes(), unknown_growth_rows);
-  name_datasets();
-  const auto units_or_number = [](const std::string& units) { return units.empty() ? std::string("-") : units; };
-  for (std::size_t k = 0; k < datasets_.size(); ++k) {
-    const ResultsColumn& column = rows_.columns()[k];
-    file_.create_rows(datasets_[k], column.shape, units_or_number(column.units), column.description, chunk_rows);
-  }
-  for (const ResultsGroup& described : rows_.groups()) {
-    file_.make_group(group_ + "/" + described.name);
-    for (const auto& [name, value] : described.attributes)
-      file_.write_attribute(group_ + "/" + described.name, name, value);
-  }
+  prepare_columns();
+  file_.hold_back(true);
+  create_datasets(file_, group_, rows_, layout_, columns_, chunk_rows);
   file_.create_rows(time_dataset_, {}, "s", "row 0 is the start; rows of other datasets beyond these do not count",
                     known > 0 ? known : unknown_growth_rows);
+  file_.flush();
+  file_.hold_back(false);
   rows_.restart();
   created_ = true;
 }

@@ -5,12 +5,13 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "mechanism/model/state.hpp"
 #include "mechanism/session/results_rows.hpp"
-#include "mechanism/system/state.hpp"
 #include "reduce/common/hdf5_file.hpp"
 
 namespace bielle::mechanism {
@@ -20,7 +21,8 @@ namespace bielle::mechanism {
 /// for them to be written.
 class ResultsStream {
  public:
-  ResultsStream(Hdf5File results, const Model& model) : model_(model), rows_(model), file_(std::move(results)) {}
+  /// @param layout  nothing: what suits the size of the model
+  ResultsStream(Hdf5File results, const Model& model, std::optional<ResultsLayout> layout);
   /// Writes what waits.
   ~ResultsStream();
   ResultsStream(const ResultsStream&) = delete;
@@ -31,6 +33,8 @@ class ResultsStream {
   void begin(const std::string& group, std::size_t expected_rows);
   /// Goes on with the rows of an analysis that the file holds already. @throws InputError when it lacks one
   void resume(const std::string& group, std::size_t recorded);
+  /// Changes nothing in the file. @throws InputError when that analysis has other datasets than this run would write
+  void check_datasets(const std::string& group);
   /// Copies a row's state. Waits while both queues are full. @throws what an earlier row failed with
   /// @param slots  of the model's members; must outlive the analysis
   void record(const State& state, const std::vector<Slots>& slots, const Environment& environment,
@@ -42,6 +46,7 @@ class ResultsStream {
   Hdf5File& file() { return file_; }
   ResultsRows& rows() { return rows_; }
   const Model& model() const { return model_; }
+  ResultsLayout layout() const { return layout_; }
   const std::string& group() const { return group_; }
   std::size_t recorded() const { return recorded_; }  ///< rows of the running analysis
 
@@ -65,9 +70,10 @@ class ResultsStream {
   };
   std::size_t row_bytes() const { return sizeof(double) * (rows_.size() + 1); }
   void make_room(const State& state);
-  void name_datasets();
-  void create_datasets();
-  void make_row(const Instant& instant);
+  void prepare_columns();
+  void create_columns();
+  /// Makes rows of states from number `first` of the queue on, as many as the block takes. @returns how many
+  std::size_t make_rows(std::size_t first);
   void write_block();
   void write_until_told_to_stop();
   void check() const {
@@ -76,15 +82,18 @@ class ResultsStream {
 
   const Model& model_;
   ResultsRows rows_;
+  ResultsLayout layout_;
   Hdf5File file_;
   std::string group_;  ///< of the running analysis
   std::size_t expected_rows_ = 0, recorded_ = 0;
-  std::vector<std::string> datasets_;  ///< of the columns
+  std::vector<ResultsColumn> columns_;
+  std::vector<std::string> datasets_;  ///< of the columns, with the group
   std::string time_dataset_;
   bool created_ = false, linked_ = false;
   Queue taken_;
   Block block_;
-  std::vector<double> together_;  ///< the rows of one column, as its dataset takes them
+  std::vector<ResultsInstant> views_;  ///< of the states that rows are made of
+  std::vector<double> together_;       ///< the rows of one column, as its dataset takes them
 
   std::mutex guard_;
   std::condition_variable changed_;

@@ -1,5 +1,6 @@
 #include "mechanism/io/run_analyses.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 
@@ -8,6 +9,7 @@
 #include "mechanism/io/interrupt_guard.hpp"
 #include "mechanism/io/results_file.hpp"
 #include "mechanism/io/step_log.hpp"
+#include "reduce/common/file_checks.hpp"
 #include "reduce/common/hdf5_file.hpp"
 
 namespace bielle::mechanism {
@@ -24,11 +26,15 @@ class ShownNotes : public Notes {
   Progress& progress_;
 };
 
+/// A run that was killed at its very beginning leaves the head of an HDF5 file.
+constexpr std::uintmax_t bare_head = 96;
+
 /// What stands where the results will go may be results only: never a model, a superelement or a table.
 void check_may_be_replaced(const std::string& path) {
   namespace fs = std::filesystem;
   std::error_code none;
   if (!fs::exists(path, none) || fs::file_size(path, none) == 0) return;
+  if (fs::file_size(path, none) <= bare_head && Hdf5File::begins_like_one(path)) return;
   try {
     if (Hdf5File::open(path).read_text_attribute("/", "format") == "bielle results") return;
   } catch (const InputError&) {
@@ -52,27 +58,31 @@ Checkpoint take_checkpoint(const MechanismFile& file, const std::string& restart
         fmt::format("{}: its last checkpoint is of analysis {}, which is '{}' in the model and not a dynamic one",
                     restart, checkpoint.analysis, analysis.type()));
   std::error_code none;
-  if (!fs::equivalent(restart, results_path, none))
-    fs::copy_file(restart, results_path, fs::copy_options::overwrite_existing);
+  if (fs::equivalent(restart, results_path, none)) return checkpoint;
+  fs::copy_file(restart, results_path, fs::copy_options::overwrite_existing, none);
+  if (none)
+    throw ComputationError(
+        fmt::format("{}: cannot be copied to '{}': {}", restart, results_path, none.message()));
   return checkpoint;
 }
 
 std::unique_ptr<ResultsFile> open_results(const MechanismFile& file, const std::string& path,
                                           const std::optional<Checkpoint>& checkpoint) {
-  return checkpoint ? std::make_unique<ResultsFile>(path, file.model, file.text, *checkpoint)
-                    : std::make_unique<ResultsFile>(path, file.model, file.text);
+  return checkpoint ? std::make_unique<ResultsFile>(path, file.model, file.text, *checkpoint, file.output.layout)
+                    : std::make_unique<ResultsFile>(path, file.model, file.text, file.output.layout);
 }
 
 }  // namespace
 
 std::vector<AnalysisSummary> run_analyses(const MechanismFile& file, const std::string& results_path,
-                                          Progress& progress, const std::string& restart) {
+                                          Progress& progress, const std::string& restart, int threads) {
+  check_output_file(results_path);
   check_may_be_replaced(results_path);
   std::optional<Checkpoint> checkpoint;
   if (!restart.empty()) checkpoint = take_checkpoint(file, restart, results_path);
   std::optional<Session> session;
   try {
-    session.emplace(file.model);
+    session.emplace(file.model, threads);
   } catch (const ComputationError&) {
     open_results(file, results_path, checkpoint);  // whatever stood there, it says that this run has failed
     throw;

@@ -1,11 +1,11 @@
-// A table of all steps that were tried, accepted or not, beside the results: RESULTS.steps.csv.
+// A table of all attempted steps, accepted or not, next to the results: RESULTS.steps.csv.
 #pragma once
 
 #include <chrono>
 #include <fstream>
 #include <string>
 
-#include "mechanism/solvers/march.hpp"
+#include "mechanism/solvers/dynamics/march.hpp"
 
 namespace bielle::mechanism {
 

@@ -5,7 +5,11 @@
 #include <limits>
 #include <stdexcept>
 
+#include <fmt/format.h>
+
 #include "mechanism/measures/pair_rotation.hpp"
+#include "mechanism/model/description.hpp"
+#include "mechanism/reading/names.hpp"
 
 namespace bielle::mechanism {
 
@@ -15,6 +19,7 @@ Joint::Joint(std::string type, std::string name, JointFrames frames, std::vector
       frames_(std::move(frames)),
       coordinates_(std::move(coordinates)),
       start_(coordinates_.size(), 0.0),
+      uses_(coordinates_.size()),
       first_name_(model.node(frames_.first).name),
       second_name_(model.node(frames_.second).name) {}
 
@@ -44,10 +49,9 @@ double Joint::counted(std::size_t index, const LocalState& state, const Coordina
   const auto at = 2 * static_cast<Eigen::Index>(index);
   const double time_before = memory[memory.size() - 1];
   // Before the first step: as far as statics have brought the drive that starts elsewhere than drawn.
-  const double expected =
-      std::isnan(time_before)
-          ? state.motion_factor() * memory[at]
-          : memory[at] + 0.5 * (memory[at + 1] + principal.rate) * (state.time() - time_before);
+  const double expected = std::isnan(time_before)
+                              ? state.motion_factor() * memory[at]
+                              : memory[at] + 0.5 * (memory[at + 1] + principal.rate) * (state.time() - time_before);
   return unwrap_angle(principal.value, expected);
 }
 
@@ -130,11 +134,19 @@ std::vector<std::pair<std::string, std::string>> Joint::attributes() const {
   return {{"first_node", first_name_}, {"second_node", second_name_}};
 }
 
+void Joint::describe(const LocalState& state, Description& description) const {
+  const NodeState& first = state.node(0);
+  const Matrix3 axes = first.R * frames_.on_first.R;
+  description.add(fmt::format("nodes '{}' and '{}'", first_name_, second_name_));
+  description.add(fmt::format("at {} m", format_vector(first.x + first.R * frames_.on_first.x)));
+  description.add(fmt::format("x {}, z {}", format_vector(axes.col(0)), format_vector(axes.col(2))));
+}
+
 std::vector<std::string> joint_frame_keys() { return {"type", "nodes", "position", "axis", "second_axis"}; }
 
 JointFrames read_joint_frames(const YamlValue& entry, const Model& model, AxisNeed need) {
   JointFrames frames;
-  const std::vector<int> nodes = model.nodes_named_by(entry.at("nodes"), 2);
+  const std::vector<int> nodes = nodes_named_by(entry.at("nodes"), 2, model);
   frames.first = nodes[0];
   frames.second = nodes[1];
   if (frames.first == frames.second) entry.at("nodes").fail("a joint needs two different nodes");

@@ -1,5 +1,5 @@
-// A joint between two nodes: its frames, its coordinates, and its records. What a type constrains is its own file's
-// matter.
+// A joint between two nodes: its frames, its coordinates, and its records. What a type constrains is in its
+// own file.
 //
 // The joint's frame J_A rides on the first node, J_B on the second; both coincide in the positions written in the input
 // file. z is the joint's `axis`, x its `second_axis` (made orthogonal) or chosen. Coordinates are zero there; angles
@@ -12,7 +12,8 @@
 
 #include "mechanism/measures/coordinate.hpp"
 #include "mechanism/measures/pair_measure.hpp"
-#include "mechanism/system/model.hpp"
+#include "mechanism/model/model.hpp"
+#include "reduce/common/yaml_file.hpp"
 
 namespace bielle::mechanism {
 
@@ -41,8 +42,16 @@ class Joint : public Component {
   virtual Vector6 calc_reaction(const LocalState& state) const;
   /// The same with its derivatives over the joint's local layout. @param derivatives  (6, slots().size())
   virtual Vector6 calc_reaction(const LocalState& state, MatrixX& derivatives) const;
-  /// What each multiplier makes of the reaction. @returns (6, multipliers)
+  /// Contribution of each multiplier to the reaction. @returns (6, multipliers)
   MatrixX reaction_of_multipliers(const LocalState& state) const;
+
+  /// What other entries make of a coordinate, noted while the model is read: it has one drive, and a drive by motion
+  /// tolerates no lock.
+  struct CoordinateUse {
+    std::string driver;  ///< name of its drive; empty: there is none
+    bool locked = false;
+  };
+  CoordinateUse& use(std::size_t coordinate) { return uses_[coordinate]; }
 
   const std::string& first_name() const { return first_name_; }
   const std::string& second_name() const { return second_name_; }
@@ -54,6 +63,8 @@ class Joint : public Component {
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
   std::vector<std::pair<std::string, std::string>> attributes() const override;
+  /// Nodes, and the axes of the joint's frame.
+  void describe(const LocalState& state, Description& description) const override;
   void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
   void add_reaction_norm(const LocalState& state, double arm, Eigen::Ref<MatrixX> H) const override;
   /// "<coordinate>", "<coordinate>.rate", "reaction.x" (y z rx ry rz).
@@ -65,12 +76,13 @@ class Joint : public Component {
   virtual CoordinateRate principal_coordinate(std::size_t index, const LocalState& state) const;
 
  private:
-  /// An angle with the whole turns that the joint's memory and the rates let expect, so that a step may turn by more
-  /// than half a turn. Memory: [value, rate of each coordinate | time], of the last accepted step.
+  /// An angle with the number of whole turns predicted from the joint's memory and the rates, so that a step may turn
+  /// by more than half a turn. Memory: [value, rate of each coordinate | time], of the last accepted step.
   double counted(std::size_t index, const LocalState& state, const CoordinateRate& principal) const;
   JointFrames frames_;
   std::vector<JointCoordinate> coordinates_;
   std::vector<double> start_;
+  std::vector<CoordinateUse> uses_;
   std::string first_name_, second_name_;
 };
 

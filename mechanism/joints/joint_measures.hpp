@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mechanism/joints/joint.hpp"
-#include "mechanism/system/measure.hpp"
+#include "mechanism/model/measure.hpp"
 
 namespace bielle::mechanism {
 

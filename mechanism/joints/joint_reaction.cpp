@@ -39,7 +39,7 @@ Eigen::Map<MatrixX> stiffness(const Joint& joint, const LocalState& state) {
   buffer.assign(static_cast<std::size_t>(n) * static_cast<std::size_t>(n), 0.0);
   Eigen::Map<MatrixX> K(buffer.data(), n, n);
   MatrixX none(0, 0);
-  LocalTangent tangent{K, none, none, true, false, false};
+  LocalTangent tangent{LocalMatrix(K), LocalMatrix(none), LocalMatrix(none), true, false, false};
   joint.add_tangent(state, tangent);
   return K;
 }
@@ -74,8 +74,7 @@ Vector6 Joint::calc_reaction(const LocalState& state, MatrixX& derivatives) cons
   const Slots& slots = state.slots();
   const Eigen::Map<MatrixX> K = stiffness(*this, state);
   const Wrench w(frames_, state.node(0), state.node(1));
-  const Vector6 rows =
-      K.block(second_node, slots.multiplier_row(), 6, slots.multipliers) * state.reaction();
+  const Vector6 rows = K.block(second_node, slots.multiplier_row(), 6, slots.multipliers) * state.reaction();
   const Vector3 f = rows.head<3>(), N = w.moment_on_second(f, rows.tail<3>());
   const Vector3 f_1 = w.R_1.transpose() * f, f_2 = w.R_2.transpose() * f;
   const auto df = K.middleRows<3>(second_node), dm = K.middleRows<3>(second_node + 3);

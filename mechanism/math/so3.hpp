@@ -8,6 +8,8 @@
 // The scalar functions of phi are those of rotation_coefficients.hpp: good to a few roundings at every angle.
 #pragma once
 
+#include <numbers>
+
 #include "mechanism/math/rotation_coefficients.hpp"
 #include "mechanism/math/types.hpp"
 
@@ -19,6 +21,9 @@ inline Matrix3 skew(const Vector3& a) {
   s << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
   return s;
 }
+
+/// An angle for people.
+inline double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 /// The vector a of the skew part of A: (A - A^T)/2 = a~.
 inline Vector3 skew_vector(const Matrix3& A) {

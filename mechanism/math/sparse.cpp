@@ -2,13 +2,71 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <stdexcept>
 
 #include <klu.h>
 
-namespace bielle::mechanism {
+#include "reduce/common/error.hpp"
 
-SparsePattern::SparsePattern(int size, std::vector<std::pair<int, int>> entries) : size_(size) {
+namespace bielle::mechanism {
+namespace {
+
+// KLU's interface takes pointers to non-const, and does not write through them.
+int* starts(const SparsePattern& pattern) { return const_cast<int*>(pattern.column_start().data()); }
+int* rows(const SparsePattern& pattern) { return const_cast<int*>(pattern.row().data()); }
+
+klu_common defaults() {
+  klu_common common;
+  klu_defaults(&common);
+  common.scale = -1;   // done here
+  common.btf = 0;      // permuting constraint rows off the diagonal costs more fill than blocks save
+  common.initmem = 2;  // factors have about as many entries as the matrix; more is asked for when it is needed
+  return common;
+}
+
+}  // namespace
+
+/// KLU's analyses of a pattern, which factorisation reads only.
+class FillOrderings {
+ public:
+  enum Method { minimum_degree = 0, column_minimum_degree = 1 };
+
+  klu_symbolic* get(const SparsePattern& pattern, Method method) const {
+    Analysis& analysis = analyses_[method];
+    std::call_once(analysis.once, [&] {
+      klu_common common = defaults();
+      common.ordering = method;
+      analysis.symbolic = klu_analyze(pattern.size(), starts(pattern), rows(pattern), &common);
+      if (!analysis.symbolic) throw std::runtime_error("KLU could not analyse the matrix");
+    });
+    return analysis.symbolic;
+  }
+
+  FillOrderings() = default;
+  FillOrderings(const FillOrderings&) = delete;
+  FillOrderings& operator=(const FillOrderings&) = delete;
+  ~FillOrderings() {
+    klu_common common = defaults();
+    for (Analysis& analysis : analyses_) klu_free_symbolic(&analysis.symbolic, &common);
+  }
+
+ private:
+  struct Analysis {
+    std::once_flag once;
+    klu_symbolic* symbolic = nullptr;
+  };
+  mutable Analysis analyses_[2];
+};
+
+SparsePattern::SparsePattern(std::vector<int> column_start, std::vector<int> row)
+    : size_(static_cast<int>(column_start.size()) - 1),
+      column_start_(std::move(column_start)),
+      row_(std::move(row)),
+      orderings_(std::make_shared<const FillOrderings>()) {}
+
+SparsePattern::SparsePattern(int size, std::vector<std::pair<int, int>> entries)
+    : size_(size), orderings_(std::make_shared<const FillOrderings>()) {
   std::sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) {
     return a.second != b.second ? a.second < b.second : a.first < b.first;
   });
@@ -30,34 +88,42 @@ int SparsePattern::find(int row, int column) const {
 }
 
 struct SparseLU::Factors {
-  klu_common common{};
-  klu_symbolic* symbolic = nullptr;
+  klu_common common = defaults();
+  klu_symbolic* symbolic = nullptr;  ///< the ordering chosen: the pattern's
   klu_numeric* numeric = nullptr;
+  double room = 0;                ///< entries of the factors beyond which it is given up; 0: any number
   std::vector<double> scaled;     ///< R D A D, R of the last choice of pivots
   VectorX row_size, left, right;  ///< 1/R, R D, D
   double trusted_pivots = 0;      ///< reciprocal condition when growth was last found harmless
-  Factors() {
-    klu_defaults(&common);
-    common.scale = -1;  // done here
-    common.btf = 0;     // permuting constraint rows off the diagonal costs more fill than blocks save
-  }
+  Factors() = default;
   Factors(const Factors&) = delete;
   Factors& operator=(const Factors&) = delete;
-  ~Factors() { drop(); }
+  ~Factors() { drop_numeric(); }
   void drop_numeric() {
     if (numeric) klu_free_numeric(&numeric, &common);
   }
-  void drop() {
+  /// Factors of `scaled` with the ordering; false where the matrix is singular, or there is no room.
+  bool factorise(const SparsePattern& pattern) {
     drop_numeric();
-    if (symbolic) klu_free_symbolic(&symbolic, &common);
+    // KLU gives up where it would have to grow beyond all numbers.
+    common.memgrow = room > 0 ? 1e30 : defaults().memgrow;
+    common.initmem_amd = room > 0 ? 0.5 * room / symbolic->lnz : defaults().initmem_amd;
+    numeric = klu_factor(starts(pattern), rows(pattern), scaled.data(), symbolic, &common);
+    if (numeric && common.status == KLU_OK) return true;
+    drop_numeric();
+    if (common.status == KLU_OUT_OF_MEMORY) throw std::bad_alloc();
+    if (common.status == KLU_TOO_LARGE && room == 0)
+      throw ComputationError("the factors of the equations have more entries than the sparse solver can count");
+    return false;
+  }
+  bool gave_up() const { return common.status == KLU_TOO_LARGE; }
+  FactorCost cost() {
+    klu_flops(symbolic, numeric, &common);
+    return {common.flops, static_cast<double>(numeric->lnz) + static_cast<double>(numeric->unz)};
   }
 };
 
 namespace {
-
-// KLU's interface takes pointers to non-const, and does not write through them.
-int* starts(const SparsePattern& pattern) { return const_cast<int*>(pattern.column_start().data()); }
-int* rows(const SparsePattern& pattern) { return const_cast<int*>(pattern.row().data()); }
 
 /// scaled = diag(left) A diag(right)
 void scale_entries(const SparsePattern& pattern, const std::vector<double>& values, const VectorX& left,
@@ -95,14 +161,14 @@ bool SparseLU::refactor(const std::vector<double>& values) {
   return klu_rgrowth(start, row, f.scaled.data(), f.symbolic, f.numeric, &f.common) && f.common.rgrowth > least_growth;
 }
 
-bool SparseLU::factor_afresh(const std::vector<double>& values) {
+bool SparseLU::factor_afresh(const std::vector<double>& values, const VectorX* row_floor) {
   Factors& f = *factors_;
   f.drop_numeric();
-  int *start = starts(pattern_), *row = rows(pattern_);
+  const int* row = pattern_.row().data();
   // Rows by their largest entry.
   f.row_size.setOnes(pattern_.size());
   scale_entries(pattern_, values, f.right, f.right, f.scaled);
-  VectorX largest = VectorX::Zero(pattern_.size());
+  VectorX largest = row_floor ? *row_floor : VectorX::Zero(pattern_.size());
   for (std::size_t k = 0; k < f.scaled.size(); ++k) {
     double& size = largest[row[k]];
     size = std::max(size, std::abs(f.scaled[k]));
@@ -111,52 +177,46 @@ bool SparseLU::factor_afresh(const std::vector<double>& values) {
   f.left = f.row_size.cwiseInverse().cwiseProduct(f.right);
   scale_entries(pattern_, values, f.left, f.right, f.scaled);
 
-  const auto factorise = [&] {
-    f.numeric = klu_factor(start, row, f.scaled.data(), f.symbolic, &f.common);
-    if (f.numeric && f.common.status == KLU_OK) return true;
+  bool good = f.symbolic && f.factorise(pattern_);
+  if (!good && (!f.symbolic || f.gave_up())) good = choose_ordering();
+  if (!good) {
     singular_column_ = f.common.singular_col;
-    f.drop_numeric();
-    return false;
-  };
-  if (f.symbolic) {
-    if (!factorise()) return false;
-  } else if (!choose_ordering(factorise)) {
     return false;
   }
-  singular_column_ = -1;
   klu_rcond(f.symbolic, f.numeric, &f.common);
   f.trusted_pivots = f.common.rcond;
   return true;
 }
 
-bool SparseLU::choose_ordering(const std::function<bool()>& factorise) {
+bool SparseLU::choose_ordering() {
   Factors& f = *factors_;
-  constexpr int minimum_degree = 0, column_minimum_degree = 1;
-  klu_symbolic* best_symbolic = nullptr;
-  klu_numeric* best_numeric = nullptr;
-  double least_operations = 0;
-  for (const int ordering : {minimum_degree, column_minimum_degree}) {
-    f.common.ordering = ordering;
-    f.symbolic = klu_analyze(pattern_.size(), starts(pattern_), rows(pattern_), &f.common);
-    if (!f.symbolic) throw std::runtime_error("KLU could not analyse the matrix");
-    if (!factorise()) {
-      f.drop();
-      continue;
-    }
-    klu_flops(f.symbolic, f.numeric, &f.common);
-    if (!best_numeric || f.common.flops < least_operations) {
-      std::swap(f.symbolic, best_symbolic);
-      std::swap(f.numeric, best_numeric);
-      least_operations = f.common.flops;
-    }
-    f.drop();
+  f.symbolic = pattern_.orderings().get(pattern_, FillOrderings::column_minimum_degree);
+  f.room = 0;
+  if (!f.factorise(pattern_)) {
+    f.symbolic = nullptr;  // a singular matrix says nothing of those to come
+    return false;
   }
-  f.symbolic = best_symbolic;
-  f.numeric = best_numeric;
-  return f.numeric != nullptr;
+  try_minimum_degree();
+  return true;
 }
 
-FactorStatus SparseLU::factor(const std::vector<double>& values, const VectorX& scale) {
+void SparseLU::try_minimum_degree() {
+  Factors& f = *factors_;
+  const FactorCost known = f.cost();
+  Factors other;
+  other.symbolic = pattern_.orderings().get(pattern_, FillOrderings::minimum_degree);
+  if (other.symbolic->est_flops > known.operations) return;
+  other.scaled.swap(f.scaled);
+  other.room = known.entries;
+  const bool better = other.factorise(pattern_) && other.cost().operations <= known.operations;
+  other.scaled.swap(f.scaled);
+  if (!better) return;
+  std::swap(f.symbolic, other.symbolic);
+  std::swap(f.numeric, other.numeric);
+  f.room = 2 * known.entries;  // pivots of later matrices may leave the diagonal
+}
+
+FactorStatus SparseLU::factor(const std::vector<double>& values, const VectorX& scale, const VectorX* row_floor) {
   singular_column_ = -1;
   if (pattern_.size() == 0) return FactorStatus::good;
   if (pattern_.entry_count() == 0) {  // KLU takes no matrix without entries
@@ -164,10 +224,13 @@ FactorStatus SparseLU::factor(const std::vector<double>& values, const VectorX& 
     return FactorStatus::singular;
   }
   factors_->right = scale;
-  return refactor(values) || factor_afresh(values) ? FactorStatus::good : FactorStatus::singular;
+  return refactor(values) || factor_afresh(values, row_floor) ? FactorStatus::good : FactorStatus::singular;
 }
 
-void SparseLU::forget() { factors_->drop(); }
+void SparseLU::forget() {
+  factors_->drop_numeric();
+  factors_->symbolic = nullptr;
+}
 
 void SparseLU::solve(Eigen::Ref<VectorX> b) const {
   if (pattern_.size() == 0) return;
@@ -202,6 +265,8 @@ int SparseLU::determinant_sign() const {
     if (pivots[k] < 0) sign = -sign;
   return sign;
 }
+
+FactorCost SparseLU::cost() const { return factors_->numeric ? factors_->cost() : FactorCost{}; }
 
 double SparseLU::reciprocal_condition() const {
   if (pattern_.size() == 0) return 1;

@@ -1,7 +1,6 @@
 // Sparse matrices with a fixed pattern, and their factorisation by KLU with the symbolic analysis kept.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -10,12 +9,17 @@
 
 namespace bielle::mechanism {
 
+class FillOrderings;
+
 /// Pattern of a square matrix in compressed columns, rows ascending.
 class SparsePattern {
  public:
-  SparsePattern() = default;
+  SparsePattern() : SparsePattern(0, {}) {}
   /// @param entries  (row, column) pairs in any order, repeated or not
   SparsePattern(int size, std::vector<std::pair<int, int>> entries);
+  /// @param column_start  (size + 1)
+  /// @param row  of each entry, ascending within a column, each once
+  SparsePattern(std::vector<int> column_start, std::vector<int> row);
   int size() const { return size_; }
   int entry_count() const { return static_cast<int>(row_.size()); }
   const std::vector<int>& column_start() const { return column_start_; }
@@ -30,19 +34,35 @@ class SparsePattern {
   }
   /// Place of an entry among the values, or -1.
   int find(int row, int column) const;
+  /// Fill-reducing orderings: functions of the pattern alone, found when first asked for and shared by all factors and
+  /// copies, in any number of threads.
+  const FillOrderings& orderings() const { return *orderings_; }
 
  private:
   int size_ = 0;
   std::vector<int> column_start_, row_;
+  std::shared_ptr<const FillOrderings> orderings_;
 };
 
 enum class FactorStatus { good, singular };
 
+/// What factors cost.
+struct FactorCost {
+  double operations = 0;  ///< of one factorisation with known pivots
+  double entries = 0;     ///< of both factors
+};
+
 /// LU factors of a sparse unsymmetric matrix (KLU with partial pivoting).
 ///
-/// The fill-reducing ordering is found once: of approximate minimum degree and its column variant, the one that makes
-/// fewer operations of the first matrix. `factor` keeps the pivot sequence as long as its pivots do not degenerate.
-/// Rows are brought to entries of size one when pivots are chosen, whatever their units.
+/// The fill-reducing ordering is chosen with the first matrix. Column minimum degree (COLAMD) bounds the fill whatever
+/// rows the pivots come from. Minimum degree (AMD) makes fewer operations where pivots stay on the diagonal, and
+/// any number more where they leave it, as constraints make them: of loops, a thousand times as many. It is tried where
+/// its estimate, which knows of no pivoting, promises fewer operations, given up as soon as its factors need as much
+/// memory as those of COLAMD, and taken where it has made fewer operations. So the choice is a function of this matrix,
+/// not of any before.
+///
+/// `factor` keeps the pivot sequence as long as its pivots do not degenerate. Rows are brought to entries of size one
+/// when pivots are chosen, whatever their units.
 class SparseLU {
  public:
   explicit SparseLU(const SparsePattern& pattern);  ///< the pattern must outlive the factors
@@ -52,7 +72,9 @@ class SparseLU {
   /// Factorises D A D with a diagonal D.
   /// @param values  of A, in the order of the pattern
   /// @param scale   the diagonal of D (size)
-  FactorStatus factor(const std::vector<double>& values, const VectorX& scale);
+  /// @param row_floor  where rows of D A D are what is left of larger ones: their sizes before (size). Rows that have
+  ///                   cancelled then stay small, and so do their pivots
+  FactorStatus factor(const std::vector<double>& values, const VectorX& scale, const VectorX* row_floor = nullptr);
   /// The next factorisation chooses ordering and pivots anew.
   void forget();
   /// b <- A^-1 b. Only after a good factorisation.
@@ -61,14 +83,16 @@ class SparseLU {
   int singular_column() const { return singular_column_; }
   /// Sign of the determinant of the matrix last factorised: -1 or 1. Its rows must be scaled by positive numbers.
   int determinant_sign() const;
+  FactorCost cost() const;  ///< of the last good factorisation
   /// Cheap estimate of the reciprocal condition number of the scaled matrix: smallest over largest pivot.
   double reciprocal_condition() const;
 
  private:
   struct Factors;
-  bool refactor(const std::vector<double>& values);       ///< with the pivots of before; false where they fail
-  bool factor_afresh(const std::vector<double>& values);  ///< false where singular
-  bool choose_ordering(const std::function<bool()>& factorise);
+  bool refactor(const std::vector<double>& values);  ///< with the pivots of before; false where they fail
+  bool factor_afresh(const std::vector<double>& values, const VectorX* row_floor);  ///< false where singular
+  bool choose_ordering();
+  void try_minimum_degree();
   const SparsePattern& pattern_;
   std::unique_ptr<Factors> factors_;
   int singular_column_ = -1;

@@ -1,5 +1,9 @@
 #include "mechanism/measures/combined_measure.hpp"
 
+#include <fmt/format.h>
+
+#include "mechanism/model/description.hpp"
+
 namespace bielle::mechanism {
 
 CombinedMeasure::CombinedMeasure(std::string name, References references, StateFormula formula, std::string units)
@@ -20,6 +24,10 @@ double CombinedMeasure::calc(const LocalState& state, MeasureGradient& gradient)
   std::swap(gradient, of_formula.by_state);
   if (!formula_.reads_state()) gradient.prepare(state.slots().size());
   return of_formula.value;
+}
+
+void CombinedMeasure::describe(const LocalState& /*state*/, Description& description) const {
+  description.add(fmt::format("{} [{}]", formula_.text(), units_));
 }
 
 }  // namespace bielle::mechanism

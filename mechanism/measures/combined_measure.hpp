@@ -13,6 +13,7 @@ class CombinedMeasure final : public Measure {
   double value(const LocalState& state) const override;
   double calc(const LocalState& state, MeasureGradient& gradient) const override;
   bool reads_reactions() const override { return formula_.reads_reactions(); }
+  void describe(const LocalState& state, Description& description) const override;
   void add_break_points(std::vector<double>& times) const override { formula_.add_break_points(0, times); }
 
  private:

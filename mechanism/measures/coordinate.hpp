@@ -2,10 +2,9 @@
 //
 // A coordinate c has a value and a rate, each with its derivatives over the joint's local layout (nodes and scalars):
 //     dc = g . dz,   dg = S dz,        rate = w . v,   dw = W dz.
-// For displacements and angles w = g. The components of a rotation vector are no such pair: their rates are those of the
-// relative angular velocity (quasi-coordinates), w != g.
-// A generalised force Q that derives from a potential of c adds Q g to the residual; one that is defined by its power
-// Q * rate adds Q w.
+// For displacements and angles w = g. The components of a rotation vector are no such pair: their rates are those of
+// the relative angular velocity (quasi-coordinates), w != g. A generalised force Q that derives from a potential of c
+// adds Q g to the residual; one that is defined by its power Q * rate adds Q w.
 #pragma once
 
 #include <string>
@@ -43,7 +42,7 @@ class CoordinateJet {
 
   using VectorMap = Eigen::Map<VectorX>;
   using MatrixMap = Eigen::Map<MatrixX>;
-  /// All derivatives are zero behind it. @param size  of the joint's local layout
+  /// Sets all derivatives to zero. @param size  of the joint's local layout
   void prepare(int size) {
     size_ = size;
     const auto n = static_cast<std::size_t>(size);

@@ -102,9 +102,9 @@ void ForceLaw::add_measures(const LocalState& state, double x, double v, const E
     if (!formula.reads_state()) continue;
     formula.calc(state, variables, gradient);
     if (tangent.wants_K)
-      tangent.K.middleRows(row, direction.size()) += direction * gradient.by_state.position().transpose();
+      tangent.K.dense().middleRows(row, direction.size()) += direction * gradient.by_state.position().transpose();
     if (tangent.wants_C)
-      tangent.C.middleRows(row, direction.size()) += direction * gradient.by_state.rate().transpose();
+      tangent.C.dense().middleRows(row, direction.size()) += direction * gradient.by_state.rate().transpose();
   }
 }
 
@@ -119,6 +119,16 @@ double ForceLaw::elastic_energy(const LocalState& state, double x) const {
   };
   constexpr int deepest = 30;
   return energy + integral(N, 0, x, gauss5(N, 0, x), deepest);
+}
+
+std::vector<std::string> ForceLaw::describe(bool turning) const {
+  const char *length = turning ? "rad" : "m", *force = turning ? "N m" : "N", *name = turning ? "torque" : "force";
+  std::vector<std::string> facts;
+  if (stiffness_ != 0) facts.push_back(fmt::format("stiffness {:.6g} {}/{}", stiffness_, force, length));
+  if (damping_ != 0) facts.push_back(fmt::format("damping {:.6g} {} s/{}", damping_, force, length));
+  if (preload_ != 0) facts.push_back(fmt::format("preload {:.6g} {}", preload_, force));
+  for (const StateFormula& formula : formulas_) facts.push_back(fmt::format("{} {} [{}]", name, formula.text(), force));
+  return facts;
 }
 
 void ForceLaw::add_break_points(std::vector<double>& times) const {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "mechanism/measures/state_formula.hpp"
-#include "mechanism/system/model.hpp"
+#include "mechanism/model/model.hpp"
 #include "reduce/common/yaml_file.hpp"
 
 namespace bielle::mechanism {
@@ -50,12 +50,15 @@ class ForceLaw {
   double force(const LocalState& state, double x, double v) const;
   /// @param split  whether the elastic part is wanted; otherwise it stays what it is
   LawForce calc(const LocalState& state, double x, double v, bool split) const;
-  /// Adds what measures make of the force, times the column `direction`, to rows of K and C from `row` on.
+  /// Adds the derivatives of the force by way of measures, times the column `direction`, to rows of K and C from `row`
+  /// on.
   void add_measures(const LocalState& state, double x, double v, const Eigen::Ref<const VectorX>& direction, int row,
                     LocalTangent& tangent) const;
   /// V(x) [J]; not of an actuator.
   double elastic_energy(const LocalState& state, double x) const;
   void add_break_points(std::vector<double>& times) const;
+  /// Facts in words: "stiffness 10 N/m", "force 3*e + v N". @param turning  along an angle, not a displacement
+  std::vector<std::string> describe(bool turning) const;
 
  private:
   double stiffness_ = 0, damping_ = 0, preload_ = 0;

@@ -4,8 +4,8 @@
 // The value is kept in the state, as a component's memory: it is saved, restored and restarted with it.
 #pragma once
 
-#include "mechanism/system/measure.hpp"
-#include "mechanism/system/model.hpp"
+#include "mechanism/model/measure.hpp"
+#include "mechanism/model/model.hpp"
 #include "reduce/common/yaml_file.hpp"
 
 namespace bielle::mechanism {
@@ -20,6 +20,7 @@ class InputMeasure final : public Measure {
     gradient.prepare(state.slots().size());
     return value(state);
   }
+  void describe(const LocalState& state, Description& description) const override;
 
  private:
   void declare_subjects(Declaration& declaration) const override { declaration.memory = {start_}; }

@@ -1,6 +1,9 @@
 #include "mechanism/measures/measure_event.hpp"
 
+#include <fmt/format.h>
+
 #include "mechanism/measures/read_measure.hpp"
+#include "mechanism/model/description.hpp"
 
 namespace bielle::mechanism {
 
@@ -24,6 +27,14 @@ void MeasureEvent::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> v
   values[0] = measure_.value(state.of(0)) - value_;
 }
 
+void MeasureEvent::describe(const LocalState& /*state*/, Description& description) const {
+  const char* way = direction_ == Crossing::Direction::rising    ? "rises through"
+                    : direction_ == Crossing::Direction::falling ? "falls through"
+                                                                 : "crosses";
+  description.add(fmt::format("{} {} {:.6g} {}", measure_.name(), way, value_, measure_.units()));
+  description.add(stops_ ? "stops the run" : "is noted");
+}
+
 void read_event(const std::string& name, const YamlValue& entry, Model& model) {
   entry.check_keys({"when", "crosses", "direction", "action"}, "an event");
   const YamlValue when = entry.at("when");
@@ -35,7 +46,8 @@ void read_event(const std::string& name, const YamlValue& entry, Model& model) {
   }
   const bool stops = entry.has("action") && entry.at("action").word({"note", "stop"}, "an action") == "stop";
   model.when_read(Model::Stage::formulas, [=, &model] {
-    model.add(std::make_unique<MeasureEvent>(name, measure_named_by(when, model), value, direction, stops), "");
+    model.add(std::make_unique<MeasureEvent>(name, measure_named_by(when, model), value, direction, stops),
+              Entry{Section::events, name}, Recorded::no);
   });
 }
 

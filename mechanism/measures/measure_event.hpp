@@ -5,9 +5,9 @@
 
 #include <string>
 
-#include "mechanism/system/measure.hpp"
-#include "mechanism/system/model.hpp"
-#include "mechanism/system/references.hpp"
+#include "mechanism/model/measure.hpp"
+#include "mechanism/model/model.hpp"
+#include "mechanism/model/references.hpp"
 #include "reduce/common/yaml_file.hpp"
 
 namespace bielle::mechanism {
@@ -18,6 +18,7 @@ class MeasureEvent final : public Component {
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState&, Eigen::Ref<VectorX>) const override {}
   void calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const override;
+  void describe(const LocalState& state, Description& description) const override;
 
  private:
   References references_;

@@ -7,6 +7,7 @@
 
 #include "mechanism/measures/pair_measure.hpp"
 #include "mechanism/measures/pair_rotation.hpp"
+#include "mechanism/model/description.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -17,6 +18,11 @@ class NodePairMeasure : public Measure {
 
  protected:
   const NodePair& pair() const { return pair_; }
+  /// "'pin'", or "'pin' relative to 'arm'".
+  std::string nodes(const Description& description) const {
+    const std::string second = description.node(pair_.second);
+    return pair_.first == 0 ? second : second + " relative to " + description.node(pair_.first);
+  }
   void declare_subjects(Declaration& declaration) const final { declaration.nodes = {pair_.first, pair_.second}; }
 
  private:
@@ -44,6 +50,10 @@ class PositionMeasure final : public NodePairMeasure {
     gradient.position() = m.second.transpose() * v;
     gradient.rate() = m.gradient;
     return m.rate(v);
+  }
+  void describe(const LocalState& /*state*/, Description& description) const override {
+    description.add(fmt::format("{} of node {} along {} [{}]", rate_ ? "velocity" : "position", nodes(description),
+                                format_vector(e_), units()));
   }
 
  private:
@@ -73,6 +83,10 @@ class RotationMeasure final : public NodePairMeasure {
     gradient.position() = jet.W().transpose() * pair_rate(state.node(0), state.node(1));
     gradient.rate() = jet.w();
     return jet.rate;
+  }
+  void describe(const LocalState& /*state*/, Description& description) const override {
+    description.add(fmt::format("{} of node {} about {} [{}]", rate_ ? "angular velocity" : "rotation",
+                                nodes(description), format_vector(A_.col(0)), units()));
   }
 
  private:

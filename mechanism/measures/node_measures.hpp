@@ -3,8 +3,8 @@
 //   position.x       e . (p_2 - p_1), of a point of the node from a point of another, along an axis e that rides on the
 //                    other; alone: from the inertial origin along inertial axes [m]
 //   velocity.x       its rate, as seen in those axes [m/s]
-//   rotation.x       component of the rotation vector (principal value) by which the node has turned from how it is
-//                    drawn, relative to the other [rad]
+//   rotation.x       component of the rotation vector (principal value) by which the node has turned from where it
+//                    was drawn, relative to the other [rad]
 //   angular_velocity.x   component of the angular velocity relative to the other along the same axis [rad/s]
 //   distance(a, b)   [m];   angle(a, b)   of the rotation from a to b, 0 to pi [rad]
 #pragma once
@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "mechanism/system/measure.hpp"
-#include "mechanism/system/model.hpp"
+#include "mechanism/model/measure.hpp"
+#include "mechanism/model/model.hpp"
 
 namespace bielle::mechanism {
 
@@ -22,8 +22,8 @@ enum class NodeQuantity { position, velocity, rotation, angular_velocity };
 
 /// A node relative to another.
 struct NodePair {
-  int first = 0, second = 0;            ///< first: what the second is relative to; 0, the ground, for inertial axes
-  Vector3 at_first = Vector3::Zero();   ///< points [m], in the axes of their nodes
+  int first = 0, second = 0;           ///< first: what the second is relative to; 0, the ground, for inertial axes
+  Vector3 at_first = Vector3::Zero();  ///< points [m], in the axes of their nodes
   Vector3 at_second = Vector3::Zero();
 };
 

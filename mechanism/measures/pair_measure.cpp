@@ -15,7 +15,7 @@ Matrix3 skew_product(const Vector3& a, const Vector3& b) {
 
 }  // namespace
 
-void PairHessian::add_to(BlockMatrix& matrix, bool positions, bool coupling) const {
+void PairHessian::add_to(LocalMatrix& matrix, bool positions, bool coupling) const {
   if (positions) {
     matrix.add(0, 3, X);
     matrix.add(3, 0, X.transpose());
@@ -31,7 +31,7 @@ void PairHessian::add_to(BlockMatrix& matrix, bool positions, bool coupling) con
 
 Matrix12 PairHessian::dense() const {
   Matrix12 S = Matrix12::Zero();
-  BlockMatrix blocks(S);
+  LocalMatrix blocks(S);
   add_to(blocks, true, true);
   return S;
 }
@@ -91,7 +91,7 @@ void PointGap::add_forces(const Vector3& force, Eigen::Ref<VectorX> r) const {
   r.segment<3>(9) += c_2_.cross(R_2_.transpose() * force);
 }
 
-void PointGap::add_gradients(int row, BlockMatrix& S) const {
+void PointGap::add_gradients(int row, LocalMatrix& S) const {
   const Matrix3 turn_1 = R_1_ * skew(c_1_), turn_2 = -R_2_ * skew(c_2_);
   S.add_identity(row, 0, -1);
   S.add_identity(0, row, -1);
@@ -119,14 +119,15 @@ void AxisPair::add_second(double factor, PairHessian& S) const {
 }
 
 PairMeasure measure_position(const NodeState& first, const NodeState& second, const Vector3& e_hat, const Vector3& c_1,
-                         const Vector3& c_2) {
+                             const Vector3& c_2) {
   const PointPair pair(first, second, first.R.transpose() * second.R, c_2);
   PairHessian S;
   pair.add_second(e_hat, S);
   return {pair.value(e_hat, c_1), pair.gradient(e_hat), S.dense()};
 }
 
-PairMeasure measure_alignment(const NodeState& first, const NodeState& second, const Vector3& a_hat, const Vector3& b_hat) {
+PairMeasure measure_alignment(const NodeState& first, const NodeState& second, const Vector3& a_hat,
+                              const Vector3& b_hat) {
   const Matrix3 R_12 = first.R.transpose() * second.R;
   const AxisPair pair(R_12, a_hat, b_hat);
   PairHessian S;
@@ -153,14 +154,15 @@ PairMeasure measure_angle(const NodeState& first, const NodeState& second, const
 }
 
 PairMeasureRate measure_position_rate(const NodeState& first, const NodeState& second, const Vector3& e_hat,
-                                  const Vector3& c_1, const Vector3& c_2) {
+                                      const Vector3& c_1, const Vector3& c_2) {
   const Vector3 s = first.R.transpose() * (second.x + second.R * c_2 - first.x);
   const Vector3 s_rate =
       first.R.transpose() * (second.v + second.R * second.Omega.cross(c_2) - first.v) - first.Omega.cross(s);
   return {e_hat.dot(s - c_1), e_hat.dot(s_rate)};
 }
 
-PairMeasureRate measure_angle_rate(const NodeState& first, const NodeState& second, const Matrix3& A, const Matrix3& B) {
+PairMeasureRate measure_angle_rate(const NodeState& first, const NodeState& second, const Matrix3& A,
+                                   const Matrix3& B) {
   const Vector3 b = first.R.transpose() * (second.R * B.col(0));
   const Vector3 relative = first.R.transpose() * (second.R * second.Omega) - first.Omega;
   const Vector3 b_rate = relative.cross(b);

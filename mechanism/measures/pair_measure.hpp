@@ -6,8 +6,8 @@
 #pragma once
 
 #include "mechanism/math/se3.hpp"
-#include "mechanism/system/block_matrix.hpp"
-#include "mechanism/system/state.hpp"
+#include "mechanism/model/local_tangent.hpp"
+#include "mechanism/model/state.hpp"
 
 namespace bielle::mechanism {
 
@@ -34,7 +34,7 @@ inline Vector12 pair_acceleration(const NodeState& first, const NodeState& secon
 struct PairHessian {
   Matrix3 X = Matrix3::Zero(), P = Matrix3::Zero(), Q = Matrix3::Zero(), W = Matrix3::Zero();
   /// @param positions  whether X is written; @param coupling  whether Q is
-  void add_to(BlockMatrix& matrix, bool positions, bool coupling) const;
+  void add_to(LocalMatrix& matrix, bool positions, bool coupling) const;
   Matrix12 dense() const;
 };
 
@@ -46,9 +46,9 @@ struct PairMeasure {
   double acceleration(const Vector12& v, const Vector12& a) const { return gradient.dot(a) + v.dot(second * v); }
 };
 
-/// Positions of a point p_2 = x_2 + R_2 c_2 of node 2 beside node 1: measures e . (p_2 - p_1), p_1 = x_1 + R_1 c_1,
-/// along axes e = R_1 e^ carried by node 1. Gradient and second derivative are linear in e^: several axes, each with a
-/// factor, are added up as one.
+/// Positions of a point p_2 = x_2 + R_2 c_2 of node 2 relative to node 1: measures e . (p_2 - p_1), p_1 = x_1 + R_1
+/// c_1, along axes e = R_1 e^ carried by node 1. Gradient and second derivative are linear in e^: several axes, each
+/// with a factor, are added up as one.
 class PointPair {
  public:
   /// @param R_12  R_1^T R_2
@@ -73,7 +73,7 @@ class PointGap {
   /// g^T f of an inertial force f on node 2 into the first twelve rows of a vector.
   void add_forces(const Vector3& force, Eigen::Ref<VectorX> r) const;
   /// g into three rows of a matrix from `row` on, g^T into its columns.
-  void add_gradients(int row, BlockMatrix& S) const;
+  void add_gradients(int row, LocalMatrix& S) const;
   /// d(g^T f)
   void add_second(const Vector3& force, PairHessian& S) const;
 
@@ -103,13 +103,14 @@ class AxisPair {
 
 /// The position measure of one axis, with its derivatives.
 PairMeasure measure_position(const NodeState& first, const NodeState& second, const Vector3& e_hat, const Vector3& c_1,
-                         const Vector3& c_2);
+                             const Vector3& c_2);
 
 /// The alignment measure, with its derivatives.
-PairMeasure measure_alignment(const NodeState& first, const NodeState& second, const Vector3& a_hat, const Vector3& b_hat);
+PairMeasure measure_alignment(const NodeState& first, const NodeState& second, const Vector3& a_hat,
+                              const Vector3& b_hat);
 
-/// Angle atan2(y_A . x_B, x_A . x_B) in (-pi, pi] by which frame B of node 2 has turned beside frame A of node 1 about
-/// their common z axis. @param A,B  axes in the components of their nodes
+/// Angle atan2(y_A . x_B, x_A . x_B) in (-pi, pi] by which frame B of node 2 has turned relative to frame A of node 1
+/// about their common z axis. @param A,B  axes in the components of their nodes
 PairMeasure measure_angle(const NodeState& first, const NodeState& second, const Matrix3& A, const Matrix3& B);
 
 /// A measure with its rate alone: for what is recorded and remembered at every step.
@@ -117,7 +118,7 @@ struct PairMeasureRate {
   double value = 0, rate = 0;
 };
 PairMeasureRate measure_position_rate(const NodeState& first, const NodeState& second, const Vector3& e_hat,
-                                  const Vector3& c_1, const Vector3& c_2);
+                                      const Vector3& c_1, const Vector3& c_2);
 PairMeasureRate measure_angle_rate(const NodeState& first, const NodeState& second, const Matrix3& A, const Matrix3& B);
 
 /// `angle` plus the whole turns that bring it nearest to `previous`.

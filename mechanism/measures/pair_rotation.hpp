@@ -5,9 +5,9 @@
 //     dpsi = T^-T(psi) dphi,   relative angular velocity along A's axes: omega = J [Omega_1; Omega_2].
 #pragma once
 
-#include "mechanism/measures/coordinate.hpp"
 #include "mechanism/math/se3.hpp"
-#include "mechanism/system/state.hpp"
+#include "mechanism/measures/coordinate.hpp"
+#include "mechanism/model/state.hpp"
 
 namespace bielle::mechanism {
 

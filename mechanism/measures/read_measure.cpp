@@ -8,6 +8,7 @@
 
 #include "mechanism/measures/combined_measure.hpp"
 #include "mechanism/measures/node_measures.hpp"
+#include "mechanism/reading/names.hpp"
 #include "reduce/common/formula_parser.hpp"
 #include "reduce/common/units.hpp"
 
@@ -63,8 +64,7 @@ class Lookup {
     if (reference.subjects.size() != 2)
       value_.fail(fmt::format("'{}': expected two nodes, as in {}(a, b)", reference.text, reference.function));
     const NodePair pair{node(reference.subjects[0]), node(reference.subjects[1]), Vector3::Zero(), Vector3::Zero()};
-    if (pair.first == pair.second)
-      value_.fail(fmt::format("'{}': expected two different nodes", reference.text));
+    if (pair.first == pair.second) value_.fail(fmt::format("'{}': expected two different nodes", reference.text));
     return reference.function == "angle" ? make_angle(name, pair) : make_distance(name, pair);
   }
 
@@ -88,15 +88,15 @@ class Lookup {
     }
     if (available.empty()) {
       std::vector<std::string> subjects = node_names();
-      for (const char* section : {"joints", "elements"})
+      for (const Section section : {Section::joints, Section::elements})
         for (const std::string& each : model_.names_in(section)) subjects.push_back(each);
       if (!model_.components_named(subject).empty())
         value_.fail(fmt::format("'{}': '{}' has nothing that can be measured", reference.text, subject));
       value_.fail(fmt::format("'{}': there is no joint, node or element '{}'{}", reference.text, subject,
                               did_you_mean(subject, subjects)));
     }
-    value_.fail(fmt::format("'{}': '{}' has no '{}'{}", reference.text, subject, wanted,
-                            did_you_mean(wanted, available)));
+    value_.fail(
+        fmt::format("'{}': '{}' has no '{}'{}", reference.text, subject, wanted, did_you_mean(wanted, available)));
   }
 
   const YamlValue& value_;
@@ -123,7 +123,6 @@ struct ReadFormula {
 
 ReadFormula read_formula(const YamlValue& value, const std::vector<std::string>& variables, Model& model) {
   Lookup lookup(value, model);
-  const std::vector<std::string> announced = model.announced_measures();
   FormulaText formula = value.formula_text(variables, functions);
   const auto is_in = [](const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
@@ -131,7 +130,7 @@ ReadFormula read_formula(const YamlValue& value, const std::vector<std::string>&
   ReadFormula result;
   std::vector<std::string> names = variables;
   for (const std::string& word : words_in(formula.replaced)) {
-    if (!is_in(announced, word) || is_in(variables, word) || value.parameters().count(word)) continue;
+    if (!model.announces_measure(word) || is_in(variables, word) || value.parameters().count(word)) continue;
     names.push_back(word);
     result.measures.push_back(lookup.named(word));
   }
@@ -162,8 +161,8 @@ std::unique_ptr<Measure> read_combined(const std::string& name, const YamlValue&
 std::unique_ptr<Measure> read_of_node(const std::string& name, const YamlValue& entry, const Model& model) {
   entry.check_keys({"node", "relative_to", "quantity", "direction", "at"}, "the measure of a node");
   NodePair pair;
-  pair.second = model.node_named_by(entry.at("node"));
-  if (const auto relative = entry.find("relative_to")) pair.first = model.node_named_by(*relative);
+  pair.second = node_named_by(entry.at("node"), model);
+  if (const auto relative = entry.find("relative_to")) pair.first = node_named_by(*relative, model);
   if (pair.first == pair.second) entry.at("node").fail("a node relative to itself does not move");
   NodeQuantity quantity = NodeQuantity::position;
   if (const auto word = entry.find("quantity")) {
@@ -182,9 +181,10 @@ std::unique_ptr<Measure> read_of_node(const std::string& name, const YamlValue& 
     }
   }
   const YamlValue direction = entry.at("direction");
-  const Vector3 axis = direction.is_sequence()
-                           ? Vector3(direction.direction())
-                           : Vector3::Unit(direction.word({"x", "y", "z"}, "a direction (x, y, z or a vector)")[0] - 'x');
+  const Vector3 axis =
+      direction.is_sequence()
+          ? Vector3(direction.direction())
+          : Vector3::Unit(direction.word({"x", "y", "z"}, "a direction (x, y, z or a vector)")[0] - 'x');
   return make_node_measure(name, model, pair, quantity, axis);
 }
 
@@ -197,9 +197,7 @@ StateFormula read_state_formula(const YamlValue& value, const std::vector<std::s
 }
 
 void check_measure_name(const std::string& name, const YamlValue& entry, const Model& model) {
-  const std::vector<std::string> taken = model.announced_measures();
-  if (std::find(taken.begin(), taken.end(), name) != taken.end())
-    entry.fail(fmt::format("there is a measure or input '{}' already", name));
+  if (model.announces_measure(name)) entry.fail(fmt::format("there is a measure or input '{}' already", name));
   if (entry.parameters().count(name)) entry.fail(fmt::format("'{}' is a parameter already; choose another name", name));
   const std::vector<std::string> own = {"t", "q", "v", "e", "s"};
   const auto is_in = [&](const std::vector<std::string>& names) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "mechanism/measures/state_formula.hpp"
-#include "mechanism/system/model.hpp"
+#include "mechanism/model/model.hpp"
 #include "reduce/common/yaml_file.hpp"
 
 namespace bielle::mechanism {

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "mechanism/system/measure.hpp"
-#include "mechanism/system/references.hpp"
+#include "mechanism/model/measure.hpp"
+#include "mechanism/model/references.hpp"
 #include "reduce/common/expression.hpp"
 
 namespace bielle::mechanism {
@@ -43,6 +43,7 @@ class StateFormula {
   bool reads_reactions() const;
   bool uses(std::size_t variable) const { return variable < own_ && expression_.uses(variable); }
   bool is_constant() const { return expression_.is_constant(); }
+  const std::string& text() const { return expression_.text(); }  ///< as the user wrote it
 
   /// @param state  of the component that owns the formula @param variables  its own, in the order of the reader
   double value(const LocalState& state, std::span<const double> variables) const;

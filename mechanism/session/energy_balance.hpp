@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mechanism/system/archive.hpp"
-#include "mechanism/system/component.hpp"
+#include "mechanism/model/archive.hpp"
+#include "mechanism/model/component.hpp"
 
 namespace bielle::mechanism {
 
@@ -33,8 +33,8 @@ class EnergyBalance {
     last_ = energy;
     note_largest();
   }
-  /// A discontinuity at the time of the last `advance`: what impulses take out is dissipated, powers go on from those
-  /// behind it. @param work  of drives and supports whose rate jumps [J]
+  /// A discontinuity at the time of the last `advance`: energy lost in impulses is dissipated, powers continue from
+  /// those after it. @param work  of drives and supports whose rate jumps [J]
   void jump(const Energy& before, const Energy& after, double work) {
     const double input = totals_.input + work;
     const double dissipation = totals_.dissipation + stored(before) - stored(after) + work;

@@ -23,11 +23,16 @@ void MemorySink::record(const State& state, const std::vector<Slots>& slots, con
 
 void MemorySink::write(const ResultArray& array) { analyses_.back().arrays[array.dataset] = array; }
 
+void MemorySink::write(const EntryNumbers& numbers) {
+  for (const auto& [entry, value] : numbers.values)
+    write({results_path(entry) + "/" + numbers.name, {}, {value}, numbers.units, numbers.description});
+}
+
 std::vector<double> MemorySink::read(std::size_t analysis, const std::string& dataset) const {
   const Recorded& recorded = analyses_.at(analysis);
   if (dataset == "time") return recorded.time;
   if (const auto array = recorded.arrays.find(dataset); array != recorded.arrays.end()) return array->second.values;
-  const ResultsColumn* column = rows_.find(dataset);
+  const std::optional<ResultsColumn> column = rows_.find(dataset);
   if (!column) throw InputError(fmt::format("nothing was recorded as '{}'", dataset));
   std::vector<double> values;
   values.reserve(recorded.time.size() * column->size);

@@ -26,12 +26,13 @@ class MemorySink : public ResultSink {
   /// A dataset of an analysis, row after row, as it stands in a results file; "time" too.
   /// @param analysis  from 0. @throws InputError when there is none of that name
   std::vector<double> read(std::size_t analysis, const std::string& dataset) const;
-  const std::vector<ResultsColumn>& columns() const { return rows_.columns(); }
+  std::vector<ResultsColumn> columns() const { return rows_.columns(); }
 
   void begin_analysis(const std::string& type, std::size_t expected_rows) override;
   void record(const State& state, const std::vector<Slots>& slots, const Environment& environment,
               const StepRecord& step) override;
   void write(const ResultArray& array) override;
+  void write(const EntryNumbers& numbers) override;
   void note(const Event& event) override { analyses_.back().events.push_back(event); }
   void end_analysis() override {}
 

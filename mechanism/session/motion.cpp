@@ -7,7 +7,8 @@
 #include <fmt/format.h>
 
 #include "mechanism/session/session.hpp"
-#include "mechanism/solvers/statics.hpp"
+#include "mechanism/solvers/statics/statics.hpp"
+#include "reduce/common/counted.hpp"
 #include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
@@ -22,12 +23,12 @@ StepOptions stepping_of(const DynamicsOptions& options, const System& system, do
   const long steps = options.grid_steps();
   stepping.size = options.duration / static_cast<double>(steps);
   if (notes && std::abs(stepping.size - options.stepping.size) > 1e-9 * stepping.size)
-    notes->note(fmt::format("step {:.6g} s in place of {:.6g} s, so that {} steps fill the duration", stepping.size,
-                            options.stepping.size, steps));
+    notes->note(fmt::format("step {:.6g} s in place of {:.6g} s, so that {} the duration", stepping.size,
+                            options.stepping.size, counted(steps, "step fills", "steps fill")));
   if (static_cast<long>(stepping.break_points.size()) > steps) {
     if (notes)
-      notes->note(fmt::format("{} kinks of loads and motions in {} steps: steps do not end on them",
-                              stepping.break_points.size(), steps));
+      notes->note(fmt::format("{} of loads and motions in {}: steps do not end there",
+                              counted(stepping.break_points.size(), "kink"), counted(steps, "step")));
     stepping.break_points.clear();
   }
   return stepping;
@@ -66,6 +67,7 @@ Motion::Motion(Session& session, const DynamicsOptions& options) : session_(&ses
   row.balance = balance();
   row.step = stepping.size;
   session.record(this->state(), environment, row);
+  session.gather(this->state(), environment);
   session.report_ = row;
   show();  // last: a motion that could not be made is not to be seen
 }
@@ -83,6 +85,7 @@ Motion::Motion(Session& session, const DynamicsOptions& options, Archive& archiv
     throw InputError(
         "the last checkpoint holds other numbers than this program goes on from: it was written by another version, "
         "or is damaged");
+  session.gatherers_.set(parts_.gathered);
   session.at_rest();
   session.stopping_ = false;
   end_ = parts_.begin + options.duration;
@@ -130,16 +133,20 @@ void Motion::exchange_books(Archive& archive, Parts& parts, ResultSink* sink) {
   archive(parts.begin);
   archive(parts.grid_steps);
   parts.books.exchange(archive);
+  archive(parts.gathered);
   if (sink) sink->exchange(archive);
 }
 
 void Motion::write(Archive& archive, ResultSink* sink) {
+  parts_.gathered = session_->gatherers_.numbers();
   exchange_books(archive, parts_, sink);
   parts_.integration->exchange(archive);
   parts_.march->exchange(archive);
+  session_->norm_.reset();  // recorded reactions owe nothing to pivots of before
 }
 
 Motion::Parts Motion::read(Archive& archive, ResultSink* sink) {
+  session_->norm_.reset();
   Parts parts;
   exchange_books(archive, parts, sink);
   StepOptions stepping = stepping_of(options_, session_->system_, parts.begin, session_->notes_);
@@ -215,6 +222,7 @@ bool Motion::step() {
   if (step.on_grid) ++parts_.grid_steps;
   session.report_ = row(step, parts_.books);
   record_step(step, before, books_before);
+  session.gather(state(), session.environment_);
   const auto& crossings = session.system_.crossings();
   for (const Passed& passed : step.passed) {
     last_event_ = crossings[static_cast<std::size_t>(passed.crossing)].name;

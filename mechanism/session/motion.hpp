@@ -8,7 +8,7 @@
 
 #include "mechanism/session/energy_balance.hpp"
 #include "mechanism/session/step_record.hpp"
-#include "mechanism/solvers/march.hpp"
+#include "mechanism/solvers/dynamics/march.hpp"
 
 namespace bielle::mechanism {
 
@@ -28,7 +28,7 @@ struct DynamicsOptions {
 };
 
 /// The session shows the state of its motion as long as that lives, and keeps the last one. A motion ends when the
-/// session is asked for something else: its state can be read then, but it moves no more (std::logic_error).
+/// session starts something else: its state can still be read then, but it moves no further (std::logic_error).
 class Motion {
  public:
   ~Motion();
@@ -36,11 +36,11 @@ class Motion {
   Motion& operator=(const Motion&) = delete;
 
   /// Takes a step, with the rows and checkpoints that the session's recording asks for, and calls back. With fixed
-  /// steps smaller ones than asked for may stand between two times of the grid. @returns false when none is left
+  /// steps, smaller ones may lie between two times of the grid. @returns false when none is left
   /// @throws ComputationError as March::advance; the motion then stands where it was before the step
   bool step();
   /// Steps until the time is reached: exactly where it is on the grid of steps, otherwise beyond it by less than a
-  /// step (`interpolated` tells the state in between). @returns false when a callback stopped it, or the end came first
+  /// step (`interpolated` gives the state in between). @returns false when a callback stopped it, or the end came first
   bool advance_to(double time);
   /// Steps to the end. What ends it early, a stop or an exception, leaves a checkpoint with the sinks, a stop its last
   /// row as well. @returns false when it was stopped
@@ -48,9 +48,9 @@ class Motion {
   bool done() const { return parts_.march->done(); }
   bool stopped_by_event() const { return parts_.march->stopped(); }
   const std::string& last_event() const { return last_event_; }  ///< its name; empty: there was none
-  double begin() const { return parts_.begin; }  ///< [s]
-  double end() const { return end_; }            ///< [s]
-  double time() const { return state().time; }   ///< [s]
+  double begin() const { return parts_.begin; }                  ///< [s]
+  double end() const { return end_; }                            ///< [s]
+  double time() const { return state().time; }                   ///< [s]
 
   const State& state() const { return parts_.integration->state(); }
   /// @param time  within the last step [s]
@@ -71,6 +71,7 @@ class Motion {
     std::unique_ptr<March> march;
     EnergyBalance books;
     long grid_steps = 0;  ///< done
+    VectorX gathered;     ///< by components, when the motion was written or read
   };
   Motion(Session& session, const DynamicsOptions& options);
   /// Goes on. @param sink    whose part stands among the numbers; nullptr: there is none

@@ -1,29 +1,31 @@
-// Where results go: a file, memory, a plot. A session tells each of its sinks the same.
+// Where results go: a file, memory, a plot. A session sends the same to each of its sinks.
 #pragma once
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "mechanism/model/archive.hpp"
+#include "mechanism/model/entry.hpp"
+#include "mechanism/model/result_array.hpp"
+#include "mechanism/model/state.hpp"
 #include "mechanism/session/step_record.hpp"
-#include "mechanism/system/archive.hpp"
-#include "mechanism/system/state.hpp"
 
 namespace bielle::mechanism {
 
-/// A result that is no row over time: frequencies, modes, matrices.
-struct ResultArray {
-  std::string dataset;             ///< relative to the analysis's group: "eigen/frequency"
-  std::vector<std::size_t> shape;  ///< {} for a number
-  std::vector<double> values;      ///< the last index runs fastest
+/// A number of each of some entries, which is no row over time: "joints/main/reaction_unique".
+struct EntryNumbers {
+  std::string name;  ///< "reaction_unique"
+  std::vector<std::pair<Entry, double>> values;
   std::string units, description;
 };
 
 /// A crossing of a motion.
 struct Event {
-  double time = 0;    ///< [s]
-  int crossing = 0;   ///< by number, System::crossings
-  std::string name;   ///< "event 'landed'", "joint 'door': angle at its upper stop"
+  double time = 0;   ///< [s]
+  int crossing = 0;  ///< by number, System::crossings
+  std::string name;  ///< "event 'landed'", "joint 'door': angle at its upper stop"
 };
 
 class ResultSink {
@@ -41,10 +43,11 @@ class ResultSink {
   virtual void record(const State& state, const std::vector<Slots>& slots, const Environment& environment,
                       const StepRecord& step) = 0;
   virtual void write(const ResultArray& array) = 0;
+  virtual void write(const EntryNumbers& numbers) = 0;  ///< of entries that record
   /// A crossing was met.
   virtual void note(const Event& event) = 0;
   virtual void end_analysis() = 0;
-  virtual void complete() {}  ///< all that was to be done is done
+  virtual void complete() {}  ///< the analysis has ended as intended
 
   /// A point to go on from. @param archive  with all of it but what belongs to the sink itself
   virtual void checkpoint(Archive& /*archive*/) {}

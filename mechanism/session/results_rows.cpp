@@ -2,10 +2,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <numeric>
-#include <stdexcept>
-
-#include <fmt/format.h>
 
 #include "mechanism/math/so3.hpp"
 
@@ -13,130 +9,111 @@ namespace bielle::mechanism {
 
 namespace {
 
-std::size_t count_of(const std::vector<std::size_t>& shape) {
-  return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
-}
-
 void copy(const double* values, std::size_t count, double* to) { std::copy(values, values + count, to); }
 
-bool alike(const std::vector<OutputField>& a, const std::vector<OutputField>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const OutputField& x, const OutputField& y) { return x.name == y.name && x.shape == y.shape; });
+std::vector<double> rates(const Vector3& translation, const Vector3& rotation) {
+  return {translation.x(), translation.y(), translation.z(), rotation.x(), rotation.y(), rotation.z()};
 }
 
 }  // namespace
 
-ResultsRows::ResultsRows(const Model& model, Extent extent) : model_(model), extent_(extent) {
-  add_nodes();
-  add_chains();
-  add_members();
-  energy_ = size_;
-  for (const char* name : {"kinetic", "elastic", "gravity"}) add_column(std::string("energy/") + name, {}, "J", "");
-  add_column("energy/dissipated", {}, "J", "since the start of the analysis");
-  add_column("energy/input", {}, "J", "of drives and loads, since the start of the analysis");
-  add_column("energy/balance", {}, "J", "what is missing: stored - stored at the start - input + dissipated");
-  solver_ = size_;
-  add_column("solver/step", {}, "s", "");
-  add_column("solver/newton_iterations", {}, "-", "");
-  add_column("solver/error_estimate", {}, "-", "relative to the tolerance; 0 when the step is fixed");
-  add_column("solver/worst_residual", {}, "-", "of all equations at the end of the step, relative to its tolerance");
-  add_column("solver/worst_equation", {}, "-", "its line in /equations, from 0; -1: there was none");
+const char* layout_name(ResultsLayout layout) { return layout == ResultsLayout::named ? "named" : "stacked"; }
+
+ResultsRows::ResultsRows(const Model& model, Extent extent) : kinds_(model, extent == Extent::all), model_(model) {
+  add_node_places();
+  add_together();
+  std::size_t largest = 0;
+  for (const ResultsKind& kind : kinds_.kinds())
+    for (const ResultsPart& part : kind.parts) {
+      std::size_t total = 0;
+      for (const ResultsTarget& target : part) total += target.size;
+      largest = std::max(largest, total);
+    }
+  output_.resize(largest);
+  add_totals();
   quaternions_.resize(nodes_.size());
 }
 
-std::size_t ResultsRows::add_column(const std::string& dataset, std::vector<std::size_t> shape,
-                                    const std::string& units, const std::string& description, bool summed) {
-  const auto [place, added] = column_of_.emplace(dataset, columns_.size());
-  if (!added) {
-    const ResultsColumn& column = columns_[place->second];
-    if (summed && column.shape == shape) return column.begin;
-    throw std::logic_error("two components record the results '" + dataset + "'");
-  }
-  const std::size_t begin = size_, size = count_of(shape);
-  columns_.push_back({dataset, std::move(shape), units, description, begin, size});
-  size_ += size;
-  return begin;
-}
-
-void ResultsRows::add_attributes(const std::string& group,
-                                 const std::vector<std::pair<std::string, std::string>>& attributes) {
-  auto found = std::find_if(groups_.begin(), groups_.end(), [&](const ResultsGroup& g) { return g.name == group; });
-  if (found == groups_.end()) found = groups_.insert(groups_.end(), {group, {}});
-  for (const auto& [name, value] : attributes) {
-    const auto same = [&, key = name](const auto& attribute) { return attribute.first == key; };
-    if (std::none_of(found->attributes.begin(), found->attributes.end(), same))
-      found->attributes.emplace_back(name, value);
-  }
-}
-
-void ResultsRows::add_nodes() {
-  constexpr int ground = 0;  // stands at the origin for ever
-  for (int k = ground + 1; k < static_cast<int>(model_.nodes().size()); ++k) {
-    const Node& node = model_.node(k);
-    if (node.internal) continue;
-    const std::string group = "nodes/" + node.name;
-    if (!records(group)) continue;
-    NodePlace place{k, 0, 0, nodes_.size(), true};
-    place.position = add_column(group + "/position", {3}, "m", "inertial");
-    place.rotation = add_column(group + "/rotation", {4}, "-", "unit quaternion w x y z: node axes -> inertial axes");
-    add_column(group + "/velocity", {6}, "m/s, rad/s", "inertial translation; rotation in the node's axes");
-    add_column(group + "/acceleration", {6}, "m/s^2, rad/s^2", "inertial translation; rotation in the node's axes");
-    nodes_.push_back(place);
-    add_attributes(group, {});
-    if (node.carrier) add_attributes(group, {{"carrier", model_.node(*node.carrier).name}});
-  }
-}
-
-void ResultsRows::add_chains() {
-  for (const Chain& chain : model_.chains()) {
-    if (!records(chain.group)) continue;
-    const std::size_t count = chain.nodes.size();
-    const std::size_t positions = add_column(chain.group + "/position", {count, 3}, "m", "inertial");
-    const std::size_t rotations =
-        add_column(chain.group + "/rotation", {count, 4}, "-", "unit quaternions w x y z: node axes -> inertial axes");
-    for (std::size_t k = 0; k < count; ++k)
-      nodes_.push_back({chain.nodes[k], positions + 3 * k, rotations + 4 * k, nodes_.size(), false});
-  }
-}
-
-void ResultsRows::add_members() {
-  std::vector<bool> placed(model_.members().size(), false);
-  std::size_t largest = 0;
-  for (std::size_t first = 0; first < placed.size(); ++first) {
-    const Member& member = model_.members()[first];
-    if (placed[first] || member.group.empty() || !records(member.group)) continue;
-    // A component alone, or all the stacked ones of its group.
-    std::vector<std::size_t> alike_members = {first};
-    const std::vector<OutputField> fields = member.component->output_fields();
-    for (std::size_t k = first + 1; member.stacked && k < placed.size(); ++k) {
-      const Member& other = model_.members()[k];
-      if (!other.stacked || other.group != member.group) continue;
-      if (!alike(other.component->output_fields(), fields))
-        throw std::logic_error("the stacked components of '" + member.group + "' record different results");
-      alike_members.push_back(k);
+void ResultsRows::add_node_places() {
+  for (const ResultsEntry& entry : kinds_.entries()) {
+    const ResultsKind& kind = kinds_.kinds()[entry.kind];
+    const auto begin = [&](std::size_t field) {
+      return kind.fields[field].begin + entry.number * kind.fields[field].size;
+    };
+    for (std::size_t k = 0; k < entry.nodes.size(); ++k) {
+      const bool rates = entry.entry.section == Section::nodes;
+      nodes_.push_back(
+          {entry.nodes[k], begin(0) + 3 * k, begin(1) + 4 * k, rates ? begin(2) : 0, rates ? begin(3) : 0});
     }
-    std::vector<std::size_t> begins;
-    for (const OutputField& field : fields) {
-      std::vector<std::size_t> shape = field.shape;
-      if (member.stacked) shape.insert(shape.begin(), alike_members.size());
-      begins.push_back(
-          add_column(member.group + "/" + field.name, std::move(shape), field.units, field.description, field.summed));
-    }
-    for (std::size_t row = 0; row < alike_members.size(); ++row) {
-      MemberPlace place{alike_members[row], {}};
-      std::size_t total = 0;
-      for (std::size_t f = 0; f < fields.size(); ++f) {
-        place.fields.push_back({begins[f] + row * fields[f].size(), fields[f].size(), fields[f].summed});
-        total += fields[f].size();
+  }
+}
+
+void ResultsRows::add_together() {
+  for (const ResultsEntry& entry : kinds_.entries()) {
+    const ResultsKind& kind = kinds_.kinds()[entry.kind];
+    for (std::size_t p = 0; p < kind.parts.size(); ++p) {
+      const ResultsPart& part = kind.parts[p];
+      const std::size_t member = entry.members[p];
+      if (!model_.members()[member].component->outputs_together()) continue;
+      Together outputs{member, &part, {}, true, 0};
+      for (const ResultsTarget& target : part) {
+        const ResultsField& field = kind.fields[target.field];
+        outputs.places.push_back(field.begin + entry.number * field.size + target.offset);
+        outputs.adjoining = outputs.adjoining && outputs.places.back() == outputs.places.front() + outputs.size;
+        outputs.size += target.size;
       }
-      largest = std::max(largest, total);
-      placed[place.member] = true;
-      members_.push_back(std::move(place));
+      together_.push_back(std::move(outputs));
     }
-    add_attributes(member.group, {{"type", member.component->type()}});
-    add_attributes(member.group, member.component->attributes());
   }
-  output_.resize(largest);
+}
+
+void ResultsRows::add_totals() {
+  size_ = kinds_.size();
+  const auto add = [&](const char* dataset, const char* units, const char* description) {
+    totals_.push_back({dataset, {}, units, description, size_++, 1});
+  };
+  for (const char* dataset : {"energy/kinetic", "energy/elastic", "energy/gravity"}) add(dataset, "J", "");
+  add("energy/dissipated", "J", "since the start of the analysis");
+  add("energy/input", "J", "of drives and loads, since the start of the analysis");
+  add("energy/balance", "J", "what is missing: stored - stored at the start - input + dissipated");
+  add("solver/step", "s", "");
+  add("solver/newton_iterations", "-", "");
+  add("solver/error_estimate", "-", "relative to the tolerance; 0 when the step is fixed");
+  add("solver/worst_residual", "-", "of all equations at the end of the step, relative to its tolerance");
+  add("solver/worst_equation", "-", "its line in /equations, from 0; -1: there was none");
+}
+
+std::vector<ResultsColumn> ResultsRows::columns(ResultsLayout layout) const {
+  std::vector<ResultsColumn> columns;
+  if (layout == ResultsLayout::named) {
+    columns.reserve(kinds_.datasets() + totals_.size());
+    for (const ResultsEntry& entry : kinds_.entries())
+      for (const ResultsField& field : kinds_.kinds()[entry.kind].fields)
+        columns.push_back({kinds_.dataset(entry, field), field.shape, field.units, field.description,
+                           field.begin + entry.number * field.size, field.size});
+  } else {
+    for (const ResultsKind& kind : kinds_.kinds())
+      for (const ResultsField& field : kind.fields) {
+        const std::size_t count = kind.entries.size();
+        std::vector<std::size_t> shape = field.shape;
+        shape.insert(shape.begin(), count);
+        columns.push_back({results_path({kind.section, kind.name}) + "/" + field.name, std::move(shape), field.units,
+                           field.description, field.begin, count * field.size});
+      }
+  }
+  columns.insert(columns.end(), totals_.begin(), totals_.end());
+  return columns;
+}
+
+std::optional<ResultsColumn> ResultsRows::find(const std::string& dataset) const {
+  for (const ResultsColumn& total : totals_)
+    if (total.dataset == dataset) return total;
+  const auto found = kinds_.find(dataset);
+  if (!found) return std::nullopt;
+  const auto& [entry, number] = *found;
+  const ResultsField& field = kinds_.kinds()[entry->kind].fields[number];
+  return ResultsColumn{dataset,   field.shape, field.units, field.description, field.begin + entry->number * field.size,
+                       field.size};
 }
 
 void ResultsRows::exchange(Archive& archive) {
@@ -144,83 +121,143 @@ void ResultsRows::exchange(Archive& archive) {
   archive(quaternions_known_);
 }
 
-const ResultsColumn* ResultsRows::find(const std::string& dataset) const {
-  const auto place = column_of_.find(dataset);
-  return place == column_of_.end() ? nullptr : &columns_[place->second];
-}
-
 void ResultsRows::fill(const State& state, const std::vector<Slots>& slots, const Environment& environment,
                        const StepRecord& step, double* values) {
-  for (const NodePlace& place : nodes_) {
+  const ResultsInstant instant{&state, &slots, &environment, &step};
+  fill({&instant, 1}, values);
+}
+
+void ResultsRows::fill(std::span<const ResultsInstant> instants, double* values) {
+  for (std::size_t k = 0; k < instants.size(); ++k) fill_apart(instants[k], values + k * size_);
+  for (const Together& outputs : together_) fill_together(outputs, instants, values);
+}
+
+void ResultsRows::fill_together(const Together& outputs, std::span<const ResultsInstant> instants, double* values) {
+  locals_.clear();
+  targets_.clear();
+  if (!outputs.adjoining) outputs_.resize(instants.size() * outputs.size);
+  for (std::size_t k = 0; k < instants.size(); ++k) {
+    locals_.emplace_back(*instants[k].state, (*instants[k].slots)[outputs.member], *instants[k].environment);
+    targets_.push_back(outputs.adjoining ? values + k * size_ + outputs.places.front()
+                                         : outputs_.data() + k * outputs.size);
+  }
+  model_.members()[outputs.member].component->write_outputs(locals_, targets_);
+  if (outputs.adjoining) return;
+  for (std::size_t k = 0; k < instants.size(); ++k) {
+    const double* from = targets_[k];
+    for (std::size_t t = 0; t < outputs.places.size(); ++t) {
+      const std::size_t count = (*outputs.part)[t].size;
+      copy(from, count, values + k * size_ + outputs.places[t]);
+      from += count;
+    }
+  }
+}
+
+void ResultsRows::fill_apart(const ResultsInstant& instant, double* values) {
+  const State& state = *instant.state;
+  for (std::size_t k = 0; k < nodes_.size(); ++k) {
+    const NodePlace& place = nodes_[k];
     const NodeState& node = state.nodes[static_cast<std::size_t>(place.node)];
-    Eigen::Vector4d& before = quaternions_[place.quaternion];
     Eigen::Vector4d quaternion = quaternion_of(node.R);
-    if (quaternions_known_ && before.dot(quaternion) < 0) quaternion = -quaternion;
-    before = quaternion;
-    fill_node(place, node, quaternion, values);
+    if (quaternions_known_ && quaternions_[k].dot(quaternion) < 0) quaternion = -quaternion;
+    quaternions_[k] = quaternion;
+    copy(node.x.data(), 3, values + place.position);
+    copy(quaternion.data(), 4, values + place.rotation);
+    if (place.velocity == 0) continue;
+    copy(node.v.data(), 3, values + place.velocity);
+    copy(node.Omega.data(), 3, values + place.velocity + 3);
+    copy(node.a.data(), 3, values + place.acceleration);
+    copy(node.Omegadot.data(), 3, values + place.acceleration + 3);
   }
   quaternions_known_ = true;
-  for (const MemberPlace& place : members_)
-    for (const FieldPlace& field : place.fields)
-      if (field.summed) std::fill_n(values + field.begin, field.size, 0.0);
-  for (const MemberPlace& place : members_) fill_member(place, state, slots, environment, output_.data(), values);
-  fill_step(step, values);
+  for (const ResultsKind& kind : kinds_.kinds()) {
+    for (const ResultsField& field : kind.fields)
+      if (field.summed) std::fill_n(values + field.begin, kind.entries.size() * field.size, 0.0);
+    for (const std::size_t place : kind.entries) {
+      const ResultsEntry& entry = kinds_.entries()[place];
+      const auto to = [&](const ResultsTarget& target) {
+        const ResultsField& field = kind.fields[target.field];
+        return values + field.begin + entry.number * field.size + target.offset;
+      };
+      for (std::size_t p = 0; p < kind.parts.size(); ++p)
+        if (!model_.members()[entry.members[p]].component->outputs_together())
+          write_member(entry.members[p], kind.parts[p], state, *instant.slots, *instant.environment, output_.data(),
+                       to);
+    }
+  }
+  fill_totals(*instant.step, values + kinds_.size());
 }
 
 std::vector<double> ResultsRows::read(const ResultsColumn& column, const State& state, const std::vector<Slots>& slots,
                                       const Environment& environment, const StepRecord& step) const {
-  std::vector<double> row(size_), output(output_.size());
-  const std::size_t end = column.begin + column.size;
-  const auto within = [&](std::size_t begin, std::size_t size) { return begin < end && begin + size > column.begin; };
-  for (const NodePlace& place : nodes_) {
-    const std::size_t rates = place.rates ? 12 : 0;
-    if (!within(place.position, 3) && !within(place.rotation, 4 + rates)) continue;
-    const NodeState& node = state.nodes[static_cast<std::size_t>(place.node)];
-    fill_node(place, node, quaternion_of(node.R), row.data());
-  }
-  for (const MemberPlace& place : members_)
-    if (std::any_of(place.fields.begin(), place.fields.end(),
-                    [&](const FieldPlace& field) { return within(field.begin, field.size); }))
-      fill_member(place, state, slots, environment, output.data(), row.data());
-  fill_step(step, row.data());
-  return {row.begin() + static_cast<std::ptrdiff_t>(column.begin), row.begin() + static_cast<std::ptrdiff_t>(end)};
+  if (const auto found = kinds_.find(column.dataset))
+    return read_entry(*found->first, found->second, state, slots, environment);
+  std::vector<double> totals(totals_.size());
+  fill_totals(step, totals.data());
+  return {totals.at(column.begin - kinds_.size())};
 }
 
-void ResultsRows::fill_member(const MemberPlace& place, const State& state, const std::vector<Slots>& slots,
-                              const Environment& environment, double* output, double* values) const {
-  if (place.fields.empty()) return;
-  const LocalState local(state, slots[place.member], environment);
-  model_.members()[place.member].component->write_output(local, output);
-  for (const FieldPlace& field : place.fields) {
-    double* to = values + field.begin;
-    if (field.summed)
-      std::transform(output, output + field.size, to, to, std::plus<>());
-    else
-      copy(output, field.size, to);
-    output += field.size;
+std::vector<double> ResultsRows::read_entry(const ResultsEntry& entry, std::size_t field, const State& state,
+                                            const std::vector<Slots>& slots, const Environment& environment) const {
+  const ResultsKind& kind = kinds_.kinds()[entry.kind];
+  const auto node_at = [&](int k) -> const NodeState& { return state.nodes[static_cast<std::size_t>(k)]; };
+  if (entry.entry.section == Section::nodes && field > 1) {
+    const NodeState& node = node_at(entry.nodes.front());
+    return field == 2 ? rates(node.v, node.Omega) : rates(node.a, node.Omegadot);
+  }
+  std::vector<double> values, output(output_.size());
+  if (!entry.nodes.empty() && field < 2) {
+    for (const int k : entry.nodes) {
+      const Eigen::Vector4d quaternion = quaternion_of(node_at(k).R);
+      const double* begin = field == 0 ? node_at(k).x.data() : quaternion.data();
+      values.insert(values.end(), begin, begin + (field == 0 ? 3 : 4));
+    }
+    return values;
+  }
+  values.resize(kind.fields[field].size);
+  const auto to = [&](const ResultsTarget& target) {
+    return target.field == field ? values.data() + target.offset : nullptr;
+  };
+  for (std::size_t p = 0; p < kind.parts.size(); ++p) {
+    const auto wanted = [&](const ResultsTarget& target) { return target.field == field; };
+    if (std::any_of(kind.parts[p].begin(), kind.parts[p].end(), wanted))
+      write_member(entry.members[p], kind.parts[p], state, slots, environment, output.data(), to);
+  }
+  return values;
+}
+
+template <class To>
+void ResultsRows::write_member(std::size_t member, const ResultsPart& part, const State& state,
+                               const std::vector<Slots>& slots, const Environment& environment, double* output,
+                               const To& to) const {
+  if (part.empty()) return;
+  const LocalState local(state, slots[member], environment);
+  model_.members()[member].component->write_output(local, output);
+  for (const ResultsTarget& target : part) {
+    if (double* values = to(target)) {
+      if (target.summed)
+        std::transform(output, output + target.size, values, values, std::plus<>());
+      else
+        copy(output, target.size, values);
+    }
+    output += target.size;
   }
 }
 
-void ResultsRows::fill_step(const StepRecord& step, double* values) const {
+void ResultsRows::fill_totals(const StepRecord& step, double* values) {
   const Energy& energy = step.energy;
-  const double energies[] = {energy.kinetic,     energy.elastic, energy.gravity,
-                             energy.dissipation, energy.input,   step.balance};
-  copy(energies, 6, values + energy_);
-  const double solver[] = {step.step, static_cast<double>(step.newton_iterations), step.error_estimate,
-                           step.worst_residual, static_cast<double>(step.worst_equation)};
-  copy(solver, std::size(solver), values + solver_);
-}
-
-void ResultsRows::fill_node(const NodePlace& place, const NodeState& node, const Eigen::Vector4d& quaternion,
-                            double* values) {
-  copy(node.x.data(), 3, values + place.position);
-  copy(quaternion.data(), 4, values + place.rotation);
-  if (!place.rates) return;
-  double* rates = values + place.rotation + 4;
-  copy(node.v.data(), 3, rates);
-  copy(node.Omega.data(), 3, rates + 3);
-  copy(node.a.data(), 3, rates + 6);
-  copy(node.Omegadot.data(), 3, rates + 9);
+  const double totals[] = {energy.kinetic,
+                           energy.elastic,
+                           energy.gravity,
+                           energy.dissipation,
+                           energy.input,
+                           step.balance,
+                           step.step,
+                           static_cast<double>(step.newton_iterations),
+                           step.error_estimate,
+                           step.worst_residual,
+                           static_cast<double>(step.worst_equation)};
+  copy(totals, std::size(totals), values);
 }
 
 }  // namespace bielle::mechanism

@@ -90,6 +90,7 @@ void Session::restore(const std::vector<double>& values) {
     return saved.moving ? motion_->read(archive, nullptr) : Motion::Parts();
   });
   if (saved.moving) {
+    gatherers_.set(parts.gathered);
     motion_->parts_ = std::move(parts);
     motion_->saved_ = motion_->last_recorded_ = false;
     motion_->show();

@@ -6,26 +6,32 @@
 
 #include "mechanism/measures/input_measure.hpp"
 #include "mechanism/session/unique_reactions.hpp"
-#include "mechanism/solvers/redundancy.hpp"
-#include "mechanism/solvers/statics.hpp"
+#include "mechanism/solvers/constraints/redundancy.hpp"
+#include "mechanism/solvers/start/assemble_positions.hpp"
+#include "mechanism/solvers/start/consistent_velocities.hpp"
+#include "mechanism/solvers/statics/statics.hpp"
 #include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
 
-Session::Session(std::unique_ptr<const Model> owned, const Model* model)
+Session::Session(std::unique_ptr<const Model> owned, const Model* model, int threads)
     : owned_(std::move(owned)),
       model_(owned_ ? *owned_ : *model),
       system_(model_),
       environment_(model_.environment),
       acting_(environment_),
       state_(system_.start(0)),
-      shown_(&state_) {
+      shown_(&state_),
+      gatherers_(model_) {
+  system_.use_threads(threads);
   redundant_ = name_constraints(system_, take_out_redundant(system_, environment_, state_));
+  mobility_ = count_mobility(system_, environment_, state_);
 }
 
-Session::Session(Model&& model) : Session(std::make_unique<const Model>(std::move(model)), nullptr) {}
+Session::Session(Model&& model, int threads)
+    : Session(std::make_unique<const Model>(std::move(model)), nullptr, threads) {}
 
-Session::Session(const Model& model) : Session(nullptr, &model) {}
+Session::Session(const Model& model, int threads) : Session(nullptr, &model, threads) {}
 
 Session::~Session() { at_rest(); }
 
@@ -76,6 +82,7 @@ void Session::statics_point(const State& state, double factor, int iterations) {
   report_->newton_iterations = iterations;
   report_->time = factor;
   record(state, acting_, *report_);
+  gather(state, acting_);
 }
 
 StaticsReport Session::statics(const StaticsOptions& options) {
@@ -86,7 +93,7 @@ StaticsReport Session::statics(const StaticsOptions& options) {
   system_.get_rates(state_, v, unused);
   if (!v.isZero(0))
     note(
-        "a static analysis is at rest, and so is what comes behind it: the velocities are dropped (a dynamic "
+        "a static analysis is at rest, and so is what comes after it: the velocities are dropped (a dynamic "
         "analysis with `start: equilibrium` keeps them)");
   Environment statics = environment_;
   statics.statics = true;
@@ -152,21 +159,25 @@ const NodeState& Session::node(const std::string& name) const {
   throw InputError(fmt::format("there is no node '{}'{}", name, did_you_mean(name, names)));
 }
 
-const std::vector<ResultsColumn>& Session::datasets() const {
+const ResultsRows& Session::readable() const {
   if (!readable_) readable_ = std::make_unique<ResultsRows>(model_, ResultsRows::Extent::all);
-  return readable_->columns();
+  return *readable_;
+}
+
+const std::vector<ResultsColumn>& Session::datasets() const {
+  if (datasets_.empty()) datasets_ = readable().columns();
+  return datasets_;
 }
 
 std::vector<double> Session::read(const std::string& dataset) const {
   if (dataset == "time") return {report().time.value_or(time())};
-  datasets();
-  const ResultsColumn* column = readable_->find(dataset);
+  const std::optional<ResultsColumn> column = readable().find(dataset);
   if (!column) {
     std::vector<std::string> names = {"time"};
-    for (const ResultsColumn& each : readable_->columns()) names.push_back(each.dataset);
+    for (const ResultsColumn& each : datasets()) names.push_back(each.dataset);
     throw InputError(fmt::format("there is no dataset '{}'{}", dataset, did_you_mean(dataset, names)));
   }
-  return readable_->read(*column, reported(*shown_, acting_), system_.slots(), acting_, report());
+  return readable().read(*column, reported(*shown_, acting_), system_.slots(), acting_, report());
 }
 
 // -- calling back
@@ -182,14 +193,9 @@ void Session::note(const Event& event) {
 }
 
 void Session::set_input(const std::string& name, double value, bool smooth) {
-  std::vector<std::string> names;
-  for (const Member& member : model_.members()) {
-    const auto* input = dynamic_cast<const InputMeasure*>(member.component.get());
+  for (const Component* component : model_.components_of({Section::measures, name})) {
+    const auto* input = dynamic_cast<const InputMeasure*>(component);
     if (!input) continue;
-    if (input->name() != name) {
-      names.push_back(input->name());
-      continue;
-    }
     const int place = system_.slots_of(*input).memory_begin;
     if (motion_)
       motion_->set_memory(place, value, smooth);
@@ -197,6 +203,9 @@ void Session::set_input(const std::string& name, double value, bool smooth) {
       state_.memory[place] = value;
     return;
   }
+  std::vector<std::string> names;
+  for (const Member& member : model_.members())
+    if (dynamic_cast<const InputMeasure*>(member.component.get())) names.push_back(member.entry.name);
   throw InputError(fmt::format("there is no input '{}'{}", name, did_you_mean(name, names)));
 }
 
@@ -214,6 +223,7 @@ void Session::set_recording(Recording recording) {
 void Session::begin_analysis(const std::string& type, std::size_t expected_rows, const ResultSink* goes_on) {
   open_ = true;
   rows_ = 0;
+  gatherers_.begin();
   for (ResultSink* sink : sinks_)
     if (sink != goes_on) sink->begin_analysis(type, expected_rows);
 }
@@ -223,6 +233,10 @@ void Session::record(const State& state, const Environment& environment, const S
   ++rows_;
   const State& whole = reported(state, environment);
   for (ResultSink* sink : sinks_) sink->record(whole, system_.slots(), environment, step);
+}
+
+void Session::gather(const State& state, const Environment& environment) {
+  if (open_) gatherers_.add(state, system_.slots(), environment);
 }
 
 const State& Session::reported(const State& state, const Environment& environment) const {
@@ -239,8 +253,11 @@ void Session::write(const ResultArray& array) {
 }
 
 void Session::end_analysis() {
+  if (open_)
+    for (const ResultArray& array : gatherers_.results()) write(array);
   if (open_ && rows_ > 0)
-    for (const ResultArray& array : unique_reaction_arrays(system_, acting_, *shown_)) write(array);
+    if (const EntryNumbers numbers = unique_reaction_numbers(system_, acting_, *shown_); !numbers.values.empty())
+      for (ResultSink* sink : sinks_) sink->write(numbers);
   open_ = false;
   for (ResultSink* sink : sinks_) sink->end_analysis();
 }

@@ -19,13 +19,15 @@
 #include <string>
 #include <vector>
 
+#include "mechanism/session/gatherers.hpp"
 #include "mechanism/session/motion.hpp"
 #include "mechanism/session/notes.hpp"
 #include "mechanism/session/recording.hpp"
 #include "mechanism/session/result_sink.hpp"
 #include "mechanism/session/results_rows.hpp"
 #include "mechanism/session/statics_options.hpp"
-#include "mechanism/solvers/reaction_norm.hpp"
+#include "mechanism/solvers/constraints/reaction_norm.hpp"
+#include "mechanism/solvers/constraints/redundancy.hpp"
 
 namespace bielle::mechanism {
 
@@ -33,8 +35,9 @@ class Session {
  public:
   /// Numbers the model's unknowns; constraints that repeat others are found, and set aside.
   /// @throws InputError, ComputationError
-  explicit Session(Model&& model);
-  explicit Session(const Model& model);  ///< which must outlive the session
+  /// @param threads  that evaluate costly components at the same time; the numbers do not depend on them
+  explicit Session(Model&& model, int threads = 1);
+  explicit Session(const Model& model, int threads = 1);  ///< which must outlive the session
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -42,13 +45,14 @@ class Session {
   const Model& model() const { return model_; }
   const System& system() const { return system_; }
   const std::vector<std::string>& redundant() const { return redundant_; }  ///< constraints set aside, by joint
+  const Mobility& mobility() const { return mobility_; }                    ///< where the model starts
 
   // -- what acts
   const Environment& environment() const { return environment_; }  ///< of the whole load
   const Environment& acting() const { return acting_; }            ///< of the load factor that the state stands under
   const Loaded& loaded() const { return loaded_; }                 ///< what of loads and motions has been made
   /// Sets an input of the model (`inputs`), that formulas use. In a motion it holds from here on: forces jump, and the
-  /// motion is started anew with its next step.
+  /// motion is restarted with its next step.
   /// @param smooth  the value is one of a smooth function of time, seen once a step: nothing jumps
   /// @throws InputError with the nearest name
   void set_input(const std::string& name, double value, bool smooth = false);
@@ -56,7 +60,7 @@ class Session {
   // -- computing
   /// Makes positions and velocities consistent. @throws ComputationError naming a constraint that cannot be satisfied
   StartReport assemble();
-  /// Equilibrium under the whole load, or along a path. The state is at rest behind it.
+  /// Equilibrium under the whole load, or along a path. The state is at rest afterwards.
   /// @throws ComputationError when there is none near; the state is then the last equilibrium
   StaticsReport statics(const StaticsOptions& options = {});
   /// A motion from the state, made consistent. It must not outlive the session.
@@ -84,24 +88,24 @@ class Session {
   StepRecord report() const;                           ///< of the last step
 
   // -- calling back
-  /// Called after each step of a motion and each point of statics, behind its record; may ask to `stop`. What it throws
-  /// ends the step's run.
+  /// Called after each step of a motion and each point of statics, once it is recorded; may ask to `stop`. What it
+  /// throws ends the run.
   void on_step(std::function<void(Session&)> callback) { on_step_.push_back(std::move(callback)); }
   /// Called with every step that is tried, accepted or not.
   void on_attempt(std::function<void(const Attempt&)> callback) { on_attempt_.push_back(std::move(callback)); }
-  /// Called with each crossing that a motion has met, behind the step that ends on it.
+  /// Called with each crossing of a motion, after the step that ends on it.
   void on_event(std::function<void(const Event&)> callback) { on_event_.push_back(std::move(callback)); }
-  /// Ends what is under way behind the step in hand.
+  /// Ends the present computation after the current step.
   void stop() { stopping_ = true; }
-  bool stopping() const { return stopping_; }  ///< until something is asked for anew
+  bool stopping() const { return stopping_; }  ///< until the next computation is started
   /// @param notes  must outlive its use; nullptr: silence
   void set_notes(Notes* notes) { notes_ = notes; }
 
   // -- saving
-  /// All that the session goes on from. What sinks have recorded is theirs.
+  /// Everything that the session needs to continue. What sinks have recorded is not part of it.
   std::vector<double> save();
   /// Goes back to what was saved, of this session or of another one of the same model. Where that was in motion, a
-  /// motion has to be under way here, with the same options to go on alike.
+  /// motion has to be under way here, with the same options to continue identically.
   /// @throws InputError when the numbers are of another model, or no motion is under way; the state stays as it is
   void restore(const std::vector<double>& saved);
 
@@ -113,20 +117,25 @@ class Session {
   /// @param goes_on  a sink that has the analysis open already
   void begin_analysis(const std::string& type, std::size_t expected_rows = 0, const ResultSink* goes_on = nullptr);
   void write(const ResultArray& array);  ///< a result that is no row
-  void end_analysis();
+  void end_analysis();                   ///< writes what components have gathered
+  /// What components have gathered over the steps of this analysis, in lines for the user.
+  std::string gathered() { return gatherers_.summary(); }
   long rows() const { return rows_; }  ///< recorded in this analysis
 
  private:
   friend class Motion;
   struct Stopped {};
-  explicit Session(std::unique_ptr<const Model> owned, const Model* model);
+  Session(std::unique_ptr<const Model> owned, const Model* model, int threads);
   void at_rest();  ///< ends the motion, if any
   void record(const State& state, const Environment& environment, const StepRecord& step);
+  /// A step was accepted, or something starts here: for what is gathered over all steps.
+  void gather(const State& state, const Environment& environment);
   /// The state with the reactions to report.
   const State& reported(const State& state, const Environment& environment) const;
   void call_back();
   void note(const Event& event);
   void note(const std::string& sentence) const;
+  const ResultsRows& readable() const;
   void statics_point(const State& state, double factor, int iterations);
   struct Saved;
   void exchange(Archive& archive, Saved& saved) const;
@@ -141,12 +150,15 @@ class Session {
   Motion* motion_ = nullptr;
   std::optional<StepRecord> report_;
   std::vector<std::string> redundant_;
+  Mobility mobility_;
   mutable std::unique_ptr<ResultsRows> readable_;  ///< made with the first reading
+  mutable std::vector<ResultsColumn> datasets_;    ///< likewise
   mutable std::unique_ptr<ReactionNorm> norm_;     ///< made where constraints are redundant
   mutable State reported_;
 
   Recording recording_;
   std::vector<ResultSink*> sinks_;
+  Gatherers gatherers_;
   bool open_ = false;  ///< an analysis
   long rows_ = 0;
   std::vector<std::function<void(Session&)>> on_step_;

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "mechanism/solvers/arc_length.hpp"
+#include "mechanism/solvers/statics/arc_length.hpp"
 
 namespace bielle::mechanism {
 

@@ -1,9 +1,9 @@
-// What a step has to report besides the state.
+// What a step reports in addition to the state.
 #pragma once
 
 #include <optional>
 
-#include "mechanism/system/component.hpp"
+#include "mechanism/model/component.hpp"
 
 namespace bielle::mechanism {
 

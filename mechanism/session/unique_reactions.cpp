@@ -2,27 +2,22 @@
 
 #include <algorithm>
 
-#include "mechanism/solvers/reaction_norm.hpp"
+#include "mechanism/solvers/constraints/reaction_norm.hpp"
 
 namespace bielle::mechanism {
-namespace {
-
-const std::string section = "joints/";
-
-}  // namespace
 
 std::vector<std::pair<std::string, bool>> unique_reactions(const System& system, const Environment& environment,
                                                            const State& state) {
   std::vector<std::pair<std::string, bool>> joints;
   if (!ReactionNorm::needed(system, state)) return joints;
   const std::vector<int> free = ReactionNorm(system).not_unique(environment, state);
-  const std::vector<Member>& members = system.model().members();
-  for (std::size_t m = 0; m < members.size(); ++m) {
-    // What drives and locks a joint is recorded in its group.
-    if (members[m].group != section + members[m].component->name() || system.slots()[m].multipliers == 0) continue;
-    const int begin = system.slots()[m].multiplier_begin, end = begin + system.slots()[m].multipliers;
-    const auto first = std::lower_bound(free.begin(), free.end(), begin);
-    joints.emplace_back(members[m].component->name(), first == free.end() || *first >= end);
+  const Model& model = system.model();
+  for (const std::string& name : model.names_in(Section::joints)) {
+    // The joint comes first. What locks it has a multiplier of its own, which is no part of the joint's reaction.
+    const Slots& slots = system.slots()[model.members_of({Section::joints, name}).front()];
+    if (slots.multipliers == 0) continue;
+    const auto first = std::lower_bound(free.begin(), free.end(), slots.multiplier_begin);
+    joints.emplace_back(name, first == free.end() || *first >= slots.multiplier_begin + slots.multipliers);
   }
   return joints;
 }
@@ -34,18 +29,17 @@ std::vector<std::string> joints_not_unique(const System& system, const Environme
   return names;
 }
 
-std::vector<ResultArray> unique_reaction_arrays(const System& system, const Environment& environment,
-                                                const State& state) {
-  std::vector<ResultArray> arrays;
+EntryNumbers unique_reaction_numbers(const System& system, const Environment& environment, const State& state) {
+  EntryNumbers numbers{
+      "reaction_unique",
+      {},
+      "-",
+      "1 where the motion determines the reaction; 0 where redundant constraints leave it open, and the smallest is "
+      "recorded"};
   for (const auto& [name, unique] : unique_reactions(system, environment, state))
-    if (system.model().records(section + name))
-      arrays.push_back({section + name + "/reaction_unique",
-                        {},
-                        {unique ? 1.0 : 0.0},
-                        "-",
-                        "1 where the motion determines the reaction; 0 where redundant constraints leave it open, and the "
-                        "smallest is recorded"});
-  return arrays;
+    if (const Entry joint{Section::joints, name}; system.model().records(joint))
+      numbers.values.emplace_back(joint, unique ? 1 : 0);
+  return numbers;
 }
 
 }  // namespace bielle::mechanism

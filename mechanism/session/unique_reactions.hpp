@@ -16,8 +16,7 @@ std::vector<std::pair<std::string, bool>> unique_reactions(const System& system,
                                                            const State& state);
 /// Names of those whose reactions are not unique.
 std::vector<std::string> joints_not_unique(const System& system, const Environment& environment, const State& state);
-/// "joints/<name>/reaction_unique", 1 or 0, of each joint that records its results.
-std::vector<ResultArray> unique_reaction_arrays(const System& system, const Environment& environment,
-                                                const State& state);
+/// `reaction_unique`, 1 or 0, of each joint that records its results.
+EntryNumbers unique_reaction_numbers(const System& system, const Environment& environment, const State& state);
 
 }  // namespace bielle::mechanism

@@ -28,7 +28,9 @@ Sparse part_of(const System& system, const std::vector<double>& values, int row_
 SystemMatrices linearise(const System& system, const Environment& environment, const State& state) {
   const int m = system.multipliers(), n = system.size() - m;
   std::vector<double> values;
-  const auto take = [&](const TangentWeights& weights) { system.tangent(state, environment, weights, nullptr, values); };
+  const auto take = [&](const TangentWeights& weights) {
+    system.tangent(state, environment, weights, nullptr, values);
+  };
   const auto any = [](int) { return true; };
   const auto nonholonomic = [&](int row) { return system.constraint_kind(row) == ConstraintKind::nonholonomic; };
   const auto upper = [&] { return part_of(system, values, 0, n, 0, n, any); };

@@ -7,15 +7,26 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Follows carriers up to the node that is carried by none. @throws InputError when they run in a circle
-int root_carrier(const Model& model, int node) {
-  const int start = node;
-  for (std::size_t steps = 0; model.node(node).carrier; ++steps) {
-    node = *model.node(node).carrier;
-    if (node == start || steps > model.nodes().size())
-      throw InputError(fmt::format("node '{}' is carried by itself, through other nodes", model.node(start).name));
+/// Of each node, the one at the end of its line of carriers, which is carried by none.
+/// @throws InputError when carriers run in a circle
+std::vector<int> root_carriers(const Model& model) {
+  constexpr int unknown = -1, under_way = -2;
+  std::vector<int> root(model.nodes().size(), unknown), line;
+  for (int start = 0; start < static_cast<int>(root.size()); ++start) {
+    line.clear();
+    int node = start;
+    for (; root[static_cast<std::size_t>(node)] == unknown && model.node(node).carrier;
+         node = *model.node(node).carrier) {
+      root[static_cast<std::size_t>(node)] = under_way;
+      line.push_back(node);
+    }
+    int& end = root[static_cast<std::size_t>(node)];
+    if (end == under_way)
+      throw InputError(fmt::format("node '{}' is carried by itself, through other nodes", model.node(node).name));
+    if (end == unknown) end = node;
+    for (const int each : line) root[static_cast<std::size_t>(each)] = end;
   }
-  return node;
+  return root;
 }
 
 int count_rotations(const Node& node, Freedom kind) {
@@ -56,6 +67,13 @@ NodeKinematics::NodeKinematics(const Model& model) {
   freedom_.resize(count);
   carry_of_node_.assign(count, -1);
   start_.resize(count);
+  // A node that is held and carried is reported before carriers that run in a circle.
+  for (const Node& node : model.nodes())
+    if (node.carrier &&
+        std::any_of(node.freedom.begin(), node.freedom.end(), [](Freedom f) { return f != Freedom::free; }))
+      throw InputError(fmt::format("node '{}' is carried rigidly by '{}' and cannot be fixed or prescribed as well",
+                                   node.name, model.node(*node.carrier).name));
+  const std::vector<int> root = root_carriers(model);
   for (int i = 0; i < static_cast<int>(count); ++i) {
     const Node& node = model.node(i);
     NodeState& start = start_[static_cast<std::size_t>(i)];
@@ -63,24 +81,33 @@ NodeKinematics::NodeKinematics(const Model& model) {
     start.R = node.frame.R;
     start.v = node.velocity;
     start.Omega = node.angular_velocity;
-    const bool held =
-        std::any_of(node.freedom.begin(), node.freedom.end(), [](Freedom f) { return f != Freedom::free; });
-    if (node.carrier) {
-      if (held)
-        throw InputError(fmt::format("node '{}' is carried rigidly by '{}' and cannot be fixed or prescribed as well",
-                                     node.name, model.node(*node.carrier).name));
-      const int root = root_carrier(model, i);
-      const Frame relative = inverse(model.node(root).frame) * node.frame;
-      carry_of_node_[static_cast<std::size_t>(i)] = static_cast<int>(carries_.size());
-      carries_.push_back({i, root, relative.x, relative.R});
-      continue;
-    }
-    freedom_[static_cast<std::size_t>(i)] = freedom_of(node, unknowns_);
-    unknowns_ += freedom_[static_cast<std::size_t>(i)].count;
-    if (std::find(node.freedom.begin(), node.freedom.end(), Freedom::prescribed) != node.freedom.end())
-      prescribed_.push_back({i, node.frame, node.freedom, node.motion, count_rotations(node, Freedom::prescribed) > 0});
+    if (node.carrier)
+      add_carried(model, i, root[static_cast<std::size_t>(i)]);
+    else
+      add_own(model, i);
   }
-  for (std::size_t i = 0; i < count; ++i) {
+  set_force_rows();
+}
+
+void NodeKinematics::add_carried(const Model& model, int node, int root) {
+  const Frame relative = inverse(model.node(root).frame) * model.node(node).frame;
+  carry_of_node_[static_cast<std::size_t>(node)] = static_cast<int>(carries_.size());
+  carries_.push_back({node, root, relative.x, relative.R});
+}
+
+void NodeKinematics::add_own(const Model& model, int index) {
+  const Node& node = model.node(index);
+  const NodeFreedom f = freedom_of(node, unknowns_);
+  unknowns_ += f.count;
+  node_of_unknown_.insert(node_of_unknown_.end(), static_cast<std::size_t>(f.count), index);
+  freedom_[static_cast<std::size_t>(index)] = f;
+  if (std::find(node.freedom.begin(), node.freedom.end(), Freedom::prescribed) != node.freedom.end())
+    prescribed_.push_back(
+        {index, node.frame, node.freedom, node.motion, count_rotations(node, Freedom::prescribed) > 0});
+}
+
+void NodeKinematics::set_force_rows() {
+  for (std::size_t i = 0; i < freedom_.size(); ++i) {
     if (freedom_[i].all_free) {
       all_free_.push_back({i, freedom_[i].begin});
       force_row_.push_back(freedom_[i].begin);

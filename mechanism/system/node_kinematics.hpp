@@ -13,7 +13,7 @@
 
 #include <vector>
 
-#include "mechanism/system/model.hpp"
+#include "mechanism/model/model.hpp"
 
 namespace bielle::mechanism {
 
@@ -35,11 +35,13 @@ struct Carry {
 
 class NodeKinematics {
  public:
-  /// @throws InputError for holds that have no meaning (one free rotation beside a prescribed one, carried in a circle)
+  /// @throws InputError for holds that have no meaning (one free rotation and a prescribed one, carried in a circle)
   explicit NodeKinematics(const Model& model);
 
   int unknowns() const { return unknowns_; }
   const NodeFreedom& freedom(int node) const { return freedom_[static_cast<std::size_t>(node)]; }
+  /// The node that an independent unknown moves.
+  int node_of(int unknown) const { return node_of_unknown_[static_cast<std::size_t>(unknown)]; }
   /// A node that is free in all directions, and its first unknown: most nodes are, and the loops over them are short.
   struct FreeNode {
     std::size_t node;
@@ -63,7 +65,7 @@ class NodeKinematics {
   void get_rates(const std::vector<NodeState>& nodes, Eigen::Ref<VectorX> v, Eigen::Ref<VectorX> a) const;
 
   /// Forces on all nodes in one vector: those on nodes that are free in all directions stand where their unknowns do,
-  /// those on others behind all unknowns. First of the six rows [force (inertial); moment (node axes)] of a node.
+  /// those on others after all unknowns. First of the six rows [force (inertial); moment (node axes)] of a node.
   int force_row(int node) const { return force_row_[static_cast<std::size_t>(node)]; }
   int force_rows() const { return unknowns_ + 6 * static_cast<int>(held_.size()); }
   /// Hands the forces on carried nodes to their carriers. @param forces (force_rows)
@@ -75,6 +77,9 @@ class NodeKinematics {
   double support_power(const std::vector<NodeState>& nodes, const Eigen::Ref<const VectorX>& forces) const;
 
  private:
+  void add_carried(const Model& model, int node, int root);
+  void add_own(const Model& model, int node);
+  void set_force_rows();
   void prescribe_positions(std::vector<NodeState>& nodes, double time, double motion_factor) const;
   void follow_carriers(std::vector<NodeState>& nodes) const;
 
@@ -88,6 +93,7 @@ class NodeKinematics {
   };
   int unknowns_ = 0;
   std::vector<NodeFreedom> freedom_;
+  std::vector<int> node_of_unknown_;
   std::vector<FreeNode> all_free_;
   std::vector<std::size_t> held_;  ///< the others
   std::vector<int> force_row_;     ///< of each node

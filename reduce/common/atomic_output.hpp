@@ -5,8 +5,10 @@
 
 namespace bielle {
 
-/// A file that takes its name only when it is complete: written beside as `<path>.partial`, renamed by `commit()`,
-/// removed when destroyed without it. An earlier file of that name is replaced by a complete one only.
+/// A file that takes its name only when it is complete: written as `<path>.partial` in the same folder, renamed by
+/// `commit()`, removed when destroyed without it. An earlier file of that name is replaced by a complete one only. Where
+/// another run writes the same file at the same time, this one writes `<path>.2.partial`: both become whole, the later
+/// one stays.
 class AtomicOutput {
  public:
   explicit AtomicOutput(std::string path);
@@ -18,6 +20,7 @@ class AtomicOutput {
 
  private:
   std::string path_, temporary_path_;
+  int lock_ = -1;  ///< file descriptor that holds the temporary file
   bool committed_ = false;
 };
 

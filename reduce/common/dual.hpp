@@ -1,4 +1,4 @@
-// Arithmetic with a value and its first derivatives along several arguments at once:
+// Arithmetic with a value and its first derivatives along several arguments together:
 //
 //     d f(a, b) = f_a da + f_b db
 //
@@ -27,7 +27,7 @@ struct Dual {
   ~Dual() = default;
 
   double value;
-  std::size_t count = 0;               ///< 0 of a constant, none of whose derivatives, of any order, differs from 0
+  std::size_t count = 0;               ///< 0 for a constant: all of its derivatives are zero
   std::array<double, capacity> slope;  ///< not initialised
 };
 

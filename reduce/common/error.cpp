@@ -2,10 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <csignal>
-#include <cstdio>
-#include <exception>
-#include <new>
 
 #include <fmt/format.h>
 
@@ -62,30 +58,6 @@ std::string did_you_mean(const std::string& name, std::span<const std::string> c
     list += fmt::format("{}'{}'", i == 0 ? "" : ", ", candidates[i]);
   if (candidates.size() > most_shown) list += fmt::format(" and {} more", candidates.size() - most_shown);
   return (candidates.size() == 1 ? "; expected " : "; expected one of ") + list;
-}
-
-int run_program(const std::string& program, int (*body)(int argc, char** argv), int argc, char** argv) {
-  const auto report = [&](const std::string& message, int status) {
-    std::fputs(fmt::format("{}: error: {}\n", program, message).c_str(), stderr);
-    return status;
-  };
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows beyond the user's limit is an error like a full disk
-  try {
-    const int status = body(argc, argv);
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-      throw ComputationError("standard output cannot be written; is the disk full?");
-    return status;
-  } catch (const InputError& error) {
-    return report(error.what(), 1);
-  } catch (const ComputationError& error) {
-    return report(error.what(), 2);
-  } catch (const std::bad_alloc&) {
-    return report("out of memory", 2);
-  } catch (const std::exception& error) {
-    return report(std::string("unforeseen failure: ") + error.what(), 2);
-  } catch (...) {
-    return report("unforeseen failure of unknown kind", 2);
-  }
 }
 
 }  // namespace bielle

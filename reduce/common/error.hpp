@@ -29,8 +29,4 @@ std::string nearest_name(const std::string& name, std::span<const std::string> c
 /// "; did you mean 'damping'?" or, when nothing is near, "; expected one of 'a', 'b', 'c'" (at most 12 shown).
 std::string did_you_mean(const std::string& name, std::span<const std::string> candidates);
 
-/// Runs a program's body and turns its outcome into the contract's exit status: 0, 1 (InputError), 2 (ComputationError
-/// and everything unforeseen, output that cannot be written included). Prints one line `<program>: error: <message>` on standard error.
-int run_program(const std::string& program, int (*body)(int argc, char** argv), int argc, char** argv);
-
 }  // namespace bielle

@@ -8,6 +8,7 @@
 #include "reduce/common/error.hpp"
 #include "reduce/common/formula_parser.hpp"
 #include "reduce/common/formula_references.hpp"
+#include "reduce/common/shortened.hpp"
 
 namespace bielle {
 
@@ -22,7 +23,7 @@ struct Expression::Implementation {
     for (std::size_t i = 0; i < variables.size() && i < values.size(); ++i)
       arguments += fmt::format("{}{} = {}", i == 0 ? "" : ", ", variables[i], values[i]);
     throw ComputationError(
-        fmt::format("formula '{}'{}{}: {}", text, arguments.empty() ? "" : " at ", arguments, message));
+        fmt::format("formula '{}'{}{}: {}", shortened(text), arguments.empty() ? "" : " at ", arguments, message));
   }
   [[noreturn]] void fail_without_derivative(int order, std::span<const double> values) const {
     fail(fmt::format("there is no finite {} derivative", order == 1 ? "first" : "second"), values);
@@ -67,9 +68,9 @@ Expression::Expression(const FormulaText& text, const std::vector<std::string>& 
     implementation_ = std::make_shared<const Implementation>(
         Implementation{parse_formula(text.replaced, names, shown, constants, folder), text.written, shown});
   } catch (const InputError& error) {
-    throw InputError(fmt::format("in '{}': {}", text.written, error.what()));
+    throw InputError(fmt::format("in '{}': {}", shortened(text.written), error.what()));
   } catch (const ComputationError& error) {  // a table asked outside its range by constants
-    throw InputError(fmt::format("in '{}': {}", text.written, error.what()));
+    throw InputError(fmt::format("in '{}': {}", shortened(text.written), error.what()));
   }
 }
 

@@ -35,7 +35,7 @@ class Expression {
   Expression(const std::string& text, const std::vector<std::string>& variables, const Parameters& constants = {},
              const std::string& folder = ".");
 
-  /// A formula with references to other things, which are further arguments behind the variables, in the order of
+  /// A formula with references to other things, which are further arguments after the variables, in the order of
   /// `text.references`. Messages call them as the user does.
   Expression(const FormulaText& text, const std::vector<std::string>& variables, const Parameters& constants = {},
              const std::string& folder = ".");

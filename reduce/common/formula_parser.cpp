@@ -88,16 +88,8 @@ void define_operator(mu::Parser& parser, const char* symbol, mu::EOprtPrecedence
                     false);
 }
 
-void define_language(mu::Parser& parser) {
+void define_operators(mu::Parser& parser) {
   using enum Operation;
-  parser.EnableBuiltInOprt(false);
-  parser.ClearFun();
-  parser.ClearConst();
-  parser.ClearInfixOprt();
-  parser.ClearPostfixOprt();
-  parser.ClearOprt();
-  parser.AddValIdent(read_number);
-
   define_operator<logical_or>(parser, "||", mu::prLOR);
   define_operator<logical_and>(parser, "&&", mu::prLAND);
   define_operator<less>(parser, "<", mu::prCMP);
@@ -114,7 +106,10 @@ void define_language(mu::Parser& parser) {
   parser.DefineInfixOprt("-", unary<negate>, mu::prINFIX, false);
   parser.DefineInfixOprt("+", same, mu::prINFIX, false);
   parser.DefineInfixOprt("!", unary<logical_not>, mu::prINFIX, false);
+}
 
+void define_functions_of_one_number(mu::Parser& parser) {
+  using enum Operation;
   define_unary<Operation::sin>(parser, "sin");
   define_unary<Operation::cos>(parser, "cos");
   define_unary<Operation::tan>(parser, "tan");
@@ -137,6 +132,10 @@ void define_language(mu::Parser& parser) {
   define_unary<Operation::floor>(parser, "floor");
   define_unary<Operation::ceil>(parser, "ceil");
   define_unary<Operation::round>(parser, "round");
+}
+
+void define_functions_of_several_numbers(mu::Parser& parser) {
+  using enum Operation;
   parser.DefineFun("atan2", binary<Operation::atan2>, false);
   parser.DefineFun("pow", binary<power>, false);
   parser.DefineFun("mod", binary<modulo>, false);
@@ -150,6 +149,19 @@ void define_language(mu::Parser& parser) {
   parser.DefineFun("pulse", ternary<pulse>, false);
   parser.DefineFun("table", interpolation<Interpolation::Kind::linear>, false);
   parser.DefineFun("spline", interpolation<Interpolation::Kind::cubic>, false);
+}
+
+void define_language(mu::Parser& parser) {
+  parser.EnableBuiltInOprt(false);
+  parser.ClearFun();
+  parser.ClearConst();
+  parser.ClearInfixOprt();
+  parser.ClearPostfixOprt();
+  parser.ClearOprt();
+  parser.AddValIdent(read_number);
+  define_operators(parser);
+  define_functions_of_one_number(parser);
+  define_functions_of_several_numbers(parser);
 }
 
 const std::vector<std::string>& function_names() {
@@ -203,10 +215,6 @@ std::string as_shown(const std::string& text, const std::vector<std::string>& va
   return result;
 }
 
-bool contains(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 /// The nearest known name, or what may stand there: variables and parameters by name, functions by their number.
 std::string known_names(const std::string& name, const std::vector<std::string>& names) {
   if (!nearest_name(name, names).empty()) return did_you_mean(name, names);
@@ -230,7 +238,7 @@ std::string explanation(const mu::ParserError& error, std::string token, const s
       const std::string name = token.substr(0, length);
       if (name == "log") return "'log' may mean two things" + place() + "; write ln or log10";
       if (contains(function_names(), name))
-        return fmt::format("the function '{}'{} needs '(' right behind it", name, place());
+        return fmt::format("the function '{}'{} must be followed by '('", name, place());
       if (length > 0 && !std::isdigit(static_cast<unsigned char>(name[0])))
         return fmt::format("unknown name '{}'{}{}", name, place(), known_names(name, names));
       if (token.starts_with("=")) return fmt::format("'='{} is no operator; to compare, write ==", place());

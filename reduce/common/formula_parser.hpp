@@ -1,6 +1,7 @@
 // From text to tree: muParser reads the grammar and calls back for every operator, function and number.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <vector>
@@ -18,5 +19,10 @@ FormulaTree parse_formula(const std::string& text, const std::vector<std::string
 
 /// Functions and `pi`.
 const std::vector<std::string>& built_in_names();
+
+/// Whether a name is among others.
+inline bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
 
 }  // namespace bielle

@@ -21,10 +21,6 @@ bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z')
 bool is_quote(char c) { return c == '\'' || c == '"'; }
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
-bool contains(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 /// A place where a reference is written.
 struct Occurrence {
   std::size_t begin, end, reference;
@@ -105,7 +101,7 @@ class Scanner {
     skip_blanks();
     const bool parenthesis = here() == '(';
     if (parenthesis && at_ > end)
-      throw InputError(fmt::format("the function '{}' at character {} needs '(' right behind it", function, begin + 1));
+      throw InputError(fmt::format("the function '{}' at character {} must be followed by '('", function, begin + 1));
     at_ = end;
     return parenthesis;
   }
@@ -126,7 +122,7 @@ class Scanner {
       const bool blanks_behind = is_blank(here());
       skip_blanks();
       if (!is_letter(here()))
-        throw InputError(fmt::format("a name is missing behind '{}' at character {}", since(begin), begin + 1));
+        throw InputError(fmt::format("a name is missing after '{}' at character {}", since(begin), begin + 1));
       words.push_back(name());
       if (blanks_before || blanks_behind)
         throw InputError(

@@ -1,7 +1,7 @@
 // References in formulas to what a model holds: `main.angle.rate`, `'left arm'.position.x`, `distance(a, 'node 2')`.
 //
 // muParser knows plain names only. Here each reference is replaced by one, and the formula becomes one of more
-// variables; which things and quantities there are is up to the caller.
+// variables; the caller decides which things and quantities exist.
 #pragma once
 
 #include <cstddef>
@@ -29,7 +29,7 @@ struct FormulaText {
 
 /// Finds `name.word.word` and `function(name, name)`, both with or without further `.word`s. A name of other characters
 /// than letters, digits and `_` is quoted ('..' or ".."). Blanks may stand in quotes and parentheses, not at dots.
-/// Numbers, and quoted file names without a dot behind them, are left alone.
+/// Numbers, and quoted file names without a dot after them, are left alone.
 ///
 /// `'main'.angle` and `main.angle` are the same reference. Identifiers are as long as the reference is where it is
 /// written shortest, and padded with blanks elsewhere, so that the parser tells positions of the written formula. They

@@ -13,97 +13,105 @@ using namespace jets;
 
 namespace {
 
+double elementary_value(Operation operation, double v) {
+  switch (operation) {
+    case Operation::sin:
+      return std::sin(v);
+    case Operation::cos:
+      return std::cos(v);
+    case Operation::tan:
+      return std::tan(v);
+    case Operation::asin:
+      return std::asin(v);
+    case Operation::acos:
+      return std::acos(v);
+    case Operation::atan:
+      return std::atan(v);
+    case Operation::sinh:
+      return std::sinh(v);
+    case Operation::cosh:
+      return std::cosh(v);
+    case Operation::tanh:
+      return std::tanh(v);
+    case Operation::asinh:
+      return std::asinh(v);
+    case Operation::acosh:
+      return std::acosh(v);
+    case Operation::atanh:
+      return std::atanh(v);
+    case Operation::exp:
+      return std::exp(v);
+    case Operation::ln:
+      return std::log(v);
+    case Operation::log2:
+      return std::log2(v);
+    case Operation::log10:
+      return std::log10(v);
+    default:
+      return std::sqrt(v);
+  }
+}
+
+/// The same with derivatives. @param f  its value
+template <class Number>
+Number elementary_chain(Operation operation, const Number& x, double f) {
+  const double v = value_of(x);
+  const auto logarithm = [&](double scale) { return chain(x, f, scale / v, -scale / (v * v)); };
+  switch (operation) {
+    case Operation::sin:
+      return chain(x, f, std::cos(v), -f);
+    case Operation::cos:
+      return chain(x, f, -std::sin(v), -f);
+    case Operation::tan:
+      return chain(x, f, 1 + f * f, 2 * f * (1 + f * f));
+    case Operation::asin: {
+      const double c = 1 - v * v;
+      return chain(x, f, 1 / std::sqrt(c), v / (c * std::sqrt(c)));
+    }
+    case Operation::acos: {
+      const double c = 1 - v * v;
+      return chain(x, f, -1 / std::sqrt(c), -v / (c * std::sqrt(c)));
+    }
+    case Operation::atan:
+      return chain(x, f, 1 / (1 + v * v), -2 * v / ((1 + v * v) * (1 + v * v)));
+    case Operation::sinh:
+      return chain(x, f, std::cosh(v), f);
+    case Operation::cosh:
+      return chain(x, f, std::sinh(v), f);
+    case Operation::tanh:
+      return chain(x, f, 1 - f * f, -2 * f * (1 - f * f));
+    case Operation::asinh: {
+      const double c = 1 + v * v;
+      return chain(x, f, 1 / std::sqrt(c), -v / (c * std::sqrt(c)));
+    }
+    case Operation::acosh: {
+      const double c = v * v - 1;
+      return chain(x, f, 1 / std::sqrt(c), -v / (c * std::sqrt(c)));
+    }
+    case Operation::atanh: {
+      const double c = 1 - v * v;
+      return chain(x, f, 1 / c, 2 * v / (c * c));
+    }
+    case Operation::exp:
+      return chain(x, f, f, f);
+    case Operation::ln:
+      return logarithm(1);
+    case Operation::log2:
+      return logarithm(1 / std::numbers::ln2);
+    case Operation::log10:
+      return logarithm(1 / std::numbers::ln10);
+    default:
+      return chain(x, f, 0.5 / f, -0.25 / (f * v));
+  }
+}
+
 template <class Number>
 Number elementary(Operation operation, const Number& x) {
-  const double v = value_of(x), f = [&] {
-    switch (operation) {
-      case Operation::sin:
-        return std::sin(v);
-      case Operation::cos:
-        return std::cos(v);
-      case Operation::tan:
-        return std::tan(v);
-      case Operation::asin:
-        return std::asin(v);
-      case Operation::acos:
-        return std::acos(v);
-      case Operation::atan:
-        return std::atan(v);
-      case Operation::sinh:
-        return std::sinh(v);
-      case Operation::cosh:
-        return std::cosh(v);
-      case Operation::tanh:
-        return std::tanh(v);
-      case Operation::asinh:
-        return std::asinh(v);
-      case Operation::acosh:
-        return std::acosh(v);
-      case Operation::atanh:
-        return std::atanh(v);
-      case Operation::exp:
-        return std::exp(v);
-      case Operation::ln:
-        return std::log(v);
-      case Operation::log2:
-        return std::log2(v);
-      case Operation::log10:
-        return std::log10(v);
-      default:
-        return std::sqrt(v);
-    }
-  }();
-  if constexpr (std::is_same_v<Number, double>) {
+  const double f = elementary_value(operation, value_of(x));
+  if constexpr (std::is_same_v<Number, double>)
     return f;
-  } else {
-    const auto logarithm = [&](double scale) { return chain(x, f, scale / v, -scale / (v * v)); };
-    switch (operation) {
-      case Operation::sin:
-        return chain(x, f, std::cos(v), -f);
-      case Operation::cos:
-        return chain(x, f, -std::sin(v), -f);
-      case Operation::tan:
-        return chain(x, f, 1 + f * f, 2 * f * (1 + f * f));
-      case Operation::asin: {
-        const double c = 1 - v * v;
-        return chain(x, f, 1 / std::sqrt(c), v / (c * std::sqrt(c)));
-      }
-      case Operation::acos: {
-        const double c = 1 - v * v;
-        return chain(x, f, -1 / std::sqrt(c), -v / (c * std::sqrt(c)));
-      }
-      case Operation::atan:
-        return chain(x, f, 1 / (1 + v * v), -2 * v / ((1 + v * v) * (1 + v * v)));
-      case Operation::sinh:
-        return chain(x, f, std::cosh(v), f);
-      case Operation::cosh:
-        return chain(x, f, std::sinh(v), f);
-      case Operation::tanh:
-        return chain(x, f, 1 - f * f, -2 * f * (1 - f * f));
-      case Operation::asinh: {
-        const double c = 1 + v * v;
-        return chain(x, f, 1 / std::sqrt(c), -v / (c * std::sqrt(c)));
-      }
-      case Operation::acosh: {
-        const double c = v * v - 1;
-        return chain(x, f, 1 / std::sqrt(c), -v / (c * std::sqrt(c)));
-      }
-      case Operation::atanh: {
-        const double c = 1 - v * v;
-        return chain(x, f, 1 / c, 2 * v / (c * c));
-      }
-      case Operation::exp:
-        return chain(x, f, f, f);
-      case Operation::ln:
-        return logarithm(1);
-      case Operation::log2:
-        return logarithm(1 / std::numbers::ln2);
-      case Operation::log10:
-        return logarithm(1 / std::numbers::ln10);
-      default:
-        return chain(x, f, 0.5 / f, -0.25 / (f * v));
-    }
-  }
+  else
+    return elementary_chain(operation, x, f);
 }
 
 }  // namespace
@@ -207,7 +215,6 @@ struct FormulaTree::Evaluation {
   Number unchecked(const Term& term) const {
     const auto operand = [&](int k) { return of(term.operand[static_cast<std::size_t>(k)]); };
     const auto truth_of = [&](int k) { return is_true(term.operand[static_cast<std::size_t>(k)]); };
-    const auto difference = [&] { return side(operand(0), operand(1)); };
     switch (term.operation) {
       case Operation::constant:
         return constant(term.number);
@@ -231,6 +238,17 @@ struct FormulaTree::Evaluation {
         return constant(floor_of(plus(operand(0), constant(0.5))));
       case Operation::interpolate:
         return interpolated(*tree.functions_[static_cast<std::size_t>(term.index)], operand(0));
+      default:
+        return term.operand[1] < 0 ? elementary(term.operation, operand(0)) : of_several(term);
+    }
+  }
+
+  /// Operations with two or three operands.
+  Number of_several(const Term& term) const {
+    const auto operand = [&](int k) { return of(term.operand[static_cast<std::size_t>(k)]); };
+    const auto truth_of = [&](int k) { return is_true(term.operand[static_cast<std::size_t>(k)]); };
+    const auto difference = [&] { return side(operand(0), operand(1)); };
+    switch (term.operation) {
       case Operation::add:
         return plus(operand(0), operand(1));
       case Operation::subtract:
@@ -271,12 +289,8 @@ struct FormulaTree::Evaluation {
         return truth(truth_of(0) || truth_of(1));
       case Operation::select:
         return operand(truth_of(0) ? 1 : 2);
-      case Operation::step:
-      case Operation::ramp:
-      case Operation::pulse:
-        return transition(term.operation, operand(0), operand(1), operand(2));
       default:
-        return elementary(term.operation, operand(0));
+        return transition(term.operation, operand(0), operand(1), operand(2));
     }
   }
 
@@ -284,7 +298,7 @@ struct FormulaTree::Evaluation {
     if (value_of(x) == 0 && value_of(n) < 0) throw FormulaError("division by zero");
     if (!varies(n)) return power(x, value_of(n));
     if constexpr (is_dual) {
-      at_kink |= !(x.value > 0);  // whether there is a logarithm is up to the jets
+      at_kink |= !(x.value > 0);  // the jets decide whether there is a logarithm
       const double f = std::pow(x.value, n.value);
       return chain(f, x, n.value * std::pow(x.value, n.value - 1), n, f * std::log(x.value));
     }

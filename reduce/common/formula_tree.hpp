@@ -3,7 +3,7 @@
 // Derivatives are carried forward as jets (f, df/dx, d2f/dx2) along one argument x, so that they are as exact as the
 // value. Where the formula has a kink or a jump, the jet is the one on the right: a comparison or |a| at a = 0 takes
 // the sign that its argument assumes for x + 0. First derivatives along all arguments come from one evaluation with
-// dual numbers, save at a kink.
+// dual numbers, except at a kink.
 #pragma once
 
 #include <array>
@@ -101,7 +101,7 @@ class FormulaTree {
   /// this argument alone, and linearly.
   void add_break_points(int argument, std::vector<double>& points) const { add_break_points(root_, argument, points); }
 
-  // -- structure. Constant parts are constant terms, save within branches that may never be taken.
+  // -- structure. Constant parts are constant terms, except within branches that may never be taken.
   int root() const { return root_; }
   const Term& term(int index) const { return terms_[static_cast<std::size_t>(index)]; }
   bool depends_on_arguments(int index) const { return depends_on(index, any_argument); }

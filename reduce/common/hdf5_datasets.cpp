@@ -1,5 +1,6 @@
 // Whole datasets of Hdf5File.
 #include <algorithm>
+#include <charconv>
 
 #include "reduce/common/hdf5_handle.hpp"
 
@@ -29,6 +30,27 @@ Hdf5Id rows_of(hid_t dataset, Eigen::Index first, Eigen::Index rows) {
 }
 
 }  // namespace
+
+std::string link_name(const std::string& name) {
+  std::string result;
+  for (const char c : name) result += c == '/' ? "%2F" : c == '%' ? "%25" : c == '.' ? "%2E" : std::string(1, c);
+  return result;
+}
+
+std::string name_of_link(const std::string& link) {
+  std::string result;
+  for (std::size_t i = 0; i < link.size(); ++i) {
+    int code = 0;
+    if (link[i] == '%' && i + 2 < link.size() &&
+        std::from_chars(&link[i + 1], &link[i + 3], code, 16).ptr == &link[i + 3]) {
+      result += static_cast<char>(code);
+      i += 2;
+    } else {
+      result += link[i];
+    }
+  }
+  return result;
+}
 
 void Hdf5File::write(const std::string& dataset, std::span<const double> values, const Shape& shape,
                      const std::string& units, const std::string& description) {
@@ -86,8 +108,20 @@ bool Hdf5File::is_group(const std::string& object) const {
   return H5Iget_type(opened) == H5I_GROUP;
 }
 
+bool Hdf5File::is_text(const std::string& dataset) const {
+  const Hdf5Id opened = handle_->open_dataset(dataset), type(H5Dget_type(opened), H5Tclose);
+  return H5Tget_class(type) == H5T_STRING;
+}
+
+bool Hdf5File::grows(const std::string& dataset) const {
+  const Hdf5Id opened = handle_->open_dataset(dataset), space(H5Dget_space(opened), H5Sclose);
+  std::array<hsize_t, H5S_MAX_RANK> size{}, most{};
+  const int rank = H5Sget_simple_extent_dims(space, size.data(), most.data());
+  return rank > 0 && most[0] == H5S_UNLIMITED;
+}
+
 std::vector<std::string> Hdf5File::names_in(const std::string& group) const {
-  const Hdf5Id opened(H5Gopen2(handle_->file, group.c_str(), H5P_DEFAULT), H5Gclose);
+  const Hdf5Id opened(H5Gopen2(handle_->file, handle_->at(group).c_str(), H5P_DEFAULT), H5Gclose);
   if (!opened.valid()) handle_->fail(group, "is no group of this file");
   const Hdf5Id properties(H5Gget_create_plist(opened), H5Pclose);
   unsigned order = 0;
@@ -112,7 +146,7 @@ std::string Hdf5File::units(const std::string& dataset) const { return read_text
 std::vector<double> Hdf5File::read(const std::string& dataset) const {
   const Hdf5Id opened = handle_->open_dataset(dataset);
   handle_->check_class(opened, dataset, H5T_FLOAT);
-  std::vector<double> values(count_of(handle_->shape(opened, dataset)));
+  std::vector<double> values(handle_->stored_count(opened, dataset));
   if (!values.empty())
     handle_->checked(H5Dread(opened, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), dataset,
                      "cannot be read: the file is damaged");
@@ -122,7 +156,7 @@ std::vector<double> Hdf5File::read(const std::string& dataset) const {
 std::vector<std::int64_t> Hdf5File::read_integers(const std::string& dataset) const {
   const Hdf5Id opened = handle_->open_dataset(dataset);
   handle_->check_class(opened, dataset, H5T_INTEGER);
-  std::vector<std::int64_t> values(count_of(handle_->shape(opened, dataset)));
+  std::vector<std::int64_t> values(handle_->stored_count(opened, dataset));
   if (!values.empty())
     handle_->checked(H5Dread(opened, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), dataset,
                      "cannot be read: the file is damaged");
@@ -134,6 +168,7 @@ Eigen::MatrixXd Hdf5File::read_matrix(const std::string& dataset) const {
   handle_->check_class(opened, dataset, H5T_FLOAT);
   const Shape size = handle_->shape(opened, dataset);
   if (size.size() != 2) handle_->fail(dataset, "expected a matrix, found the shape " + to_string(size));
+  handle_->stored_count(opened, dataset);
   Eigen::MatrixXd matrix(static_cast<Eigen::Index>(size[0]), static_cast<Eigen::Index>(size[1]));
   for_row_blocks(matrix.rows(), matrix.cols(), [&](Eigen::Index first, Eigen::Index rows) {
     RowMajor block(rows, matrix.cols());

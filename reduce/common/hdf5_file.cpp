@@ -2,22 +2,14 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <string_view>
 
+#include "reduce/common/counted.hpp"
 #include "reduce/common/hdf5_handle.hpp"
+#include "reduce/common/hdf5_soundness.hpp"
 
 namespace bielle {
-
-namespace {
-
-/// Files whose format every HDF5 since 1.0 reads, and that stay readable when their writer is killed after a flush.
-Hdf5Id access_properties() {
-  Hdf5Id properties(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  H5Pset_libver_bounds(properties, H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST);
-  H5Pset_file_locking(properties, true, true);  // but go on where the file system knows no locks
-  return properties;
-}
-
-}  // namespace
 
 Hdf5File::Hdf5File(std::unique_ptr<Handle> handle) : handle_(std::move(handle)) {}
 Hdf5File::Hdf5File(Hdf5File&&) noexcept = default;
@@ -32,7 +24,7 @@ Hdf5File Hdf5File::create(const std::string& path) {
   const Hdf5Id creation = ordered_group_properties(H5P_FILE_CREATE), access = access_properties();
   handle->file = Hdf5Id(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose);
   if (!handle->file.valid())
-    handle->fail("", "cannot be created: is its folder there and writable, and no other program using the file?");
+    handle->fail("", "cannot be created: is its folder there and writable, the disk not full, and no other program using the file?");
   return Hdf5File(std::move(handle));
 }
 
@@ -43,15 +35,24 @@ Hdf5File Hdf5File::open(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) handle->fail("", "there is no such file");
   if (std::filesystem::is_directory(path, error)) handle->fail("", "is a folder, expected a file");
+  if (!std::filesystem::is_regular_file(path, error)) handle->fail("", "is a device or a pipe, expected a file");
   std::FILE* readable = std::fopen(path.c_str(), "rb");
   if (readable == nullptr) handle->fail("", "cannot be read; is reading permitted?");
   std::fclose(readable);
   if (H5Fis_hdf5(path.c_str()) == 0) handle->fail("", "is no HDF5 file");
+  check_sound(path);
   const Hdf5Id access = access_properties();
   handle->file = Hdf5Id(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose);
   if (!handle->file.valid())
     handle->fail("", "cannot be opened: truncated, damaged, or being written by another program");
   return Hdf5File(std::move(handle));
+}
+
+bool Hdf5File::begins_like_one(const std::string& path) {
+  constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
+  std::string head(signature.size(), '\0');
+  std::ifstream(path, std::ios::binary).read(head.data(), static_cast<std::streamsize>(head.size()));
+  return head == signature;
 }
 
 Hdf5File Hdf5File::open_to_extend(const std::string& path) {
@@ -67,9 +68,25 @@ Hdf5File Hdf5File::open_to_extend(const std::string& path) {
 
 const std::string& Hdf5File::path() const { return handle_->path; }
 
+void Hdf5File::enter(const std::string& group) { handle_->base = group == "/" ? "" : group; }
+
+std::string Hdf5File::place() const { return handle_->path + (handle_->base.empty() ? "" : ": " + handle_->base); }
+
 void Hdf5File::flush() {
   silence_hdf5();
   handle_->checked(H5Fflush(handle_->file, H5F_SCOPE_LOCAL), "", "writing failed; is the disk full?");
+}
+
+void Hdf5File::hold_back(bool held) {
+  H5AC_cache_config_t cache;
+  cache.version = H5AC__CURR_CACHE_CONFIG_VERSION;
+  handle_->checked(H5Fget_mdc_config(handle_->file, &cache), "", "the cache cannot be set");
+  // HDF5 evicts nothing only where the size of the cache does not follow its use.
+  cache.evictions_enabled = !held;
+  cache.incr_mode = held ? H5C_incr__off : H5C_incr__threshold;
+  cache.flash_incr_mode = held ? H5C_flash_incr__off : H5C_flash_incr__add_space;
+  cache.decr_mode = held ? H5C_decr__off : H5C_decr__age_out_with_threshold;
+  handle_->checked(H5Fset_mdc_config(handle_->file, &cache), "", "the cache cannot be set");
 }
 
 void Hdf5File::close() {
@@ -154,11 +171,12 @@ void Hdf5File::create_rows(const std::string& dataset, const Shape& row_shape, c
   H5Pset_chunk_cache(access, 0, 0, 1);
   H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);
   handle_->make_groups_above(dataset);
-  Hdf5Id made(H5Dcreate2(handle_->file, dataset.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, creation, access),
-              H5Dclose);
+  Hdf5Id made(
+      H5Dcreate2(handle_->file, handle_->at(dataset).c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, creation, access),
+      H5Dclose);
   if (!made.valid()) handle_->fail(dataset, "cannot be made; is there one of that name already?");
   handle_->describe(made, dataset, units, description);
-  handle_->growing.insert_or_assign(dataset, handle_->growing_from(std::move(made), dataset));
+  handle_->growing.insert_or_assign(handle_->at(dataset), handle_->growing_from(std::move(made), dataset));
 }
 
 GrowingDataset Hdf5File::Handle::growing_from(Hdf5Id dataset, const std::string& name) const {
@@ -174,8 +192,8 @@ GrowingDataset Hdf5File::Handle::growing_from(Hdf5Id dataset, const std::string&
 
 GrowingDataset& Hdf5File::Handle::growing_dataset(const std::string& dataset) {
   silence_hdf5();
-  auto found = growing.find(dataset);
-  if (found == growing.end()) found = growing.emplace(dataset, growing_from(open_dataset(dataset), dataset)).first;
+  auto found = growing.find(at(dataset));
+  if (found == growing.end()) found = growing.emplace(at(dataset), growing_from(open_dataset(dataset), dataset)).first;
   return found->second;
 }
 
@@ -189,7 +207,8 @@ void Hdf5File::truncate_rows(const std::string& dataset, std::size_t rows) {
 void Hdf5File::append_rows(const std::string& dataset, std::span<const double> values, std::size_t rows) {
   GrowingDataset& growing = handle_->growing_dataset(dataset);
   if (values.size() != rows * growing.row_size)
-    throw std::logic_error(fmt::format("{} values given for {} rows of '{}'", values.size(), rows, dataset));
+    throw std::logic_error(
+        fmt::format("{} given for {} of '{}'", counted(values.size(), "value"), counted(rows, "row"), dataset));
   if (rows == 0) return;
   std::array<hsize_t, H5S_MAX_RANK> start{}, block = growing.extent;
   start[0] = growing.extent[0];
@@ -206,16 +225,18 @@ void Hdf5File::append_rows(const std::string& dataset, std::span<const double> v
 
 void Hdf5File::link(const std::string& target, const std::string& name) {
   handle_->make_groups_above(name);
-  if (H5Lexists(handle_->file, name.c_str(), H5P_DEFAULT) > 0) remove(name);
-  handle_->checked(H5Lcreate_soft(target.c_str(), handle_->file, name.c_str(), H5P_DEFAULT, H5P_DEFAULT), name,
-                   "the link cannot be made");
+  const std::string place = handle_->at(name);
+  if (H5Lexists(handle_->file, place.c_str(), H5P_DEFAULT) > 0) remove(name);
+  handle_->checked(H5Lcreate_soft(handle_->at(target).c_str(), handle_->file, place.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+                   name, "the link cannot be made");
 }
 
 void Hdf5File::make_group(const std::string& group) { handle_->make_groups_above(group + "/"); }
 
 void Hdf5File::remove(const std::string& object) {
-  handle_->growing.erase(object);
-  handle_->checked(H5Ldelete(handle_->file, object.c_str(), H5P_DEFAULT), object, "cannot be removed");
+  const std::string place = handle_->at(object);
+  handle_->growing.erase(place);
+  handle_->checked(H5Ldelete(handle_->file, place.c_str(), H5P_DEFAULT), object, "cannot be removed");
 }
 
 }  // namespace bielle

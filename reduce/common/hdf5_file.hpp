@@ -16,6 +16,10 @@ namespace bielle {
 /// Shape of a dataset, slowest index first (C order, as HDF5 and numpy see it).
 using Shape = std::vector<std::size_t>;
 
+/// HDF5 separates with '/' and knows '.': names that users chose freely are written with %2F, %2E and %25.
+std::string link_name(const std::string& name);
+std::string name_of_link(const std::string& link);
+
 /// An open HDF5 file. Objects are addressed by absolute paths ("/reduced/stiffness"); groups are made on the way.
 ///
 /// A dataset cannot be written without its units ("-" for pure numbers). Long text is a dataset, since attributes over
@@ -25,13 +29,22 @@ class Hdf5File {
  public:
   static Hdf5File create(const std::string& path);  ///< replaces an existing file
   static Hdf5File open(const std::string& path);    ///< to read. @throws InputError: missing, truncated, no HDF5
+  /// Whether the first bytes are those of an HDF5 file, however little follows.
+  static bool begins_like_one(const std::string& path);
   static Hdf5File open_to_extend(const std::string& path);  ///< to read and write
   Hdf5File(Hdf5File&&) noexcept;
   Hdf5File& operator=(Hdf5File&&) noexcept;
   ~Hdf5File();
 
   const std::string& path() const;
+  /// From now on paths start at this group instead of the root ("/" leads back), so that what reads or writes a whole
+  /// file reads or writes a part of one as well.
+  void enter(const std::string& group);
+  std::string place() const;  ///< of messages: the file, and the group entered
   void flush();
+  /// Keeps in memory what describes groups and datasets, until the next flush: a writer that is killed while it makes
+  /// many of them leaves a file that knows nothing of these yet.
+  void hold_back(bool held);
   void close();  ///< @throws ComputationError when the disk is full etc.; the destructor closes silently
 
   // -- attributes of a group or dataset ("/" is the root)
@@ -59,6 +72,8 @@ class Hdf5File {
 
   bool has(const std::string& object) const;
   bool is_group(const std::string& object) const;
+  bool is_text(const std::string& dataset) const;                     ///< texts or names
+  bool grows(const std::string& dataset) const;                       ///< made by create_rows
   std::vector<std::string> names_in(const std::string& group) const;  ///< of its groups and datasets, in file order
   Shape shape(const std::string& dataset) const;
   std::string units(const std::string& dataset) const;
@@ -72,7 +87,7 @@ class Hdf5File {
 
   // -- datasets that grow row by row (results)
   /// A dataset of shape (0, row_shape...) to be extended along its first index. Rows go to the file as they are
-  /// appended; a flush then makes them count.
+  /// appended; a flush then makes them visible.
   /// @param rows_per_chunk  rows that are stored together: the file grows by so many. Growth changes several places of
   ///        the file; a writer that is killed between them, within some 0.1 ms, leaves a dataset whose newest chunk
   ///        cannot be read. Where rows must survive, let chunks be large: what is not filled takes no space on the
@@ -81,7 +96,7 @@ class Hdf5File {
                    const std::string& description = "", std::size_t rows_per_chunk = 256);
   /// Appends `rows` rows; `values` holds them one after the other.
   void append_rows(const std::string& dataset, std::span<const double> values, std::size_t rows = 1);
-  /// Takes away the rows behind the first `rows`, if there are so many.
+  /// Removes the rows after the first `rows`, if there are more.
   void truncate_rows(const std::string& dataset, std::size_t rows);
   /// `name` becomes another name of `target` within this file (a soft link), whatever it was a link to before.
   void link(const std::string& target, const std::string& name);

@@ -1,7 +1,8 @@
 #include "reduce/common/hdf5_handle.hpp"
 
-#include <functional>
-#include <numeric>
+#include <limits>
+
+#include "reduce/common/counted.hpp"
 
 namespace bielle {
 
@@ -19,7 +20,10 @@ Hdf5Id hdf5_space(const Shape& shape) {
 }
 
 std::size_t count_of(const Shape& shape) {
-  return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
+  std::size_t count = 1;
+  for (const std::size_t extent : shape)
+    if (__builtin_mul_overflow(count, extent, &count)) return std::numeric_limits<std::size_t>::max();
+  return count;
 }
 
 std::string to_string(const Shape& shape) { return fmt::format("({})", fmt::join(shape, ", ")); }
@@ -37,18 +41,28 @@ Hdf5Id dataset_properties() {
   return properties;
 }
 
+Hdf5Id access_properties() {
+  Hdf5Id properties(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_libver_bounds(properties, H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST);
+  H5Pset_file_locking(properties, true, true);  // but go on where the file system knows no locks
+  return properties;
+}
+
 void silence_hdf5() {
-  // HDF5 1.10 crashes at exit when a file could not be closed because the disk is full. Ours are closed by their owners.
+  // HDF5 1.10 crashes at exit when a file could not be closed because the disk is full. Ours are closed by their
+  // owners.
   static const herr_t no_clearing_at_exit = H5dont_atexit();
   static_cast<void>(no_clearing_at_exit);
   thread_local const herr_t silenced = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   static_cast<void>(silenced);
 }
 
-bool Hdf5File::Handle::has(const std::string& object) const {
-  if (object == "/") return true;
-  for (std::size_t end = object.find('/', 1);; end = object.find('/', end + 1)) {
-    const std::string part = object.substr(0, end);
+bool Hdf5File::Handle::has(const std::string& object) const { return exists(at(object)); }
+
+bool Hdf5File::Handle::exists(const std::string& path_in_file) const {
+  if (path_in_file == "/") return true;
+  for (std::size_t end = path_in_file.find('/', 1);; end = path_in_file.find('/', end + 1)) {
+    const std::string part = path_in_file.substr(0, end);
     if (H5Lexists(file, part.c_str(), H5P_DEFAULT) <= 0) return false;
     if (H5Oexists_by_name(file, part.c_str(), H5P_DEFAULT) <= 0) return false;
     if (end == std::string::npos) return true;
@@ -56,25 +70,26 @@ bool Hdf5File::Handle::has(const std::string& object) const {
 }
 
 Hdf5Id Hdf5File::Handle::open_object(const std::string& object) const {
-  Hdf5Id id(H5Oopen(file, object.c_str(), H5P_DEFAULT), H5Oclose);
+  Hdf5Id id(H5Oopen(file, at(object).c_str(), H5P_DEFAULT), H5Oclose);
   if (!id.valid()) fail(object, "is not in this file");
   return id;
 }
 
 Hdf5Id Hdf5File::Handle::open_dataset(const std::string& dataset) const {
   if (!has(dataset)) fail(dataset, "is not in this file");
-  Hdf5Id id(H5Dopen2(file, dataset.c_str(), H5P_DEFAULT), H5Dclose);
+  Hdf5Id id(H5Dopen2(file, at(dataset).c_str(), H5P_DEFAULT), H5Dclose);
   if (!id.valid()) fail(dataset, "is no dataset, or damaged");
   return id;
 }
 
 void Hdf5File::Handle::make_groups_above(const std::string& object) const {
-  for (std::size_t end = object.find('/', 1); end != std::string::npos; end = object.find('/', end + 1)) {
-    const std::string group = object.substr(0, end);
-    if (has(group)) continue;
+  const std::string whole = at(object);
+  for (std::size_t end = whole.find('/', 1); end != std::string::npos; end = whole.find('/', end + 1)) {
+    const std::string group = whole.substr(0, end);
+    if (exists(group)) continue;
     const Hdf5Id properties = ordered_group_properties(H5P_GROUP_CREATE);
     const Hdf5Id made(H5Gcreate2(file, group.c_str(), H5P_DEFAULT, properties, H5P_DEFAULT), H5Gclose);
-    if (!made.valid()) fail(group, "the group cannot be made");
+    if (!made.valid()) fail(object, fmt::format("the group '{}' cannot be made", group));
   }
 }
 
@@ -99,7 +114,8 @@ void Hdf5File::Handle::write_values(const std::string& dataset, hid_t memory_typ
                                     std::size_t count, const Shape& shape, const std::string& units,
                                     const std::string& description) const {
   if (count != count_of(shape))
-    throw std::logic_error(fmt::format("{} values given for '{}' of shape {}", count, dataset, to_string(shape)));
+    throw std::logic_error(
+        fmt::format("{} given for '{}' of shape {}", counted(count, "value"), dataset, to_string(shape)));
   const Hdf5Id made = make_dataset(dataset, file_type, shape, units, description);
   if (count > 0)
     checked(H5Dwrite(made, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), dataset,
@@ -110,7 +126,7 @@ Hdf5Id Hdf5File::Handle::make_dataset(const std::string& dataset, hid_t file_typ
                                       const std::string& units, const std::string& description) const {
   make_groups_above(dataset);
   const Hdf5Id space = hdf5_space(shape), creation = dataset_properties();
-  Hdf5Id made(H5Dcreate2(file, dataset.c_str(), file_type, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose);
+  Hdf5Id made(H5Dcreate2(file, at(dataset).c_str(), file_type, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose);
   if (!made.valid()) fail(dataset, "cannot be made; is there one of that name already?");
   describe(made, dataset, units, description);
   return made;
@@ -122,6 +138,17 @@ Shape Hdf5File::Handle::shape(hid_t dataset, const std::string& name) const {
   std::vector<hsize_t> size(static_cast<std::size_t>(rank));
   H5Sget_simple_extent_dims(space, size.data(), nullptr);
   return {size.begin(), size.end()};
+}
+
+std::size_t Hdf5File::Handle::stored_count(hid_t dataset, const std::string& name) const {
+  const std::size_t count = count_of(shape(dataset, name));
+  const Hdf5Id type(H5Dget_type(dataset), H5Tclose);
+  // Deflate makes at most 1032 bytes of one; what was never written takes no space.
+  constexpr double densest = 1100, never_written = 1 << 20;
+  const double bytes = static_cast<double>(count) * static_cast<double>(H5Tget_size(type));
+  if (bytes > densest * static_cast<double>(H5Dget_storage_size(dataset)) + never_written)
+    fail(name, fmt::format("the shape {} is larger than the file: it is damaged", to_string(shape(dataset, name))));
+  return count;
 }
 
 void Hdf5File::Handle::check_class(hid_t dataset, const std::string& name, H5T_class_t expected) const {
@@ -137,7 +164,7 @@ void Hdf5File::Handle::check_class(hid_t dataset, const std::string& name, H5T_c
 std::vector<std::string> Hdf5File::Handle::read_strings(const std::string& dataset) const {
   const Hdf5Id opened = open_dataset(dataset);
   check_class(opened, dataset, H5T_STRING);
-  const std::size_t count = count_of(shape(opened, dataset));
+  const std::size_t count = stored_count(opened, dataset);
   if (count == 0) return {};
   const Hdf5Id stored(H5Dget_type(opened), H5Tclose);
   std::vector<std::string> result;

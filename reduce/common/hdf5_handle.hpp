@@ -43,13 +43,16 @@ class Hdf5Id {
 Hdf5Id hdf5_text_type();
 /// A space of fixed size; a scalar for an empty shape.
 Hdf5Id hdf5_space(const Shape& shape);
-std::size_t count_of(const Shape& shape);
+std::size_t count_of(const Shape& shape);  ///< the largest number where there are more
 std::string to_string(const Shape& shape);  ///< "(2, 3)"
 /// Properties of a file or group that remembers the order in which its members are made.
 /// @param kind  H5P_FILE_CREATE or H5P_GROUP_CREATE
 Hdf5Id ordered_group_properties(hid_t kind);
 /// Properties of a dataset. Like groups, datasets hold no dates: equal content makes equal files.
 Hdf5Id dataset_properties();
+/// Properties with which files are opened: of the format that every HDF5 since 1.0 reads, and that stays readable when
+/// its writer is killed after a flush.
+Hdf5Id access_properties();
 /// HDF5 prints its own errors on standard error unless told not to, by each thread.
 void silence_hdf5();
 
@@ -63,12 +66,13 @@ struct GrowingDataset {
 
 struct Hdf5File::Handle {
   std::string path;
+  std::string base;  ///< group at which all paths start: "" or "/pieces/2"
   bool writing = false;
   Hdf5Id file;
   std::map<std::string, GrowingDataset> growing;  // after `file`: closed before it
 
   [[noreturn]] void fail(const std::string& object, const std::string& what) const {
-    const std::string message = fmt::format("{}: {}{}{}", path, object, object.empty() ? "" : ": ", what);
+    const std::string message = fmt::format("{}: {}{}{}", path, at(object), object.empty() ? "" : ": ", what);
     if (writing) throw ComputationError(message);
     throw InputError(message);
   }
@@ -79,7 +83,13 @@ struct Hdf5File::Handle {
     return result;
   }
 
+  /// The path of an object in the file.
+  std::string at(const std::string& object) const {
+    if (object.empty() || base.empty()) return object;
+    return object == "/" ? base : base + object;
+  }
   bool has(const std::string& object) const;
+  bool exists(const std::string& path_in_file) const;
   Hdf5Id open_object(const std::string& object) const;
   Hdf5Id open_dataset(const std::string& dataset) const;
   void make_groups_above(const std::string& object) const;
@@ -95,6 +105,8 @@ struct Hdf5File::Handle {
   Shape shape(hid_t dataset, const std::string& name) const;
   void check_class(hid_t dataset, const std::string& name, H5T_class_t expected) const;
   std::vector<std::string> read_strings(const std::string& dataset) const;
+  /// How many values a dataset holds. Fails when the file is far too small for them.
+  std::size_t stored_count(hid_t dataset, const std::string& name) const;
   GrowingDataset growing_from(Hdf5Id dataset, const std::string& name) const;
   GrowingDataset& growing_dataset(const std::string& dataset);  // opens it when it is not
 };

@@ -28,7 +28,7 @@ class Interpolation {
   static Interpolation from_file(const std::string& path, Kind kind);
 
   /// @param from_right  at a point, the derivatives on its right (or else left)
-  /// @throws ComputationError outside the range of the points (rounding of 1e-9 of the range is forgiven)
+  /// @throws ComputationError outside the range of the points (rounding of 1e-9 of the range is tolerated)
   Values operator()(double x, bool from_right = true) const;
   std::span<const double> points() const { return {x_.data(), static_cast<std::size_t>(x_.size())}; }
   Kind kind() const { return kind_; }

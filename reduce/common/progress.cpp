@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -77,6 +78,11 @@ void Progress::note(const std::string& message) {
   if (quiet_) return;
   if (running_ && terminal_) say("\r\033[K");
   say(message + "\n");
+}
+
+void Progress::adopt(std::vector<PhaseReport> phases) {
+  running_ = false;
+  phases_ = std::move(phases);
 }
 
 void Progress::draw(bool end) {

@@ -24,12 +24,14 @@ class Progress {
   explicit Progress(bool quiet = false);
   ~Progress();
   void start(const std::string& phase);  ///< ends the running phase, if any
-  /// @param fraction  done of this phase, 0..1; @param detail  shown behind it ("t = 0.013 s")
+  /// @param fraction  done of this phase, 0..1; @param detail  shown after it ("t = 0.013 s")
   void update(double fraction, const std::string& detail = "");
   void finish();  ///< ends the running phase
   /// A line that stays, e.g. a warning, printed in spite of `quiet`.
   void warn(const std::string& message);
   void note(const std::string& message);  ///< a line that stays, unless quiet
+  /// Ends the running phase: another process has shown all phases up to here.
+  void adopt(std::vector<PhaseReport> phases);
   const std::vector<PhaseReport>& phases() const { return phases_; }
   bool quiet() const { return quiet_; }
 

@@ -2,7 +2,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <optional>
 #include <string_view>
@@ -10,7 +9,9 @@
 
 #include <fmt/format.h>
 
+#include "reduce/common/counted.hpp"
 #include "reduce/common/error.hpp"
+#include "reduce/common/file_checks.hpp"
 
 namespace bielle {
 
@@ -44,7 +45,7 @@ std::optional<double> number_in(std::string_view cell) {
 }  // namespace
 
 Eigen::MatrixXd read_table(const std::string& path, Eigen::Index columns) {
-  if (std::filesystem::is_directory(path)) throw InputError(fmt::format("{}: is a folder, expected a file", path));
+  check_input_file(path);
   std::ifstream file(path);
   if (!file) throw InputError(fmt::format("{}: there is no such file, or it cannot be read", path));
   std::vector<double> values;
@@ -66,7 +67,8 @@ Eigen::MatrixXd read_table(const std::string& path, Eigen::Index columns) {
     }
     heading_allowed = false;
     if (static_cast<Eigen::Index>(cells.size()) != columns)
-      throw InputError(fmt::format("{}:{}: expected {} numbers, found {}", path, number, columns, cells.size()));
+      throw InputError(
+          fmt::format("{}:{}: expected {}, found {}", path, number, counted(columns, "number"), cells.size()));
     for (const std::string& cell : cells) {
       const std::optional<double> value = number_in(cell);
       if (!value || !std::isfinite(*value))

@@ -11,11 +11,16 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include "reduce/common/counted.hpp"
+#include "reduce/common/file_checks.hpp"
+#include "reduce/common/shortened.hpp"
+
 namespace bielle {
 
 struct YamlValue::Document {
   std::string file, text;
   Parameters parameters;
+  std::vector<std::string> doubts;
 };
 
 namespace {
@@ -29,7 +34,7 @@ std::string located_at(const std::string& file, int line, const std::string& pat
   return fmt::format("{}:{}: {}{}{}", file, line, path, path.empty() ? "" : ": ", message);
 }
 
-/// The parser complains of a tab in the indentation in words that do not mention it, some lines behind it at worst.
+/// The parser complains of a tab in the indentation in words that do not mention it, at worst some lines after it.
 std::string hint_at_tabs(const std::string& text, int up_to_line) {
   std::istringstream lines(text);
   std::string line;
@@ -47,15 +52,23 @@ std::string hint_at_comma(const std::string& key) {
   return number ? "; a comma separates keys: decimals are written with a point (1.5)" : "";
 }
 
+/// Aliases may repeat so many nodes; more is no input file but one that was made to fill the memory.
+constexpr std::size_t most_repeated = 100'000;
+
 /// yaml-cpp passes duplicate keys and keeps `<<` as a key like any other: refuse both, and keys that are no words.
-void check_keys_of_all_maps(const YAML::Node& node, const std::string& file, const std::string& path, int depth) {
+/// @param budget  nodes that may still come
+void check_keys_of_all_maps(const YAML::Node& node, const std::string& file, const std::string& path, int depth,
+                            std::size_t& budget) {
+  if (budget-- == 0)
+    throw InputError(located_at(file, node.Mark().line + 1, path.substr(0, 60),
+                                fmt::format("aliases (`*name`) repeat more than {} values", most_repeated)));
   if (depth > deepest)
     throw InputError(located_at(file, node.Mark().line + 1, path.substr(0, 60),
                                 fmt::format("nested more than {} levels deep, or an anchor contains itself", deepest)));
   if (node.IsSequence()) {
     int index = 0;
     for (const YAML::Node& item : node)
-      check_keys_of_all_maps(item, file, fmt::format("{}[{}]", path, ++index), depth + 1);
+      check_keys_of_all_maps(item, file, fmt::format("{}[{}]", path, ++index), depth + 1, budget);
   }
   if (!node.IsMap()) return;
   std::map<std::string, int> lines;
@@ -70,7 +83,7 @@ void check_keys_of_all_maps(const YAML::Node& node, const std::string& file, con
     if (!is_new)
       throw InputError(located_at(file, line, joined(path, key),
                                   fmt::format("this key stands here twice; first on line {}", first->second)));
-    check_keys_of_all_maps(entry.second, file, joined(path, key), depth + 1);
+    check_keys_of_all_maps(entry.second, file, joined(path, key), depth + 1, budget);
   }
 }
 
@@ -80,8 +93,7 @@ YamlValue::YamlValue(std::shared_ptr<Document> document, std::shared_ptr<YAML::N
     : document_(std::move(document)), node_(std::move(node)), path_(std::move(path)), line_(line) {}
 
 YamlValue YamlValue::load(const std::string& path) {
-  if (!std::filesystem::exists(path)) throw InputError(fmt::format("{}: there is no such file", path));
-  if (std::filesystem::is_directory(path)) throw InputError(fmt::format("{}: is a folder, expected a file", path));
+  check_input_file(path);
   std::ifstream file(path, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   if (!file) throw InputError(fmt::format("{}: cannot be read", path));
@@ -89,7 +101,7 @@ YamlValue YamlValue::load(const std::string& path) {
 }
 
 YamlValue YamlValue::parse(const std::string& text, const std::string& name) {
-  auto document = std::make_shared<Document>(Document{name, text, {}});
+  auto document = std::make_shared<Document>(Document{name, text, {}, {}});
   std::vector<YAML::Node> roots;
   try {
     roots = YAML::LoadAll(text);
@@ -100,12 +112,14 @@ YamlValue YamlValue::parse(const std::string& text, const std::string& name) {
   if (roots.empty()) throw InputError(fmt::format("{}: the file is empty", name));
   if (roots.size() > 1)
     throw InputError(located_at(name, roots[1].Mark().line + 1, "", "a second document begins; a file holds one"));
-  check_keys_of_all_maps(roots[0], name, "", 0);
+  std::size_t budget = text.size() + most_repeated;  // without aliases each node has a letter of its own
+  check_keys_of_all_maps(roots[0], name, "", 0, budget);
   const int line = roots[0].IsNull() ? 1 : roots[0].Mark().line + 1;
   return {document, std::make_shared<YAML::Node>(roots[0]), "", line};
 }
 
 void YamlValue::set_parameters(Parameters parameters) { document_->parameters = std::move(parameters); }
+void YamlValue::set_parameter(const std::string& name, double value) { document_->parameters[name] = value; }
 const Parameters& YamlValue::parameters() const { return document_->parameters; }
 
 bool YamlValue::is_map() const { return node_->IsMap(); }
@@ -157,7 +171,7 @@ void YamlValue::check_keys(const std::vector<std::string>& allowed, const std::s
     const std::string comma = hint_at_comma(key);
     throw InputError(located_at(
         document_->file, entry.first.Mark().line + 1, path_,
-        fmt::format("'{}' is not a key of {}{}", key, of, comma.empty() ? did_you_mean(key, allowed) : comma)));
+        fmt::format("'{}' is not a key of {}{}", shortened(key), of, comma.empty() ? did_you_mean(key, allowed) : comma)));
   }
 }
 
@@ -170,7 +184,7 @@ std::size_t YamlValue::size() const {
 
 YamlValue YamlValue::at(std::size_t index) const {
   const std::vector<YamlValue> all = items();
-  if (index >= all.size()) fail(fmt::format("expected at least {} items, found {}", index + 1, all.size()));
+  if (index >= all.size()) fail(fmt::format("expected at least {}, found {}", counted(index + 1, "item"), all.size()));
   return all[index];
 }
 
@@ -197,7 +211,7 @@ double YamlValue::number() const {
   if (error == std::errc() && stopped == end && begin != end && std::isfinite(value)) return value;
   if (written == ".inf" || written == "-.inf" || written == "inf" || written == "-inf" || written == ".nan" ||
       written == "nan")
-    fail(fmt::format("expected a finite number, found '{}'", written));
+    fail(fmt::format("expected a finite number, found '{}'", shortened(written)));
   const Expression formula = expression({});
   return formula(std::span<const double>());
 }
@@ -227,7 +241,7 @@ bool YamlValue::boolean() const {
     const std::string& written = node_->Scalar();
     if (written == "true" || written == "True" || written == "TRUE") return true;
     if (written == "false" || written == "False" || written == "FALSE") return false;
-    fail(fmt::format("expected true or false, found '{}'", written));
+    fail(fmt::format("expected true or false, found '{}'", shortened(written)));
   }
   fail("expected true or false");
 }
@@ -241,7 +255,7 @@ std::string YamlValue::word(const std::vector<std::string>& allowed, const std::
   std::string found = is_scalar() ? text() : "";
   if (std::find(allowed.begin(), allowed.end(), found) != allowed.end()) return found;
   if (!is_scalar()) fail(fmt::format("expected {} as one word{}", what, did_you_mean("", allowed)));
-  fail(fmt::format("'{}' is not {}{}", found, what, did_you_mean(found, allowed)));
+  fail(fmt::format("'{}' is not {}{}", shortened(found), what, did_you_mean(found, allowed)));
 }
 
 Eigen::VectorXd YamlValue::vector() const {
@@ -300,7 +314,7 @@ FormulaText YamlValue::formula_text(const std::vector<std::string>& variables,
   try {
     return find_references(node_->Scalar(), plain_names, functions);
   } catch (const InputError& error) {
-    fail(fmt::format("in '{}': {}", node_->Scalar(), error.what()));
+    fail(fmt::format("in '{}': {}", shortened(node_->Scalar()), error.what()));
   }
 }
 
@@ -326,6 +340,9 @@ int YamlValue::line() const { return line_; }
 std::string YamlValue::path() const { return path_; }
 std::string YamlValue::source_text() const { return document_->text; }
 void YamlValue::fail(const std::string& message) const { throw InputError(located(message)); }
+void YamlValue::doubt(const std::string& message) const { document_->doubts.push_back(located(message)); }
+const std::vector<std::string>& YamlValue::doubts() const { return document_->doubts; }
+
 std::string YamlValue::located(const std::string& message) const {
   return located_at(document_->file, line_, path_, message);
 }

@@ -34,6 +34,8 @@ class YamlValue {
 
   /// Parameters that numbers in this file may use (shared by all values of the file).
   void set_parameters(Parameters parameters);
+  /// One more.
+  void set_parameter(const std::string& name, double value);
   const Parameters& parameters() const;
 
   bool is_map() const;
@@ -71,7 +73,7 @@ class YamlValue {
   Eigen::Vector3d vector3() const;
   Eigen::Vector3d direction() const;  ///< vector3, normalised. @throws when zero
   Eigen::MatrixXd matrix(Eigen::Index rows, Eigen::Index columns) const;
-  /// A formula of the given variables beside the parameters (e.g. {"t"}).
+  /// A formula of the parameters and the given variables (e.g. {"t"}).
   Expression expression(const std::vector<std::string>& variables) const;
   /// The text of a number or formula with its references found; `variables` and the parameters are plain names.
   FormulaText formula_text(const std::vector<std::string>& variables, const std::vector<std::string>& functions) const;
@@ -88,6 +90,9 @@ class YamlValue {
   /// `file:line: path: message`
   [[noreturn]] void fail(const std::string& message) const;
   std::string located(const std::string& message) const;  ///< the text that `fail` throws
+  /// Notes a value that is possible and probably not meant, in the words of `fail`, for the user to be told.
+  void doubt(const std::string& message) const;
+  const std::vector<std::string>& doubts() const;  ///< of the whole file, in the order of reading
 
  private:
   struct Document;

@@ -93,7 +93,7 @@ void add_stiffness(const Solid& solid, const NodeGraph& graph, SymmetricMatrix& 
         }
         const Eigen::Matrix<double, 9, 1> w_ab = w.template block<3, 3>(3 * cell_a, 3 * cell_b).reshaped();
         const Eigen::Matrix<double, 9, 1> k_ab = tensor * w_ab;
-        // Behind the own block come three rows for each higher neighbour.
+        // Three rows for each higher neighbour follow the node's own block.
         const std::int64_t behind = a == b ? 0 : 3 * (graph.place(b, a) - own - 1);
         for (int j = 0; j < 3; ++j) {
           double* column = &k.values[k.starts[3 * b + j]];

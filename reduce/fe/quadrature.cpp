@@ -2,7 +2,9 @@
 
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
+
+#include "reduce/common/symmetric_eigenpairs.hpp"
 
 namespace bielle::reduce {
 
@@ -24,8 +26,8 @@ Rule gauss_jacobi(int n, int a) {
       jacobi(k, k - 1) = jacobi(k - 1, k) = std::sqrt(p);
     }
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(jacobi);
-  return {(1 + eigen.eigenvalues().array()) / 2, eigen.eigenvectors().row(0).array().square().transpose() / (a + 1)};
+  const SymmetricEigenpairs eigen = symmetric_eigenpairs(jacobi);
+  return {(1 + eigen.values.array()) / 2, eigen.vectors.row(0).array().square().transpose() / (a + 1)};
 }
 
 Quadrature four_points() {

@@ -96,9 +96,8 @@ Solid make_solid(const Mesh& mesh, const std::map<std::string, Material>& materi
   }
   if (const auto without = std::count(solid.material_of.begin(), solid.material_of.end(), -1)) {
     throw InputError(
-        fmt::format("regions: {} of {} cells have no material; name the volume groups that are missing or use "
-                    "'all'",
-                    without, solid.material_of.size()));
+        fmt::format("regions: {} of {} cells {} no material; name the volume groups that are missing or use 'all'",
+                    without, solid.material_of.size(), without == 1 ? "has" : "have"));
   }
   return solid;
 }

@@ -64,14 +64,31 @@ NodeShares node_shares(const Solid& solid, const std::vector<double>& volumes) {
 }
 
 template <int N>
-RowMatrix stress_at(const Solid& solid, const RowMatrix& fields, const std::vector<int>& nodes, int threads) {
-  const Quadrature quadrature = simplex_quadrature(3, N == 4 ? 0 : 2);
-  const CellRule<N> rule(quadrature);
-  const Eigen::MatrixXd to_nodes = extrapolation(CellRule<N>::type, quadrature);
+std::vector<double> cell_volumes(const Solid& solid, const CellRule<N>& rule) {
   std::vector<double> volumes(solid.cells());
   for (Eigen::Index e = 0; e < solid.cells(); ++e) {
     volumes[e] = cell_volume<N>(rule, cell_points<N>(solid.mesh.points, solid.nodes, e));
   }
+  return volumes;
+}
+
+/// The points of a cell at which stress is sampled.
+template <int N>
+Quadrature sampling() {
+  return simplex_quadrature(3, N == 4 ? 0 : 2);
+}
+
+template <int N>
+NodeShares node_shares(const Solid& solid) {
+  return node_shares(solid, cell_volumes<N>(solid, CellRule<N>(sampling<N>())));
+}
+
+template <int N>
+RowMatrix stress_at(const Solid& solid, const RowMatrix& fields, const std::vector<int>& nodes, int threads) {
+  const Quadrature quadrature = sampling<N>();
+  const CellRule<N> rule(quadrature);
+  const Eigen::MatrixXd to_nodes = extrapolation(CellRule<N>::type, quadrature);
+  const std::vector<double> volumes = cell_volumes<N>(solid, rule);
   const NodeShares shares = node_shares(solid, volumes);
   std::vector<int> row_of(solid.points(), -1);
   for (std::size_t r = 0; r < nodes.size(); ++r) {
@@ -124,6 +141,15 @@ RowMatrix stress_at(const Solid& solid, const RowMatrix& fields, const std::vect
 RowMatrix nodal_stress(const Solid& solid, const RowMatrix& fields, const std::vector<int>& nodes, int threads) {
   return solid.type == CellType::tet4 ? stress_at<4>(solid, fields, nodes, threads)
                                       : stress_at<10>(solid, fields, nodes, threads);
+}
+
+std::vector<int> nodal_materials(const Solid& solid, const std::vector<int>& nodes) {
+  const NodeShares shares = solid.type == CellType::tet4 ? node_shares<4>(solid) : node_shares<10>(solid);
+  std::vector<int> result;
+  for (const int node : nodes) {
+    result.push_back(shares.material[node]);
+  }
+  return result;
 }
 
 std::vector<int> surface_nodes(const Solid& solid) {

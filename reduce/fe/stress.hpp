@@ -17,6 +17,9 @@ namespace bielle::reduce {
 /// @returns (6 nodes, k): xx yy zz yz xz xy [Pa] of the first node, of the second, ...
 RowMatrix nodal_stress(const Solid& solid, const RowMatrix& fields, const std::vector<int>& nodes, int threads = 1);
 
+/// Whose stress `nodal_stress` gives at these nodes: the number of the material in `solid.materials`.
+std::vector<int> nodal_materials(const Solid& solid, const std::vector<int>& nodes);
+
 /// Nodes on the faces of cells that belong to one cell only, ascending.
 std::vector<int> surface_nodes(const Solid& solid);
 

@@ -4,12 +4,13 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "reduce/common/counted.hpp"
 #include "reduce/common/error.hpp"
+#include "reduce/mesh/disjoint_sets.hpp"
 #include "reduce/mesh/jacobian.hpp"
 #include "reduce/mesh/place.hpp"
 
@@ -28,20 +29,6 @@ double longest_edge(const Eigen::Matrix<double, 3, 4>& x) {
   for (const auto& edge : tet_edges) longest = std::max(longest, (x.col(edge[0]) - x.col(edge[1])).norm());
   return longest;
 }
-
-// Disjoint sets of numbers from 0, joined pair by pair.
-class Sets {
- public:
-  explicit Sets(int count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int of(int i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(int i, int j) { parent_[of(i)] = of(j); }
-
- private:
-  std::vector<int> parent_;
-};
 
 struct Piece {
   int cells = 0;
@@ -72,7 +59,7 @@ std::string piece_names(const std::vector<Piece>& pieces) {
   constexpr std::size_t most = 5;
   std::string names;
   for (std::size_t i = 0; i < std::min(pieces.size(), most); ++i)
-    names += fmt::format("{}{} elements with {:.3g} m^3 from {} to {}", i == 0 ? "" : "; ", pieces[i].cells,
+    names += fmt::format("{}{} with {:.3g} m^3 from {} to {}", i == 0 ? "" : "; ", counted(pieces[i].cells, "element"),
                          pieces[i].volume, place_name(pieces[i].box.min()), place_name(pieces[i].box.max()));
   if (pieces.size() > most) names += fmt::format("; and {} more", pieces.size() - most);
   return names;
@@ -118,21 +105,21 @@ void check_elements(const Mesh& mesh, const std::vector<std::size_t>& cell_tags)
     return fmt::format("element {} at {}", number, place_name(corners_of(mesh, block, e).rowwise().mean()));
   };
   if (inverted == block.nodes.cols())
-    throw InputError(
-        fmt::format("all {} elements are inverted (negative volume): the mesh is mirrored, or its nodes are "
-                    "ordered otherwise; the first is {}",
-                    inverted, named(first_inverted)));
+    throw InputError(fmt::format(
+        "every element is inverted (negative volume): the mesh is mirrored, or its nodes are ordered otherwise; "
+        "the first is {}",
+        named(first_inverted)));
   if (inverted > 0)
-    throw InputError(fmt::format("{} of {} elements are inverted (negative volume); the first is {}", inverted,
-                                 block.nodes.cols(), named(first_inverted)));
+    throw InputError(fmt::format("{} of {} elements {} inverted (negative volume); the first is {}", inverted,
+                                 block.nodes.cols(), inverted == 1 ? "is" : "are", named(first_inverted)));
   if (flat > 0)
-    throw InputError(fmt::format("{} of {} elements are degenerate (no volume); the first is {}", flat,
-                                 block.nodes.cols(), named(first_flat)));
+    throw InputError(fmt::format("{} of {} elements {} degenerate (no volume); the first is {}", flat,
+                                 block.nodes.cols(), flat == 1 ? "is" : "are", named(first_flat)));
 }
 
 void check_connected(const Mesh& mesh) {
   const CellBlock& block = mesh.solids();
-  Sets nodes(static_cast<int>(mesh.point_count()));
+  DisjointSets nodes(static_cast<int>(mesh.point_count()));
   for (Eigen::Index e = 0; e < block.nodes.cols(); ++e)
     for (Eigen::Index k = 1; k < block.nodes.rows(); ++k) nodes.join(block.nodes(0, e), block.nodes(k, e));
   const std::vector<Piece> pieces = pieces_of(mesh, [&](Eigen::Index cell) { return nodes.of(block.nodes(0, cell)); });
@@ -143,14 +130,15 @@ void check_connected(const Mesh& mesh) {
   int touching = 0;
   for (const auto& [a, b] : near_pairs(mesh.points, all, 1e-6 * mesh_quality(mesh).shortest_edge))
     touching += nodes.of(a) != nodes.of(b);
-  throw InputError(fmt::format("the body is in {} pieces that share no nodes: {}{}", pieces.size(), piece_names(pieces),
-                               touching > 0
-                                   ? fmt::format("; {} pairs of nodes lie at the same place: merge them", touching)
-                                   : "; join them in the geometry (a fragment or union), or reduce each by itself"));
+  throw InputError(fmt::format(
+      "the body is in {} pieces that share no nodes: {}{}", pieces.size(), piece_names(pieces),
+      touching > 0
+          ? fmt::format("; {} at the same place: merge the nodes", counted(touching, "pair of nodes", "pairs of nodes"))
+          : "; join them in the geometry (a fragment or union), or reduce each by itself"));
 }
 
 std::string loose_joints(const Mesh& mesh, const FaceTable& faces) {
-  Sets cells(static_cast<int>(mesh.solid_count()));
+  DisjointSets cells(static_cast<int>(mesh.solid_count()));
   for (int face = 0; face < faces.size(); ++face)
     if (!faces.on_boundary(face)) cells.join(faces.cell(face), faces.other_cell(face));
   const std::vector<Piece> pieces =
@@ -205,9 +193,10 @@ MeshQuality mesh_quality(const Mesh& mesh) {
 
 std::string summary(const Mesh& mesh) {
   const MeshQuality quality = mesh_quality(mesh);
-  return fmt::format("{} nodes, {} {}, edges from {} to {}, least scaled Jacobian {:.2g} at {}", mesh.point_count(),
-                     mesh.solid_count(), cell_name(mesh.solids().type), length_name(quality.shortest_edge),
-                     length_name(quality.longest_edge), quality.least_scaled_jacobian, place_name(quality.worst_place));
+  return fmt::format("{}, {} {}, edges from {} to {}, least scaled Jacobian {:.2g} at {}",
+                     counted(mesh.point_count(), "node"), mesh.solid_count(), cell_name(mesh.solids().type),
+                     length_name(quality.shortest_edge), length_name(quality.longest_edge),
+                     quality.least_scaled_jacobian, place_name(quality.worst_place));
 }
 
 }  // namespace bielle::reduce

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 #include <gmsh.h>
 
+#include "reduce/common/child_process.hpp"
 #include "reduce/common/error.hpp"
 #include "reduce/common/progress.hpp"
 #include "reduce/mesh/checks.hpp"
@@ -61,7 +62,7 @@ std::string selector_line(const SurfaceEntry& entry, bool in_box, double margin)
   return fmt::format("surface: {{{}}}", shape);
 }
 
-// Whether both lie on the same endless plane or cylinder, as far as selection can tell.
+// Whether both lie on the same infinite plane or cylinder, as far as selection can tell.
 bool same_shape(const SurfaceEntry& one, const SurfaceEntry& other, double tolerance) {
   if (const auto* a = std::get_if<PlaneShape>(&one.shape), *b = std::get_if<PlaneShape>(&other.shape); a && b)
     return a->normal.cross(b->normal).norm() < 1e-4 && std::abs(a->normal.dot(b->point - a->point)) < tolerance;
@@ -269,14 +270,7 @@ std::string groups_text() {
   return text;
 }
 
-}  // namespace
-
-std::string describe_geometry(const std::string& path, const std::optional<std::string>& length_unit,
-                              Progress& progress) {
-  MeshRequest request;
-  request.path = path;
-  request.length_unit = length_unit;
-  const SourceFile source = prepare_source(request, progress);
+std::string describe_source(const std::string& path, const SourceFile& source) {
   GmshSession session;
   open_model(session, source);
   const double extent = model_extent(session);
@@ -289,6 +283,17 @@ std::string describe_geometry(const std::string& path, const std::optional<std::
     text += mesh ? mesh_text(session, source) : geometry_text(source.metres);
   });
   return text;
+}
+
+}  // namespace
+
+std::string describe_geometry(const std::string& path, const std::optional<std::string>& length_unit,
+                              Progress& progress) {
+  MeshRequest request;
+  request.path = path;
+  request.length_unit = length_unit;
+  const SourceFile source = prepare_source(request, progress);
+  return in_child_process(crash_sentence(source), 0, [&] { return describe_source(path, source); });
 }
 
 }  // namespace bielle::reduce

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <gmsh.h>
 
+#include "reduce/common/counted.hpp"
 #include "reduce/common/error.hpp"
 
 namespace bielle::reduce {
@@ -73,9 +74,8 @@ std::map<int, std::vector<Triangle>> read_triangles(const Nodes& nodes, const st
   std::size_t count = 0;
   visit_elements(2, [&](int entity, int type, const Tags& elements, const Tags& tags) {
     if (type != static_cast<int>(CellType::tri3) && type != static_cast<int>(CellType::tri6))
-      throw InputError(
-          fmt::format("'{}' holds {} surface cells of type '{}'; supported are triangles with 3 or 6 nodes", name,
-                      elements.size(), gmsh_cell_name(type)));
+      throw InputError(fmt::format("'{}' holds {} of type '{}'; supported are triangles with 3 or 6 nodes", name,
+                                   counted(elements.size(), "surface cell"), gmsh_cell_name(type)));
     count += elements.size();
     const std::size_t width = tags.size() / elements.size();
     for (std::size_t e = 0; e < elements.size(); ++e) {
@@ -96,9 +96,9 @@ void read_solids(const Nodes& nodes, const std::string& name, ExtractedModel& mo
   for (const auto& [type, count] : counts)
     if (type != static_cast<int>(CellType::tet4) && type != static_cast<int>(CellType::tet10))
       throw InputError(
-          fmt::format("'{}' holds {} cells of type '{}'; supported are tetrahedra with 4 or 10 nodes: remesh "
+          fmt::format("'{}' holds {} of type '{}'; supported are tetrahedra with 4 or 10 nodes: remesh "
                       "the body with tetrahedra",
-                      name, count, gmsh_cell_name(type)));
+                      name, counted(count, "cell"), gmsh_cell_name(type)));
   if (counts.size() > 1 || (counts.size() == 1 && !all_delivered("Tetrahedra", counts.begin()->second)))
     throw InputError(
         fmt::format("'{}' mixes tetrahedra with 4 and with 10 nodes: their common faces do not fit together; "
@@ -107,11 +107,10 @@ void read_solids(const Nodes& nodes, const std::string& name, ExtractedModel& mo
   if (counts.empty()) {
     std::size_t flat = 0;
     visit_elements(2, [&](int, int, const Tags& elements, const Tags&) { flat += elements.size(); });
-    throw InputError(flat > 0
-                         ? fmt::format("'{}' holds a surface mesh only ({} cells); a body needs tetrahedra: mesh its "
-                                       "volume",
-                                       name, flat)
-                         : fmt::format("'{}' holds no cells", name));
+    throw InputError(flat > 0 ? fmt::format("'{}' holds a surface mesh only ({}); a body needs tetrahedra: mesh its "
+                                            "volume",
+                                            name, counted(flat, "cell"))
+                              : fmt::format("'{}' holds no cells", name));
   }
   const CellType type = static_cast<CellType>(counts.begin()->first);
   const int width = node_count(type);

@@ -47,7 +47,7 @@ bool model_has_volumes();
 /// Name and number of the cells of each type, solids first.
 std::vector<std::pair<std::string, std::size_t>> cell_counts();
 
-/// Physical groups of surfaces and volumes. A surface group with the name of a volume group gets `_surface` behind it.
+/// Physical groups of surfaces and volumes. A surface group with the name of a volume group gets `_surface` appended.
 std::vector<PhysicalGroup> physical_groups();
 
 // What follows translates.

@@ -1,4 +1,4 @@
-// gmsh's library, tamed: one session at a time, silent, and with errors that are exceptions of ours.
+// gmsh's library: one session at a time, silent, and with errors turned into our exceptions.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@ namespace bielle::reduce {
 ///
 /// gmsh is one global object: a second session waits until the first has ended. It throws std::string, and after a
 /// throw every later `open` silently does nothing until it is finalised: `run` translates and the session is then to be
-/// left. OpenCASCADE prints on standard output whatever one asks of it: standard output is closed to it meanwhile. No
+/// left. OpenCASCADE always prints on standard output, which is therefore redirected meanwhile. No
 /// configuration file of the user is read.
 class GmshSession {
  public:

@@ -65,16 +65,6 @@ void sort_unique(std::vector<int>& numbers) {
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
-// A group of cells of one block.
-Group group_of(const CellBlock& block, std::vector<int> cells) {
-  sort_unique(cells);
-  std::vector<int> nodes;
-  nodes.reserve(cells.size() * block.nodes.rows());
-  for (int cell : cells) nodes.insert(nodes.end(), block.nodes.col(cell).begin(), block.nodes.col(cell).end());
-  sort_unique(nodes);
-  return {dimension(block.type), {{block.type, std::move(cells)}}, std::move(nodes)};
-}
-
 // Faces of every surface group that the mesh shall have, by name.
 std::map<std::string, std::vector<int>> surface_groups(const MeshRequest& request, const ExtractedModel& model,
                                                        const Mesh& mesh, const FaceTable& faces, bool geometry) {
@@ -122,6 +112,15 @@ void check_groups(const MeshRequest& request, const std::vector<PhysicalGroup>& 
     if (volume.group != "all" && !is(volume.group, 3)) fail_unknown_group(volume.located, volume.group, 3, groups);
 }
 
+Group group_of(const CellBlock& block, std::vector<int> cells) {
+  sort_unique(cells);
+  std::vector<int> nodes;
+  nodes.reserve(cells.size() * block.nodes.rows());
+  for (int cell : cells) nodes.insert(nodes.end(), block.nodes.col(cell).begin(), block.nodes.col(cell).end());
+  sort_unique(nodes);
+  return {dimension(block.type), {{block.type, std::move(cells)}}, std::move(nodes)};
+}
+
 void add_volume_groups(const ExtractedModel& model, Mesh& mesh) {
   for (const PhysicalGroup& group : model.groups) {
     if (group.dimension != 3) continue;
@@ -139,7 +138,10 @@ void add_volume_groups(const ExtractedModel& model, Mesh& mesh) {
 
 void add_surface_groups(const MeshRequest& request, const ExtractedModel& model, bool geometry, const FaceTable& faces,
                         Mesh& mesh) {
-  const auto groups = surface_groups(request, model, mesh, faces, geometry);
+  add_surface_cells(surface_groups(request, model, mesh, faces, geometry), faces, mesh);
+}
+
+void add_surface_cells(const std::map<std::string, std::vector<int>>& groups, const FaceTable& faces, Mesh& mesh) {
   std::map<int, int> cell_of;  // face -> surface cell
   for (const auto& [name, members] : groups)
     for (int face : members) cell_of.emplace(face, 0);

@@ -1,6 +1,7 @@
 // Named groups of a mesh: physical groups of the file, and surfaces that the user selects by shape.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,12 @@ void check_groups(const MeshRequest& request, const std::vector<PhysicalGroup>& 
 
 /// Volume groups of the model; `all` when it has none.
 void add_volume_groups(const ExtractedModel& model, Mesh& mesh);
+
+/// A group of cells of one block.
+Group group_of(const CellBlock& block, std::vector<int> cells);
+
+/// Gives the mesh surface groups: each is made of faces, which may belong to several. Empty ones are left out.
+void add_surface_cells(const std::map<std::string, std::vector<int>>& groups, const FaceTable& faces, Mesh& mesh);
 
 /// Surface groups of the model and those that the user selects, and the surface cells that they consist of.
 /// @param geometry  whether the model's surfaces are those of a geometry, which shapes then select as wholes

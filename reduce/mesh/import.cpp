@@ -4,13 +4,18 @@
 
 #include <fmt/format.h>
 
+#include "reduce/common/child_process.hpp"
+#include "reduce/common/counted.hpp"
 #include "reduce/common/error.hpp"
+#include "reduce/common/packing.hpp"
 #include "reduce/common/progress.hpp"
 #include "reduce/mesh/checks.hpp"
+#include "reduce/mesh/cut_geometry.hpp"
 #include "reduce/mesh/foreign_mesh.hpp"
 #include "reduce/mesh/gmsh_model.hpp"
 #include "reduce/mesh/groups.hpp"
 #include "reduce/mesh/mesh_geometry.hpp"
+#include "reduce/mesh/mesh_packing.hpp"
 #include "reduce/mesh/place.hpp"
 #include "reduce/mesh/source_file.hpp"
 #include "reduce/mesh/straighten.hpp"
@@ -26,16 +31,17 @@ void check_mesh(const MeshRequest& request, const ExtractedModel& model, const F
   const Straightening repaired = straighten_elements(mesh);
   if (repaired.nodes > 0)
     progress.note(fmt::format(
-        "{} second-order elements were or might be inside out at curved surfaces: {} mid-side nodes were moved "
-        "to the middle of their edges, by {} at most (at {}); smaller elements avoid it",
-        repaired.elements, repaired.nodes, length_name(repaired.farthest), place_name(repaired.place)));
+        "{} inside out, or nearly so, at curved surfaces: {} moved to the middle of the edge, by {} at most (at {}); "
+        "smaller elements avoid it",
+        counted(repaired.elements, "second-order element"), counted(repaired.nodes, "mid-side node"),
+        length_name(repaired.farthest), place_name(repaired.place)));
   if (model.dropped_nodes > 0)
-    progress.note(fmt::format("{} nodes that belong to no solid cell were left out", model.dropped_nodes));
+    progress.note(fmt::format("left out: {} of no solid cell", counted(model.dropped_nodes, "node")));
   if (const CoincidentNodes coincident = coincident_nodes(mesh, faces); coincident.pairs > 0)
-    progress.warn(
-        fmt::format("{}: {} pairs of nodes lie at the same place, the first at {}: the body is cracked there; "
-                    "merge the nodes if it should not be",
-                    request.path, coincident.pairs, place_name(coincident.place)));
+    progress.warn(fmt::format(
+        "{}: {} at the same place, the first at {}: the body is cracked there; merge the nodes if it "
+        "should not be",
+        request.path, counted(coincident.pairs, "pair of nodes", "pairs of nodes"), place_name(coincident.place)));
   for (const std::string& doubt : {doubtful_size(mesh), loose_joints(mesh, faces)})
     if (!doubt.empty()) progress.warn(at_place(request.located, doubt));
   if (const MeshQuality quality = mesh_quality(mesh); quality.least_scaled_jacobian < 1e-3)
@@ -45,11 +51,7 @@ void check_mesh(const MeshRequest& request, const ExtractedModel& model, const F
                                               place_name(quality.worst_place), quality.least_scaled_jacobian)));
 }
 
-}  // namespace
-
-Mesh import_mesh(const MeshRequest& request, Progress& progress) {
-  progress.start("reading " + std::filesystem::path(request.path).filename().string());
-  const SourceFile source = prepare_source(request, progress);
+Mesh import_source(const MeshRequest& request, const SourceFile& source, Progress& progress) {
   GmshSession session;
   placed(request.located, [&] { open_model(session, source); });
   std::vector<PhysicalGroup> groups;
@@ -62,6 +64,7 @@ Mesh import_mesh(const MeshRequest& request, Progress& progress) {
   });
   check_groups(request, groups);
   if (geometry) {
+    if (!request.cuts.empty()) groups = cut_geometry(session, request, source, progress);
     mesh_geometry(session, request, source, groups, progress);
   } else if (request.size || request.order || !request.sizes.empty()) {
     throw InputError(
@@ -77,6 +80,28 @@ Mesh import_mesh(const MeshRequest& request, Progress& progress) {
   placed(request.located, [&] { check_mesh(request, model, faces, mesh, progress); });
   add_volume_groups(model, mesh);
   add_surface_groups(request, model, geometry, faces, mesh);
+  return mesh;
+}
+
+}  // namespace
+
+Mesh import_mesh(const MeshRequest& request, Progress& progress) {
+  progress.start("reading " + std::filesystem::path(request.path).filename().string());
+  const SourceFile source = prepare_source(request, progress);
+  Packing result(in_child_process(at_place(request.located, crash_sentence(source)), 0, [&] {
+    Packing packing;
+    Mesh mesh = import_source(request, source, progress);
+    packing(mesh);
+    progress.finish();
+    std::vector<PhaseReport> phases = progress.phases();
+    packing(phases);
+    return packing.bytes();
+  }));
+  Mesh mesh;
+  std::vector<PhaseReport> phases;
+  result(mesh);
+  result(phases);
+  progress.adopt(std::move(phases));
   return mesh;
 }
 

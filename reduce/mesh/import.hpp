@@ -17,6 +17,8 @@ namespace bielle::reduce {
 /// one type of solid cells (tet4 or tet10, all of positive Jacobian), its surface cells are those of its surface
 /// groups, all points are used, lengths are metres. Without physical volumes the whole body becomes the group `all`.
 ///
+/// All of it happens in a process of its own: where gmsh crashes on a damaged file, this program does not.
+///
 /// Second-order elements that a curved boundary turns inside out are repaired by moving mid-side nodes to the middle of
 /// their edges; how many is noted.
 ///

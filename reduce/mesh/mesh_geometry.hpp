@@ -13,8 +13,8 @@ class Progress;
 
 namespace bielle::reduce {
 
-/// Meshes surfaces, then volumes. What would be found out only after a long time is found out before it: that the mesh
-/// would be too large to be made (a forgotten unit of length, a size in the wrong unit) before anything is meshed, that
+/// Meshes surfaces, then volumes. Mistakes that would show only after a long time are found early: that the mesh
+/// would be too large (a forgotten unit of length, a size in the wrong unit) before anything is meshed, that
 /// a shape selects no surface when the surfaces are.
 /// @param groups  physical groups of the geometry
 /// @throws InputError naming the place in the input file; ComputationError when gmsh fails

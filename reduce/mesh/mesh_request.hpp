@@ -11,7 +11,7 @@
 
 namespace bielle::reduce {
 
-/// A circular cylinder, endless along its axis.
+/// A circular cylinder, infinite along its axis.
 struct CylinderSelector {
   Eigen::Vector3d point;  ///< on the axis [m]
   Eigen::Vector3d axis;   ///< any length but zero
@@ -64,6 +64,14 @@ struct GroupSize {
   std::string located;  ///< "rod.yaml:9: mesh.sizes.bore_big"
 };
 
+/// A plane along which the body is cut into pieces.
+struct CutPlane {
+  std::string name;        ///< of the cut: "cut_1"
+  Eigen::Vector3d point;   ///< in the plane [m]
+  Eigen::Vector3d normal;  ///< of length 1, either sense
+  std::string located;     ///< "rod.yaml:14: pieces.planes[1]"
+};
+
 /// Everything that import_mesh needs. Lengths in SI but for the geometry's own numbers.
 struct MeshRequest {
   std::string path;                        ///< geometry or mesh
@@ -76,6 +84,7 @@ struct MeshRequest {
   std::string mesh_located;                ///< "rod.yaml:8: mesh"
   std::vector<SurfaceSelection> surfaces;
   std::vector<VolumeSelection> volumes;
+  std::vector<CutPlane> cuts;  ///< that faces of the elements shall lie in, where the geometry can be cut
 };
 
 }  // namespace bielle::reduce

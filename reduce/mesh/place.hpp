@@ -11,7 +11,7 @@
 
 namespace bielle::reduce {
 
-/// "(0.2, 0, -0.013)"; components that are rounding errors beside the largest are shown as 0.
+/// "(0.2, 0, -0.013)"; components that are rounding errors relative to the largest are shown as 0.
 inline std::string direction_name(const Eigen::Vector3d& v) {
   const double noise = 1e-9 * v.cwiseAbs().maxCoeff();
   const auto shown = [&](double x) { return std::abs(x) <= noise ? 0.0 : x; };

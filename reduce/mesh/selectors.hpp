@@ -12,7 +12,7 @@
 namespace bielle::reduce {
 
 /// How far a node may lie from the shape that selects it: 1e-4 of the diagonal of the body's box [m]. Wide enough for
-/// coordinates with six digits, narrow enough to tell neighbouring surfaces apart.
+/// coordinates with six digits, narrow enough to distinguish neighbouring surfaces.
 double selection_tolerance(const Eigen::Matrix3Xd& points);
 
 /// Whether a triangle lies on (in) each of the shapes: its three corners do (mid-side nodes may be straight) and, on a

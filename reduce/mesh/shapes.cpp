@@ -6,9 +6,12 @@
 #include <numbers>
 #include <optional>
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "reduce/common/orthogonal_factors.hpp"
+#include "reduce/common/symmetric_eigenpairs.hpp"
 #include "reduce/mesh/place.hpp"
 
 namespace bielle::reduce {
@@ -29,9 +32,7 @@ Vector3d positive(const Vector3d& axis) {
   return axis[largest] < 0 ? Vector3d(-axis) : axis;
 }
 
-Vector3d least_eigenvector(const Matrix3d& symmetric) {
-  return Eigen::SelfAdjointEigenSolver<Matrix3d>(symmetric).eigenvectors().col(0);
-}
+Vector3d least_eigenvector(const Matrix3d& symmetric) { return symmetric_eigenpairs(symmetric).vectors.col(0); }
 
 Matrix3d covariance(const Matrix3Xd& x) {
   const Matrix3Xd centred = x.colwise() - x.rowwise().mean();
@@ -99,7 +100,7 @@ std::optional<CylinderShape> fit_cylinder(const Samples& s) {
   const Matrix3Xd y = s.x - axis * (axis.transpose() * s.x);
   Eigen::MatrixXd system(y.cols(), 4);
   system << 2 * y.transpose(), VectorXd::Ones(y.cols());
-  const VectorXd circle = system.completeOrthogonalDecomposition().solve(y.colwise().squaredNorm().transpose().eval());
+  const VectorXd circle = least_squares(system, y.colwise().squaredNorm().transpose());
   VectorXd start(7);
   start << circle.head<3>(), axis, std::sqrt(std::max(circle[3] + circle.head<3>().squaredNorm(), 1e-6));
   const Residual residual = [&](const VectorXd& p) {
@@ -116,7 +117,7 @@ std::optional<CylinderShape> fit_cylinder(const Samples& s) {
 std::optional<SphereShape> fit_sphere(const Samples& s) {
   Eigen::MatrixXd system(s.x.cols(), 4);
   system << 2 * s.x.transpose(), VectorXd::Ones(s.x.cols());
-  const VectorXd p = system.colPivHouseholderQr().solve(s.x.colwise().squaredNorm().transpose().eval());
+  const VectorXd p = least_squares(system, s.x.colwise().squaredNorm().transpose());
   const double radius = std::sqrt(std::max(p[3] + p.head<3>().squaredNorm(), 0.0));
   const VectorXd distance = (s.x.colwise() - p.head<3>()).colwise().norm().transpose();
   if (!s.fits(VectorXd(distance.array() - radius))) return {};
@@ -127,8 +128,7 @@ std::optional<ConeShape> fit_cone(const Samples& s) {
   // Normals are tangent to a cone about the axis; all tangent planes pass through the apex.
   Matrix3Xd n = s.n;
   Vector3d axis = least_eigenvector(covariance(n));
-  const Vector3d apex =
-      n.transpose().colPivHouseholderQr().solve((n.array() * s.x.array()).colwise().sum().transpose().matrix().eval());
+  const Vector3d apex = least_squares(n.transpose(), n.cwiseProduct(s.x).colwise().sum().transpose());
   if (heights(s.x, apex, axis).mean() < 0) axis = -axis;
   const Residual residual = [&](const VectorXd& p) {
     const Vector3d a = p.segment<3>(3).normalized();
@@ -149,7 +149,7 @@ std::optional<TorusShape> fit_torus(const Samples& s) {
   Eigen::MatrixXd system(s.x.cols(), 6);
   for (Eigen::Index i = 0; i < s.x.cols(); ++i)
     system.row(i) << s.x.col(i).cross(s.n.col(i)).transpose(), s.n.col(i).transpose();
-  const VectorXd line = Eigen::JacobiSVD<Eigen::MatrixXd>(system, Eigen::ComputeThinV).matrixV().col(5);
+  const VectorXd line = right_singular_vectors(system).vectors.col(5);
   const double length = line.head<3>().norm();
   if (length < 1e-6) return {};
   const Vector3d axis = line.head<3>() / length;
@@ -158,7 +158,7 @@ std::optional<TorusShape> fit_torus(const Samples& s) {
   const VectorXd rho = radii(s.x, point, axis), z = heights(s.x, point, axis);
   Eigen::MatrixXd circle(s.x.cols(), 3);
   circle << 2 * rho, 2 * z, VectorXd::Ones(s.x.cols());
-  const Vector3d c = circle.colPivHouseholderQr().solve((rho.array().square() + z.array().square()).matrix());
+  const Vector3d c = least_squares(circle, rho.cwiseAbs2() + z.cwiseAbs2());
   VectorXd start(8);
   start << point + c[1] * axis, axis, c[0], std::sqrt(std::max(c[2] + c[0] * c[0] + c[1] * c[1], 1e-6));
   const Residual residual = [&](const VectorXd& p) {

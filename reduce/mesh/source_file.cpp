@@ -104,4 +104,11 @@ SourceFile prepare_source(const MeshRequest& request, Progress& progress) {
   return source;
 }
 
+std::string crash_sentence(const SourceFile& source) {
+  const char* reading = "cannot be read: gmsh crashes on it, the file is damaged";
+  const char* meshing =
+      "cannot be read and meshed: gmsh crashes on it; where the file is sound, another mesh.size may help";
+  return fmt::format("'{}' {}", source.name, source.geometry ? meshing : reading);
+}
+
 }  // namespace bielle::reduce

@@ -28,4 +28,7 @@ struct SourceFile {
 /// @throws InputError when the file is missing, no file, empty, or cannot be converted; when the unit is none
 SourceFile prepare_source(const MeshRequest& request, Progress& progress);
 
+/// What to tell the user when gmsh crashes on it.
+std::string crash_sentence(const SourceFile& source);
+
 }  // namespace bielle::reduce

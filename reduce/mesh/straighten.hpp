@@ -14,8 +14,8 @@ struct Straightening {
 };
 
 /// Moves the mid-side nodes of every tet10 whose Jacobian is not surely positive to the middles of their edges, until
-/// no such element is left. Neighbours share the nodes: an element that the move spoils is straightened in turn, which
-/// ends because straight elements are sound.
+/// no such element is left. Neighbours share the nodes: an element that becomes invalid by the move is straightened in
+/// turn, which ends because straight elements are valid.
 /// @param mesh  its straight elements must have positive volume (check_elements); a mesh without tet10 is left alone
 Straightening straighten_elements(Mesh& mesh);
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "reduce/common/counted.hpp"
 #include "reduce/common/error.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
 #include "reduce/spectral/eigenpairs.hpp"
@@ -37,9 +38,9 @@ Eigenpairs fixed_boundary_modes(const NodeMatrix& mass, const HeldBody& held, co
   }
   if (modes.count.value_or(0) > held.size()) {
     throw InputError(
-        fmt::format("modes.count: {} fixed-boundary modes are asked for, but the mesh has only {} freedoms "
-                    "inside; refine it or ask for fewer",
-                    *modes.count, held.size()));
+        fmt::format("modes.count: {} {} asked for, but the mesh has only {} inside; refine it or ask for fewer",
+                    counted(*modes.count, "fixed-boundary mode"), *modes.count == 1 ? "is" : "are",
+                    counted(held.size(), "degree of freedom", "degrees of freedom")));
   }
   if (modes.count == 0 || held.size() == 0) {
     return {};
@@ -50,7 +51,7 @@ Eigenpairs fixed_boundary_modes(const NodeMatrix& mass, const HeldBody& held, co
   EigenpairOptions options;
   const double expected = 2.0 * modes.count.value_or(20) + 10;
   options.on_solve = [&](int solves) {
-    progress.update(std::min(0.99, solves / (1.5 * expected)), fmt::format("{} solutions", solves));
+    progress.update(std::min(0.99, solves / (1.5 * expected)), counted(solves, "solution"));
   };
   if (!modes.below) {
     return shift_invert_eigenpairs(problem, *modes.count, options);

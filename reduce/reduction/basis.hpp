@@ -2,6 +2,7 @@
 //
 // u = T q, T = [Psi Phi]: constraint modes Psi (one kept direction of an interface moved by one, the others held) and
 // fixed-boundary modes Phi, K_ii phi = omega^2 M_ii phi with every kept direction held, Phi^T M Phi = I.
+// Residual vectors may follow the modes (residual_vectors.hpp).
 // Rigid motions are put into Psi exactly: with A the rigid motion nearest to interface coordinates q_b, Psi q_b is the
 // rigid motion A q_b plus the solution for the rest q_b - U A q_b. (The factor of a slender body would leave errors of
 // 1e-9.) Reference: R. R. Craig, M. C. C. Bampton, AIAA J. 6 (1968) 1313.
@@ -26,8 +27,9 @@ struct LinearFields {
 struct Basis {
   RowMatrix shapes;             ///< T (3 points, n)
   Eigen::MatrixXd released;     ///< (released directions, n): their values in T
-  Eigen::VectorXd eigenvalues;  ///< omega^2 of Phi [rad^2/s^2]
-  Eigen::VectorXd residuals;    ///< of the eigenpairs, relative
+  Eigen::VectorXd eigenvalues;  ///< omega^2 of Phi, then of the residual vectors [rad^2/s^2]
+  Eigen::VectorXd residuals;    ///< of the eigenpairs, relative; residual vectors are none
+  Eigen::Index residual_vectors = 0;  ///< so many of the modes, the last ones
   LinearFields linear;
   int solves = 0;  ///< single solutions of the eigenvalue iteration
 

@@ -3,10 +3,13 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <fmt/format.h>
 
-#include "reduce/reduction/free_body.hpp"
+#include "reduce/common/error.hpp"
+#include "reduce/common/symmetric_eigenpairs.hpp"
+#include "reduce/reduction/basis.hpp"
+#include "reduce/reduction/geometric_checks.hpp"
 #include "reduce/reduction/reduced_matrices.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
 
@@ -14,30 +17,13 @@ namespace bielle::reduce {
 
 namespace {
 
-/// U in all n coordinates: rigid motions move no fixed-boundary mode.
-Eigen::MatrixXd rigid_coordinates(const Superelement& body, const Eigen::Vector3d& about) {
-  Eigen::MatrixXd u = Eigen::MatrixXd::Zero(body.size(), 6);
-  u.topRows(body.interface_directions()) = interface_rigid_motions(body.interfaces, about);
-  return u;
-}
-
-MassProperties properties_of(const Superelement& body) {
-  MassProperties result;
-  result.mass = body.total_mass;
-  result.centre = body.centre;
-  result.inertia = body.inertia;
-  return result;
-}
-
 void add_stiffness_checks(const Superelement& body, std::vector<Check>& checks) {
   const Eigen::MatrixXd u = rigid_coordinates(body, body.centre);
   checks.push_back({"rigid_motion_force", relative_force(body.stiffness, body.mass, u), 1e-12,
                     "rigid motions meet no force: |K~ U| in units of its terms"});
   // In coordinates of unit mass, so that amplitudes and displacements compare.
   const Eigen::VectorXd scale = body.mass.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::VectorXd values =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scale.asDiagonal() * body.stiffness * scale.asDiagonal())
-          .eigenvalues();
+  const Eigen::VectorXd values = symmetric_eigenpairs(scale.asDiagonal() * body.stiffness * scale.asDiagonal()).values;
   checks.push_back({"negative_energy", std::max(0.0, -values.minCoeff()) / std::max(values.maxCoeff(), 1e-300), 1e-9,
                     "no deformation releases energy: least eigenvalue of K~ over the largest"});
 }
@@ -45,7 +31,7 @@ void add_stiffness_checks(const Superelement& body, std::vector<Check>& checks) 
 void add_mass_checks(const Superelement& body, std::vector<Check>& checks) {
   const ReducedMassProperties reduced = reduced_mass_properties(body);
   checks.push_back({"mass_error", std::abs(reduced.mass / body.total_mass - 1), 1e-10, "mass of M~ against the mesh"});
-  checks.push_back({"centre_error", (reduced.centre - body.centre).norm() / radius_of_gyration(properties_of(body)),
+  checks.push_back({"centre_error", (reduced.centre - body.centre).norm() / radius_of_gyration(mass_properties(body)),
                     1e-10, "centre of mass of M~ against the mesh, in radii of gyration"});
   checks.push_back({"inertia_error", (reduced.inertia - body.inertia).norm() / body.inertia.norm(), 1e-10,
                     "inertia of M~ against the mesh"});
@@ -65,7 +51,7 @@ void add_mass_checks(const Superelement& body, std::vector<Check>& checks) {
 void add_recovery_checks(const Superelement& body, std::vector<Check>& checks) {
   const Eigen::MatrixXd u = rigid_coordinates(body, body.centre);
   if (body.displacement_recovery.size() > 0) {
-    const double length = radius_of_gyration(properties_of(body));
+    const double length = radius_of_gyration(mass_properties(body));
     const Eigen::VectorXd scale = (Eigen::VectorXd(6) << 1, 1, 1, 1 / length, 1 / length, 1 / length).finished();
     const Eigen::MatrixXd error =
         body.displacement_recovery * u - Eigen::MatrixXd(rigid_motions(body.mesh.points, body.centre));
@@ -85,35 +71,32 @@ void add_recovery_checks(const Superelement& body, std::vector<Check>& checks) {
   }
 }
 
-/// Energy of the geometric stiffness in rigid translations (none) and rotations: tr(Q) I - sym(Q).
-void add_geometric_checks(const Superelement& body, std::vector<Check>& checks) {
-  if (body.spin_stiffness[0].size() == 0) {
-    return;
-  }
-  const Eigen::MatrixXd u = rigid_coordinates(body, body.centre);
-  const std::vector<Eigen::Matrix3d> virial = virials(body.interfaces, properties_of(body));
-  const double length = radius_of_gyration(properties_of(body));
-  double spin = 0, load = 0;
-  for (std::size_t field = 0; field < 6 + body.load_stiffness.size(); ++field) {
-    const bool is_spin = field < 6;
-    const Eigen::MatrixXd& k = is_spin ? body.spin_stiffness[field] : body.load_stiffness[field - 6];
-    const Eigen::Matrix3d& q = virial[field];
-    Eigen::Matrix<double, 6, 6> expected = Eigen::Matrix<double, 6, 6>::Zero();
-    expected.bottomRightCorner<3, 3>() = q.trace() * Eigen::Matrix3d::Identity() - (q + q.transpose()) / 2;
-    Eigen::Matrix<double, 6, 6> error = u.transpose() * k * u - expected;
-    error.topRows<3>() *= length;
-    error.leftCols<3>() *= length;
-    // In units of what such a load does to a body of this size: m l^2 for spins, l for forces, 1 for moments.
-    const double unit = is_spin ? body.total_mass * length * length : std::max(1.0, length);
-    (is_spin ? spin : load) = std::max(is_spin ? spin : load, error.cwiseAbs().maxCoeff() / unit);
-  }
-  checks.push_back({"spin_stiffness_virial", spin, 1e-6, "geometric stiffness of spins under rigid rotations"});
-  if (!body.load_stiffness.empty()) {
-    checks.push_back({"load_stiffness_virial", load, 1e-6, "geometric stiffness of loads under rigid rotations"});
-  }
+}  // namespace
+
+/// U in all n coordinates: rigid motions move no fixed-boundary mode.
+Eigen::MatrixXd rigid_coordinates(const Superelement& body, const Eigen::Vector3d& about) {
+  Eigen::MatrixXd u = Eigen::MatrixXd::Zero(body.size(), 6);
+  u.topRows(body.interface_directions()) = interface_rigid_motions(body.interfaces, about);
+  return u;
 }
 
-}  // namespace
+MassProperties mass_properties(const Superelement& body) {
+  MassProperties result;
+  result.mass = body.total_mass;
+  result.centre = body.centre;
+  result.inertia = body.inertia;
+  return result;
+}
+
+void fail_when_a_check_does(const std::vector<Check>& checks, const std::string& what) {
+  for (const Check& check : checks) {
+    if (!check.passed()) {
+      throw ComputationError(fmt::format("{} fails a check: {} is {:.2e}, at most {:.0e} is right; a very slender or "
+                                         "distorted mesh may be the cause",
+                                         what, check.meaning, check.value, check.limit));
+    }
+  }
+}
 
 double relative_force(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass, const Eigen::MatrixXd& motions) {
   // In coordinates of unit mass, so that amplitudes, displacements and angles compare.

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "reduce/fe/solid.hpp"
 #include "reduce/superelement/superelement.hpp"
 
 namespace bielle::reduce {
@@ -18,6 +19,9 @@ struct Check {
   bool passed() const { return value <= limit; }
 };
 
+/// @param what  "the reduced body" @throws ComputationError when a check failed
+void fail_when_a_check_does(const std::vector<Check>& checks, const std::string& what);
+
 /// All checks of a superelement: rigid motions in the kernel of K~, positive energy, mass properties of M~ against
 /// those of the mesh, the inertia components, normalised modes, recovery of rigid motions without stress, and the
 /// geometric stiffness under rigid rotations against the virial of loads and inertia.
@@ -26,6 +30,11 @@ std::vector<Check> check_superelement(const Superelement& body);
 /// Largest force (K u)_i of some motions u in units of sqrt(K_ii) max_j sqrt(K_jj) max_j |u_j|, what it would be
 /// without cancellation, coordinates being scaled to unit mass. @param mass  for that scale only
 double relative_force(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass, const Eigen::MatrixXd& motions);
+
+/// U in all n coordinates (n,6), rotations about a point: rigid motions move no fixed-boundary mode.
+Eigen::MatrixXd rigid_coordinates(const Superelement& body, const Eigen::Vector3d& about);
+/// As integrated on the mesh.
+MassProperties mass_properties(const Superelement& body);
 
 /// Mass, centre and inertia that M~ gives to rigid motions U: entries of U^T M~ U.
 struct ReducedMassProperties {

@@ -10,9 +10,7 @@
 // solved in the complement of the rigid motions. Clamped interfaces instead would count reactions twice.
 //
 // The geometric stiffness of the stress sigma of u0 is T^T (g (x) I3) T, g_ab = int grad N_a . sigma grad N_b dV, plus
-// the second-order displacements of tied surfaces. With theta the interface's rotation (body axes), per interface:
-//     rigid     sym(N) - tr(N) I,  N = sum over nodes f_s (X_s - X)^T,  f_s the force of the tie on node s
-//     average   tr(F a^T) I - sym(F a^T) + sym(w~ S),  a = X - X_c,  w = J_A^-1 (M + a x F),  S = int r r^T dA
+// the second-order displacements of tied surfaces, see tie_second_order.hpp.
 // With these terms the energy is that of an interface that turns through finite angles: for a rigid rotation theta
 // about c it is (theta^T [tr(Q) I - sym(Q)] theta) / 2, Q = sum F (X - c)^T - int rho a r^T dV, without any reference
 // to stresses; this identity is one of the stored checks. (At second order only; in the moment's work theta is the
@@ -29,6 +27,7 @@ namespace bielle::reduce {
 struct GeometricStiffness {
   std::array<Eigen::MatrixXd, 6> spin;  ///< per unit Om_k Om_l: 11 22 33 23 13 12 [K~ s^2]
   std::vector<Eigen::MatrixXd> load;    ///< per unit load of each kept direction [K~/N, K~/(N m)]
+  std::vector<Eigen::MatrixXd> rotations;  ///< of each interface's surface, body axes (3,n); zero for free ties
 };
 
 /// Q of the head comment for each spin field, then each kept direction: what `theta^T [tr(Q) I - sym(Q)] theta` needs.

@@ -5,11 +5,10 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <fmt/format.h>
 
 #include "reduce/common/error.hpp"
+#include "reduce/common/orthogonal_factors.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
 
 namespace bielle::reduce {
@@ -40,10 +39,10 @@ Eigen::MatrixXd null_space(const Eigen::MatrixXd& a) {
   if (a.rows() == 0) {
     return Eigen::MatrixXd::Identity(a.cols(), a.cols());
   }
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeFullV);
+  const RightSingularVectors svd = right_singular_vectors(a);
   const double scale = std::sqrt(static_cast<double>(a.rows()));  // a column of ones has this norm
-  const Eigen::Index rank = (svd.singularValues().array() > free_motion * scale).count();
-  return svd.matrixV().rightCols(a.cols() - rank);
+  const Eigen::Index rank = (svd.values.array() > free_motion * scale).count();
+  return svd.vectors.rightCols(a.cols() - rank);
 }
 
 }  // namespace
@@ -142,8 +141,8 @@ void HeldBody::choose_supports() {
   if (r > 0) {
     // Pivoted columns of N^T: freedoms of points far apart, in which the motions differ most.
     const Eigen::Index count = static_cast<Eigen::Index>(free_.size());
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rigid_.topRows(count).transpose());
-    supports_.assign(qr.colsPermutation().indices().data(), qr.colsPermutation().indices().data() + r);
+    supports_ = pivoted_columns(rigid_.topRows(count).transpose());
+    supports_.resize(static_cast<std::size_t>(r));
     std::sort(supports_.begin(), supports_.end());
   }
   std::vector<Eigen::Index> all(size_);

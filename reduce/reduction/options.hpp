@@ -37,6 +37,16 @@ struct LoadRequest {
   std::optional<Eigen::Vector3d> traction;  ///< [Pa], body axes; or
   std::optional<Eigen::Vector3d> force;     ///< total [N], spread evenly over the area
   std::string located;
+  bool residual = false;  ///< whether its static answer is to be exact, by residual vectors
+};
+
+/// A point inside that gets a name: the mean of a surface, or a place in the mesh.
+struct PointRequest {
+  std::string name;
+  std::string group;                        ///< surface group that it follows; empty: the mesh around `position`
+  std::optional<Eigen::Vector3d> position;  ///< [m]; default: centroid of the surface (area-weighted)
+  std::array<bool, 6> residual{};           ///< loads x y z rx ry rz, body axes, that get residual vectors
+  std::string located;
 };
 
 enum class RecoveryExtent { none, surface, all };
@@ -55,6 +65,7 @@ struct ReductionOptions {
   std::vector<double> damping_ratios;
   std::optional<std::array<double, 2>> rayleigh;  ///< alpha [1/s] on M~, beta [s] on K~
   std::vector<LoadRequest> loads;
+  std::vector<PointRequest> points;
   RecoveryExtent displacement_recovery = RecoveryExtent::all;
   RecoveryExtent stress_recovery = RecoveryExtent::surface;
 };

@@ -1,47 +1,15 @@
 #include "reduce/reduction/recovery.hpp"
 
 #include <numeric>
-
-#include <fmt/format.h>
+#include <set>
 
 #include "reduce/common/error.hpp"
 #include "reduce/fe/stress.hpp"
-#include "reduce/fe/surface.hpp"
 #include "reduce/mesh/faces.hpp"
 
 namespace bielle::reduce {
 
 namespace {
-
-void check_on_boundary(const Mesh& mesh, const LoadRequest& request) {
-  const FaceTable faces(mesh);
-  for (const GroupPart& part : mesh.groups.at(request.group).parts) {
-    const Eigen::MatrixXi& nodes = mesh.block(part.type)->nodes;
-    for (const int cell : part.cells) {
-      const auto face = faces.find({nodes(0, cell), nodes(1, cell), nodes(2, cell)});
-      if (!face || !faces.on_boundary(*face)) {
-        throw InputError(
-            fmt::format("{}: surface '{}' has faces inside the body, on which a pressure has no direction; "
-                        "give a traction or a force",
-                        request.located, request.group));
-      }
-    }
-  }
-}
-
-Eigen::Matrix3Xd nodal_forces(const Mesh& mesh, const SurfaceIntegrals& surface, const LoadRequest& request) {
-  if (request.pressure) {
-    check_on_boundary(mesh, request);
-    return pressure_forces(surface, *request.pressure);
-  }
-  if (request.traction) {
-    return traction_forces(surface, *request.traction);
-  }
-  if (request.force) {
-    return spread_force(surface, *request.force);
-  }
-  throw InputError(fmt::format("{}: a load needs a pressure, a traction or a force", request.located));
-}
 
 /// The mesh as the superelement keeps it: all of it, or its skin with points numbered anew.
 SuperelementMesh kept_mesh(const Solid& solid, const std::vector<int>& points, bool skin) {
@@ -75,34 +43,41 @@ SuperelementMesh kept_mesh(const Solid& solid, const std::vector<int>& points, b
   return result;
 }
 
-}  // namespace
-
-std::map<std::string, LoadPattern> reduce_loads(const Solid& solid, const std::vector<LoadRequest>& requests,
-                                                const RowMatrix& shapes) {
-  std::map<std::string, LoadPattern> result;
-  for (const LoadRequest& request : requests) {
-    SurfaceIntegrals surface;
-    try {
-      surface = integrate_surface(solid.mesh, request.group);
-    } catch (const InputError& error) {
-      throw InputError(fmt::format("{}: {}", request.located, error.what()));
-    }
-    const Eigen::Matrix3Xd forces = nodal_forces(solid.mesh, surface, request);
-    LoadPattern pattern;
-    for (auto& force : pattern.force) {
-      force = Eigen::Matrix3Xd::Zero(3, shapes.cols());
-    }
-    for (std::size_t a = 0; a < surface.nodes.size(); ++a) {
-      for (int k = 0; k < 3; ++k) {
-        pattern.force[k] += forces(k, static_cast<Eigen::Index>(a)) * shapes.middleRows<3>(3 * surface.nodes[a]);
+/// Of which material, and in which volume groups, the stress at nodes is. A node on the boundary of two materials
+/// belongs to the groups of the one whose stress it has.
+StressOrigin stress_origin(const Solid& solid, const std::map<std::string, Material>& materials,
+                           const std::vector<int>& nodes) {
+  StressOrigin result;
+  for (const auto& [name, material] : materials) {  // in the order of Solid::materials
+    result.materials.push_back({name, material.elasticity});
+  }
+  result.material_of = nodal_materials(solid, nodes);
+  std::vector<int> row_of(solid.points(), -1);
+  for (std::size_t row = 0; row < nodes.size(); ++row) {
+    row_of[nodes[row]] = static_cast<int>(row);
+  }
+  for (const auto& [name, group] : solid.mesh.groups) {
+    std::set<int> rows;
+    for (const GroupPart& part : group.parts) {
+      if (part.type != solid.type) {
+        continue;
+      }
+      for (const int cell : part.cells) {
+        for (const int node : solid.nodes.col(cell)) {
+          if (const int row = row_of[node]; row >= 0 && result.material_of[row] == solid.material_of[cell]) {
+            rows.insert(row);
+          }
+        }
       }
     }
-    if (!result.emplace(request.name, std::move(pattern)).second) {
-      throw InputError(fmt::format("{}: there are two loads '{}'", request.located, request.name));
+    if (!rows.empty()) {
+      result.groups[name] = {rows.begin(), rows.end()};
     }
   }
   return result;
 }
+
+}  // namespace
 
 void add_recovery(const Solid& solid, const ReductionOptions& options, const RowMatrix& shapes, int threads,
                   Superelement& result) {
@@ -137,6 +112,7 @@ void add_recovery(const Solid& solid, const ReductionOptions& options, const Row
     }
   }
   result.stress_recovery = nodal_stress(solid, shapes, nodes, threads);
+  result.stress_origin = stress_origin(solid, options.materials, nodes);
   result.stress_nodes = nodes;
   if (skin) {
     std::iota(result.stress_nodes.begin(), result.stress_nodes.end(), 0);

@@ -11,8 +11,11 @@
 #include "reduce/mesh/place.hpp"
 #include "reduce/reduction/basis.hpp"
 #include "reduce/reduction/free_body.hpp"
+#include "reduce/reduction/load_patterns.hpp"
+#include "reduce/reduction/point_ties.hpp"
 #include "reduce/reduction/recovery.hpp"
 #include "reduce/reduction/reduced_matrices.hpp"
+#include "reduce/reduction/residual_vectors.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
 
 namespace bielle::reduce {
@@ -91,15 +94,43 @@ void warn_about_size(Eigen::Index coordinates, Progress& progress) {
   }
 }
 
-void fail_when_a_check_does(const std::vector<Check>& checks) {
-  for (const Check& check : checks) {
-    if (!check.passed()) {
-      throw ComputationError(
-          fmt::format("the reduced body fails a check: {} is {:.2e}, at most {:.0e} is right; a very slender "
-                      "or distorted mesh may be the cause",
-                      check.meaning, check.value, check.limit));
-    }
+/// A superelement without its matrices: names, interfaces, frequencies and mass properties.
+Superelement described_body(const ReductionOptions& options, const MassProperties& properties, const Ties& ties,
+                            const Basis& basis) {
+  Superelement body;
+  body.name = options.name;
+  body.created_by = "bielle-reduce " BIELLE_VERSION;
+  body.input = options.input_text;
+  body.interfaces = ties.interfaces;
+  body.frequencies = basis.eigenvalues.cwiseSqrt() / (2 * std::numbers::pi);
+  body.residual_vectors = basis.residual_vectors;
+  body.total_mass = properties.mass;
+  body.centre = properties.centre;
+  body.inertia = properties.inertia;
+  return body;
+}
+
+Eigen::MatrixXd damping_matrix(const ReductionOptions& options, const Superelement& body) {
+  if (options.rayleigh) return (*options.rayleigh)[0] * body.mass + (*options.rayleigh)[1] * body.stiffness;
+  Eigen::MatrixXd rigid = Eigen::MatrixXd::Zero(body.size(), 6);
+  rigid.topRows(body.interface_directions()) = interface_rigid_motions(body.interfaces, body.centre);
+  return modal_damping(free_modes(body.stiffness, body.mass, rigid), body.mass, options.damping_ratios);
+}
+
+/// Those of every superelement, and those that only the mesh can tell.
+std::vector<Check> check_reduction(const Superelement& body, const ReducedStiffness& reduced, const Basis& basis) {
+  std::vector<Check> checks = check_superelement(body);
+  checks.push_back({"rigid_motion_force_on_mesh", reduced.rigid_force, 1e-4,
+                    "rigid motions meet no force: Psi^T K U as the mesh gives it"});
+  checks.push_back(
+      {"stiffness_coupling", reduced.coupling, 1e-4, "constraint modes and fixed-boundary modes do not couple"});
+  if (basis.modes() > 0) {
+    checks.push_back({"mode_stiffness", reduced.mode_stiffness, 1e-4, "energy of the modes against their frequencies"});
   }
+  if (basis.residuals.size() > 0) {
+    checks.push_back({"mode_residual", basis.residuals.maxCoeff(), 1e-6, "residual of the fixed-boundary modes"});
+  }
+  return checks;
 }
 
 /// What `work` returns; an InputError from it gets the line of the section of the body file in front.
@@ -119,6 +150,8 @@ Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Prog
       in_section(options, "regions", [&] { return make_solid(mesh, options.materials, options.regions); });
   const MassProperties properties = mass_properties(solid);
   const Ties ties = make_ties(solid, options.interfaces);
+  const std::vector<TiedPoint> points = tie_points(solid, options.points, options.name);
+  const std::vector<ResidualRequest> residual = residual_requests(solid, options.loads, points);
   warn_about_rigid_ties(ties, progress);
   warn_about_size(static_cast<Eigen::Index>(ties.kept.size()) + options.mode_count.value_or(0), progress);
   const NodeGraph graph = node_graph(solid.nodes, solid.points(), threads);
@@ -127,38 +160,30 @@ Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Prog
 
   progress.start("factorisation");
   const HeldBody held(solid, stiffness, ties, threads);
-  const Basis basis = in_section(options, "modes", [&] {
+  Basis basis = in_section(options, "modes", [&] {
     return make_basis(solid, stiffness, mass, ties, held, properties, {options.mode_count, options.modes_below},
                       progress, threads);
   });
+  if (!residual.empty()) {
+    progress.start("residual vectors");
+    add_residual_vectors(residual, stiffness, mass, held, threads, basis);
+  }
 
   progress.start("reduced matrices");
-  Superelement body;
-  body.name = options.name;
-  body.created_by = "bielle-reduce " BIELLE_VERSION;
-  body.input = options.input_text;
-  body.interfaces = ties.interfaces;
-  body.frequencies = basis.eigenvalues.cwiseSqrt() / (2 * std::numbers::pi);
-  body.total_mass = properties.mass;
-  body.centre = properties.centre;
-  body.inertia = properties.inertia;
+  Superelement body = described_body(options, properties, ties, basis);
   body.inertia_components = inertia_components(basis.shapes, mass, threads);
   body.mass = body.inertia_components[0] + body.inertia_components[1] + body.inertia_components[2];
   const ReducedStiffness reduced = reduce_stiffness(stiffness, basis, ties.interfaces, properties, body.mass, threads);
   body.stiffness = reduced.matrix;
   body.effective_mass = effective_masses(body);
-  Eigen::MatrixXd rigid = Eigen::MatrixXd::Zero(body.size(), 6);
-  rigid.topRows(basis.kept()) = interface_rigid_motions(body.interfaces, body.centre);
-  body.damping = in_section(options, "damping", [&]() -> Eigen::MatrixXd {
-    if (options.rayleigh) return (*options.rayleigh)[0] * body.mass + (*options.rayleigh)[1] * body.stiffness;
-    return modal_damping(free_modes(body.stiffness, body.mass, rigid), body.mass, options.damping_ratios);
-  });
+  body.damping = in_section(options, "damping", [&] { return damping_matrix(options, body); });
 
   progress.start("geometric stiffness");
   GeometricStiffness geometric = geometric_stiffness(solid, graph, stiffness, ties, basis, properties, body.stiffness,
                                                      basis.kept() <= most_load_stiffnesses, progress, threads);
   body.spin_stiffness = std::move(geometric.spin);
   body.load_stiffness = std::move(geometric.load);
+  body.surface_rotations = std::move(geometric.rotations);
   if (body.load_stiffness.empty()) {
     progress.note(
         fmt::format("{} kept directions are more than {}: the geometric stiffness of interface loads is left out, "
@@ -168,23 +193,16 @@ Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Prog
 
   progress.start("loads and recovery");
   body.loads = reduce_loads(solid, options.loads, basis.shapes);
+  body.points = named_points(points, basis.shapes);
   add_recovery(solid, options, basis.shapes, threads, body);
 
   progress.start("checks");
-  std::vector<Check> checks = check_superelement(body);
-  checks.push_back({"rigid_motion_force_on_mesh", reduced.rigid_force, 1e-4,
-                    "rigid motions meet no force: Psi^T K U as the mesh gives it"});
-  checks.push_back(
-      {"stiffness_coupling", reduced.coupling, 1e-4, "constraint modes and fixed-boundary modes do not couple"});
-  if (basis.modes() > 0) {
-    checks.push_back({"mode_stiffness", reduced.mode_stiffness, 1e-4, "energy of the modes against their frequencies"});
-    checks.push_back({"mode_residual", basis.residuals.maxCoeff(), 1e-6, "residual of the fixed-boundary modes"});
-  }
+  const std::vector<Check> checks = check_reduction(body, reduced, basis);
   for (const Check& check : checks) {
     body.checks[check.name] = check.value;
   }
   progress.finish();
-  fail_when_a_check_does(checks);
+  fail_when_a_check_does(checks, "the reduced body");
   if (report) {
     *report = {mesh.point_count(), solid.cells(), held.statistics(), basis.solves, checks};
   }

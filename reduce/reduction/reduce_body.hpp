@@ -1,4 +1,4 @@
-// The reduction: from a mesh and the user's wishes to a superelement.
+// The reduction: from a mesh and the user's requests to a superelement.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@
 
 namespace bielle::reduce {
 
-/// What a reduction did beside its result.
+/// What a reduction reports in addition to its result.
 struct ReductionReport {
   Eigen::Index points = 0, cells = 0;
   FactorStatistics factor;
@@ -29,7 +29,8 @@ struct ReductionReport {
 /// @param progress  shows the phases; gets warnings
 /// @param threads   >= 1
 /// @param report    filled when given
-/// @throws InputError for wishes that do not fit the mesh (with the place in the input file), ComputationError when the
+/// @throws InputError for requests that do not fit the mesh (with the place in the input file), ComputationError when
+/// the
 ///         computation fails or a check does
 Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Progress& progress, int threads = 1,
                          ReductionReport* report = nullptr);

@@ -1,11 +1,11 @@
 #include "reduce/reduction/reduced_matrices.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <fmt/format.h>
 
+#include "reduce/common/counted.hpp"
 #include "reduce/common/error.hpp"
+#include "reduce/common/orthogonal_factors.hpp"
+#include "reduce/common/symmetric_eigenpairs.hpp"
 #include "reduce/spectral/blas.hpp"
 
 namespace bielle::reduce {
@@ -53,8 +53,7 @@ FreeModes free_modes(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& ma
   Eigen::MatrixXd complement = Eigen::MatrixXd::Identity(n, n);
   if (r > 0) {
     const Eigen::MatrixXd momenta = m * u;
-    complement = Eigen::HouseholderQR<Eigen::MatrixXd>(momenta).householderQ();
-    complement = Eigen::MatrixXd(complement.rightCols(n - r));
+    complement = orthogonal_basis(momenta).rightCols(n - r);
   }
   FreeModes result;
   if (complement.cols() == 0) {
@@ -64,14 +63,13 @@ FreeModes free_modes(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& ma
   }
   const Eigen::MatrixXd reduced_mass = complement.transpose() * m * complement;
   const Eigen::MatrixXd reduced_stiffness = complement.transpose() * k * complement;
-  const Eigen::LLT<Eigen::MatrixXd> cholesky((reduced_mass + reduced_mass.transpose()) / 2);
-  if (!scale.allFinite() || cholesky.info() != Eigen::Success) {
+  const auto modes = symmetric_eigenpairs((reduced_stiffness + reduced_stiffness.transpose()) / 2,
+                                          (reduced_mass + reduced_mass.transpose()) / 2);
+  if (!scale.allFinite() || !modes) {
     throw ComputationError("the mass matrix of the reduced body is not positive definite");
   }
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-      (reduced_stiffness + reduced_stiffness.transpose()) / 2, (reduced_mass + reduced_mass.transpose()) / 2);
-  result.omega = eigen.eigenvalues().cwiseMax(0).cwiseSqrt();
-  result.vectors = scale.asDiagonal() * complement * eigen.eigenvectors();
+  result.omega = modes->values.cwiseMax(0).cwiseSqrt();
+  result.vectors = scale.asDiagonal() * complement * modes->vectors;
   return result;
 }
 
@@ -81,8 +79,8 @@ Eigen::MatrixXd modal_damping(const FreeModes& modes, const Eigen::MatrixXd& mas
   }
   const Eigen::Index elastic = modes.omega.size();
   if (static_cast<Eigen::Index>(ratios.size()) > std::max<Eigen::Index>(elastic, 1)) {
-    throw InputError(
-        fmt::format("damping.ratio: {} values for a reduced body with {} elastic modes", ratios.size(), elastic));
+    throw InputError(fmt::format("damping.ratio: {} for a reduced body with {}", counted(ratios.size(), "value"),
+                                 counted(elastic, "elastic mode")));
   }
   Eigen::VectorXd coefficients(elastic);
   for (Eigen::Index k = 0; k < elastic; ++k) {

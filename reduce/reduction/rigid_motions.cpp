@@ -1,6 +1,6 @@
 #include "reduce/reduction/rigid_motions.hpp"
 
-#include <Eigen/QR>
+#include "reduce/common/orthogonal_factors.hpp"
 
 namespace bielle::reduce {
 
@@ -55,7 +55,7 @@ Eigen::MatrixXd nearest_rigid_motion(const std::vector<Interface>& interfaces, c
   Eigen::VectorXd scale = Eigen::VectorXd::Ones(6);
   scale.tail<3>().setConstant(1 / length);
   const Eigen::MatrixXd scaled = row_scale.asDiagonal() * u * scale.asDiagonal();
-  return scale.asDiagonal() * scaled.completeOrthogonalDecomposition().pseudoInverse() * row_scale.asDiagonal();
+  return scale.asDiagonal() * pseudo_inverse(scaled) * row_scale.asDiagonal();
 }
 
 }  // namespace bielle::reduce

@@ -6,7 +6,9 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
+#include "reduce/common/counted.hpp"
 #include "reduce/common/error.hpp"
+#include "reduce/mesh/place.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
 
 namespace bielle::reduce {
@@ -58,12 +60,11 @@ class Claims {
       }
     }
     if (shared > 0) {
-      throw InputError(
-          fmt::format("{}: surface '{}' shares {} point{} with interface '{}', the first at {}; interfaces must not "
-                      "touch, leave a row "
-                      "of elements between them",
-                      requests[request].located, requests[request].group, shared, shared == 1 ? "" : "s",
-                      requests[with].name, place(solid_.mesh.points.col(first))));
+      throw InputError(fmt::format(
+          "{}: surface '{}' shares {} with interface '{}', the first at {}; interfaces must not touch, leave a row "
+          "of elements between them",
+          requests[request].located, requests[request].group, counted(shared, "point"), requests[with].name,
+          place(solid_.mesh.points.col(first))));
     }
   }
 
@@ -73,22 +74,98 @@ class Claims {
   std::vector<int> owner_;
 };
 
-/// An arm of a hundred times the body makes its matrices worthless, and is a slip in the unit.
-void check_position(const InterfaceRequest& request, const SurfaceIntegrals& surface, const Mesh& mesh) {
-  const double size = (mesh.points.rowwise().maxCoeff() - mesh.points.rowwise().minCoeff()).norm();
-  const double arm = request.position ? (*request.position - surface.centroid).norm() : 0;
-  if (arm > 100 * size) {
-    throw InputError(
-        fmt::format("{}: its position is {:.3g} m from its surface, which is more than a hundred times the body's size "
-                    "of {:.3g} m; "
-                    "positions are in metres",
-                    request.located, arm, size));
+/// Gathers the ties of all interfaces, one request after the other.
+class TieBuilder {
+ public:
+  explicit TieBuilder(const Solid& solid) : solid_(solid) { ties_.tied.assign(solid.points(), false); }
+
+  /// @param surface  of the request
+  void add(const InterfaceRequest& request, const SurfaceIntegrals& surface) {
+    std::array<bool, 6> directions = request.kept;
+    if (request.tie == Tie::free) {
+      std::fill(directions.begin() + 3, directions.end(), false);
+    }
+    if (std::none_of(directions.begin(), directions.end(), [](bool keep) { return keep; })) {
+      throw InputError(fmt::format("{}: no direction of the interface is kept", request.located));
+    }
+    if (request.tie != Tie::free) {
+      add_interface(request, {request.name, request.position.value_or(surface.centroid), request.rotation, directions},
+                    surface, surface.nodes);
+      return;
+    }
+    for (const int node : surface.nodes) {
+      add_interface(
+          request,
+          {fmt::format("{}_{}", request.name, node), solid_.mesh.points.col(node), request.rotation, directions},
+          surface, {node});
+    }
   }
+
+  Ties build() {
+    const Eigen::Index rows = 3 * solid_.points();
+    ties_.carry_kept = sparse(rows, static_cast<Eigen::Index>(ties_.kept.size()), kept_);
+    ties_.carry_released = sparse(rows, static_cast<Eigen::Index>(ties_.released.size()), released_);
+    ties_.spread = sparse(rows, static_cast<Eigen::Index>(ties_.averages.size()), spread_);
+    return std::move(ties_);
+  }
+
+ private:
+  void add_interface(const InterfaceRequest& request, Interface interface, const SurfaceIntegrals& surface,
+                     std::vector<int> nodes) {
+    if (!names_.insert(interface.name).second) {
+      throw InputError(fmt::format("{}: there are two interfaces '{}'", request.located, interface.name));
+    }
+    const int number = static_cast<int>(ties_.interfaces.size());
+    for (int axis = 0; axis < (request.tie == Tie::free ? 3 : 6); ++axis) {
+      const bool is_kept = interface.kept[axis];
+      if (request.tie != Tie::average) {
+        carry(interface, axis, nodes);
+      } else if (is_kept) {
+        spread_over(nodes, spread_unit_load(surface, interface, axis));
+      }
+      if (is_kept) {
+        ties_.kept.push_back({number, axis});
+      } else if (request.tie != Tie::average) {
+        ties_.released.push_back({number, axis});
+      }
+    }
+    ties_.interfaces.push_back(std::move(interface));
+    ties_.surfaces.push_back(
+        {request.tie, std::move(nodes), request.tie == Tie::free ? SurfaceIntegrals{} : surface, request.located});
+  }
+
+  /// The nodes move with a direction of the interface: one that is kept, or one that is released.
+  void carry(const Interface& interface, int axis, const std::vector<int>& nodes) {
+    const bool is_kept = interface.kept[axis];
+    for (const int node : nodes) {
+      add_column(is_kept ? kept_ : released_, node, is_kept ? ties_.kept.size() : ties_.released.size(),
+                 carried(interface, axis, solid_.mesh.points.col(node)));
+      ties_.tied[node] = true;
+    }
+  }
+
+  /// @param load  of each node, for the kept direction that comes next
+  void spread_over(const std::vector<int>& nodes, const Eigen::Matrix3Xd& load) {
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      add_column(spread_, nodes[k], ties_.averages.size(), load.col(static_cast<Eigen::Index>(k)));
+    }
+    ties_.averages.push_back(static_cast<int>(ties_.kept.size()));
+  }
+
+  const Solid& solid_;
+  Ties ties_;
+  std::set<std::string> names_;
+  Triplets kept_, released_, spread_;
+};
+
+}  // namespace
+
+Eigen::Matrix3d polar_moment(const SurfaceIntegrals& surface) {
+  return surface.second_moment.trace() * Eigen::Matrix3d::Identity() - surface.second_moment;
 }
 
-/// C^T of an average tie for one direction of the interface: the force that each node of the surface gets from a unit
-/// load. Force F on X acts as F on the centroid and the moment (X - X_c) x F; a moment is spread as J^-1 M x r.
 Eigen::Matrix3Xd spread_unit_load(const SurfaceIntegrals& surface, const Interface& interface, int axis) {
+  // Force F on X acts as F on the centroid and the moment (X - X_c) x F; a moment is spread as J^-1 M x r.
   const Eigen::Vector3d direction = interface.rotation.col(axis % 3);
   const Eigen::Vector3d force = axis < 3 ? direction : Eigen::Vector3d::Zero();
   const Eigen::Vector3d moment =
@@ -97,92 +174,36 @@ Eigen::Matrix3Xd spread_unit_load(const SurfaceIntegrals& surface, const Interfa
          skew(polar_moment(surface).inverse() * moment) * surface.first_moments;
 }
 
-}  // namespace
-
-Eigen::Matrix3d polar_moment(const SurfaceIntegrals& surface) {
-  return surface.second_moment.trace() * Eigen::Matrix3d::Identity() - surface.second_moment;
+void check_position(const std::optional<Eigen::Vector3d>& position, const SurfaceIntegrals& surface, const Mesh& mesh) {
+  const double size = (mesh.points.rowwise().maxCoeff() - mesh.points.rowwise().minCoeff()).norm();
+  const double arm = position ? (*position - surface.centroid).norm() : 0;
+  if (arm > 100 * size) {
+    throw InputError(fmt::format(
+        "its position is {:.3g} m from its surface, which is more than a hundred times the body's size of {:.3g} m; "
+        "positions are in metres",
+        arm, size));
+  }
 }
 
 Ties make_ties(const Solid& solid, const std::vector<InterfaceRequest>& requests) {
   if (requests.empty()) {
     throw InputError(
         "interfaces: there is none, and a mechanism moves a body by its interfaces; one with 'tie: average' on any "
-        "surface "
-        "leaves the body free");
+        "surface leaves the body free");
   }
-  Ties ties;
-  ties.tied.assign(solid.points(), false);
+  TieBuilder ties(solid);
   Claims claims(solid);
-  std::set<std::string> names;
-  Triplets kept, released, spread;
-  const auto add_interface = [&](const InterfaceRequest& request, Interface interface, const SurfaceIntegrals& surface,
-                                 std::vector<int> nodes) {
-    if (!names.insert(interface.name).second) {
-      throw InputError(fmt::format("{}: there are two interfaces '{}'", request.located, interface.name));
-    }
-    const int number = static_cast<int>(ties.interfaces.size());
-    for (int axis = 0; axis < (request.tie == Tie::free ? 3 : 6); ++axis) {
-      const bool is_kept = interface.kept[axis];
-      if (request.tie == Tie::average) {
-        if (is_kept) {
-          const Eigen::Matrix3Xd load = spread_unit_load(surface, interface, axis);
-          for (std::size_t k = 0; k < nodes.size(); ++k) {
-            add_column(spread, nodes[k], ties.averages.size(), load.col(static_cast<Eigen::Index>(k)));
-          }
-          ties.averages.push_back(static_cast<int>(ties.kept.size()));
-        }
-      } else {
-        for (const int node : nodes) {
-          add_column(is_kept ? kept : released, node, is_kept ? ties.kept.size() : ties.released.size(),
-                     carried(interface, axis, solid.mesh.points.col(node)));
-          ties.tied[node] = true;
-        }
-      }
-      if (is_kept) {
-        ties.kept.push_back({number, axis});
-      } else if (request.tie != Tie::average) {
-        ties.released.push_back({number, axis});
-      }
-    }
-    ties.interfaces.push_back(std::move(interface));
-    ties.surfaces.push_back(
-        {request.tie, std::move(nodes), request.tie == Tie::free ? SurfaceIntegrals{} : surface, request.located});
-  };
-
   for (std::size_t k = 0; k < requests.size(); ++k) {
     const InterfaceRequest& request = requests[k];
-    SurfaceIntegrals surface;
-    try {
-      surface = integrate_surface(solid.mesh, request.group);
-    } catch (const InputError& error) {
-      throw InputError(fmt::format("{}: {}", request.located, error.what()));
-    }
-    check_position(request, surface, solid.mesh);
+    const SurfaceIntegrals surface = placed(request.located, [&] {
+      SurfaceIntegrals integrals = integrate_surface(solid.mesh, request.group);
+      check_position(request.position, integrals, solid.mesh);
+      return integrals;
+    });
     claims.claim(surface.nodes, static_cast<int>(k), requests);
-    std::array<bool, 6> directions = request.kept;
-    if (request.tie == Tie::free) {
-      std::fill(directions.begin() + 3, directions.end(), false);
-    }
-    if (std::none_of(directions.begin(), directions.end(), [](bool keep) { return keep; })) {
-      throw InputError(fmt::format("{}: no direction of the interface is kept", request.located));
-    }
-    if (request.tie == Tie::free) {
-      for (const int node : surface.nodes) {
-        add_interface(
-            request,
-            {fmt::format("{}_{}", request.name, node), solid.mesh.points.col(node), request.rotation, directions},
-            surface, {node});
-      }
-    } else {
-      add_interface(request, {request.name, request.position.value_or(surface.centroid), request.rotation, directions},
-                    surface, surface.nodes);
-    }
+    ties.add(request, surface);
   }
-  const Eigen::Index rows = 3 * solid.points();
-  ties.carry_kept = sparse(rows, static_cast<Eigen::Index>(ties.kept.size()), kept);
-  ties.carry_released = sparse(rows, static_cast<Eigen::Index>(ties.released.size()), released);
-  ties.spread = sparse(rows, static_cast<Eigen::Index>(ties.averages.size()), spread);
-  return ties;
+  return ties.build();
 }
 
 }  // namespace bielle::reduce

@@ -7,9 +7,10 @@
 //          on the interface is spread over the surface by C^T.
 // free     every node of the surface is an interface of its own with its three translations.
 // R: interface's axes to body axes, X: interface node. Directions that are not kept do not hold the body: those of a
-// rigid tie move with it as unknowns of its inside ("released"), those of an average are just not looked at.
+// rigid tie move with it as unknowns of its inside ("released"), those of an average are ignored.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,7 @@ struct Direction {
   int axis;
 };
 
-/// The surface behind one interface node.
+/// The surface that one interface node is tied to.
 struct TiedSurface {
   Tie tie;
   std::vector<int> nodes;
@@ -54,6 +55,15 @@ struct Ties {
 
 /// J = int (r.r I - r r^T) dA of a surface about its centroid [m^4].
 Eigen::Matrix3d polar_moment(const SurfaceIntegrals& surface);
+
+/// C^T of an average tie for one direction of the interface: the force that each node of the surface gets from a unit
+/// load on it. Its transposed gives the interface's motion as the surface's mean.
+/// @param axis  x y z rx ry rz in the interface's axes
+Eigen::Matrix3Xd spread_unit_load(const SurfaceIntegrals& surface, const Interface& interface, int axis);
+
+/// An arm of a hundred times the body makes its matrices worthless, and is a slip in the unit.
+/// @param position  of the node that follows the surface; default: its centroid @throws InputError
+void check_position(const std::optional<Eigen::Vector3d>& position, const SurfaceIntegrals& surface, const Mesh& mesh);
 
 /// @throws InputError, with the place of the request before it: no interfaces at all, a surface that the mesh has not,
 ///         points outside the solid, two interfaces that share points, no direction kept, two interfaces of one name,

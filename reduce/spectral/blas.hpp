@@ -1,5 +1,5 @@
-// The BLAS below the factorisations: its threads, products of dense matrices, and whether it runs the kernels that this
-// processor deserves.
+// The BLAS below the factorisations: its threads, products of dense matrices, and whether it runs the best kernels for
+// this processor.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace bielle {
 
-/// Sets the number of OpenBLAS threads while it lives. OpenBLAS threads spin, so they are never left on beside threads
-/// of our own.
+/// Sets the number of OpenBLAS threads while it lives. OpenBLAS threads spin, so they are never left on while threads
+/// of our own run.
 class BlasThreads {
  public:
   explicit BlasThreads(int threads);

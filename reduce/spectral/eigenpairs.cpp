@@ -6,11 +6,12 @@
 #include <numeric>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
 #include <arpack/arpack.hpp>
 #include <fmt/format.h>
 
+#include "reduce/common/counted.hpp"
 #include "reduce/common/error.hpp"
+#include "reduce/common/symmetric_eigenpairs.hpp"
 #include "reduce/spectral/blas.hpp"
 
 namespace bielle {
@@ -64,14 +65,13 @@ void add_residuals(const ShiftInvertProblem& problem, Eigenpairs& pairs) {
 Eigenpairs dense_eigenpairs(const ShiftInvertProblem& problem, int count) {
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(problem.size, problem.size);
   const Eigen::MatrixXd mass = problem.multiply_mass(identity);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> mass_eigen((mass + mass.transpose()) / 2);
-  const Eigen::MatrixXd root = mass_eigen.eigenvectors() *
-                               mass_eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() *
-                               mass_eigen.eigenvectors().transpose();
+  const SymmetricEigenpairs of_mass = symmetric_eigenpairs((mass + mass.transpose()) / 2);
+  const Eigen::MatrixXd root =
+      of_mass.vectors * of_mass.values.cwiseMax(0).cwiseSqrt().asDiagonal() * of_mass.vectors.transpose();
   const Eigen::MatrixXd range = problem.solve(root);
   const Eigen::MatrixXd projected = root * range;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen((projected + projected.transpose()) / 2);
-  const Eigen::ArrayXd nu = eigen.eigenvalues().array();
+  const SymmetricEigenpairs eigen = symmetric_eigenpairs((projected + projected.transpose()) / 2);
+  const Eigen::ArrayXd nu = eigen.values.array();
   const double negligible = 1e-13 * nu.abs().maxCoeff();
   std::vector<Eigen::Index> order;
   for (Eigen::Index k = 0; k < nu.size(); ++k) {
@@ -84,34 +84,97 @@ Eigenpairs dense_eigenpairs(const ShiftInvertProblem& problem, int count) {
   order.resize(std::min<std::size_t>(order.size(), count));
   Eigenpairs pairs;
   pairs.values = problem.shift + nu(order).inverse();
-  pairs.vectors = range * eigen.eigenvectors()(Eigen::all, order) * nu(order).inverse().matrix().asDiagonal();
+  pairs.vectors = range * eigen.vectors(Eigen::all, order) * nu(order).inverse().matrix().asDiagonal();
   pairs.solves = static_cast<int>(problem.size);
   return pairs;
 }
+
+/// ARPACK's symmetric shift-invert iteration with its working memory.
+class LanczosIteration {
+ public:
+  LanczosIteration(Eigen::Index size, int wanted, int basis, const EigenpairOptions& options, int seed)
+      : size_(static_cast<a_int>(size)),
+        wanted_(wanted),
+        basis_(basis),
+        tolerance_(options.tolerance),
+        residual_(start_vectors(size, seed).rightCols(1)),
+        lanczos_(size, basis),
+        work_(size, 3),
+        small_work_(static_cast<std::size_t>(basis * (basis + 8))) {
+    parameters_[0] = 1;                 // exact shifts
+    parameters_[2] = options.restarts;  // on return: how many were made
+    parameters_[3] = 1;                 // block size, the only one implemented
+    parameters_[6] = 3;                 // shift-invert
+  }
+
+  /// @param solve  (K - shift M)^-1 b
+  template <class Solve>
+  void run(const ShiftInvertProblem& problem, const Solve& solve) {
+    a_int request = 0;
+    while (request != 99) {
+      arpack::saupd(request, arpack::bmat::generalized, size_, arpack::which::largest_magnitude, wanted_, tolerance_,
+                    residual_.data(), basis_, lanczos_.data(), size_, parameters_.data(), pointers_.data(),
+                    work_.data(), small_work_.data(), small_size(), info_);
+      if (request == -1) {  // y = OP x
+        column(1) = solve(problem.multiply_mass(column(0)));
+      } else if (request == 1) {  // the same with M x at hand
+        column(1) = solve(column(2));
+      } else if (request == 2) {  // y = M x
+        column(1) = problem.multiply_mass(column(0));
+      } else if (request != 99) {
+        throw ComputationError(fmt::format("ARPACK made an unknown request ({})", request));
+      }
+    }
+    const int converged = parameters_[4];
+    if (info_ == 1 || (info_ >= 0 && converged < wanted_)) {
+      throw ComputationError(fmt::format("the eigenvalue iteration stopped after {}, with {} of {} converged",
+                                         counted(restarts(), "restart"), converged, counted(wanted_, "mode")));
+    }
+    if (info_ < 0) {
+      throw ComputationError(fmt::format("the eigenvalue iteration failed (ARPACK's dsaupd returned {})", info_));
+    }
+  }
+
+  /// The pairs that were found, once it has run.
+  void get(double shift, Eigenpairs& pairs) {
+    std::vector<a_int> select(static_cast<std::size_t>(basis_));
+    pairs.restarts = restarts();
+    pairs.values.resize(wanted_);
+    pairs.vectors.resize(size_, wanted_);
+    arpack::seupd(1, arpack::howmny::ritz_vectors, select.data(), pairs.values.data(), pairs.vectors.data(), size_,
+                  shift, arpack::bmat::generalized, size_, arpack::which::largest_magnitude, wanted_, tolerance_,
+                  residual_.data(), basis_, lanczos_.data(), size_, parameters_.data(), pointers_.data(), work_.data(),
+                  small_work_.data(), small_size(), info_);
+    if (info_ != 0) {
+      throw ComputationError(fmt::format("the eigenvectors could not be formed (ARPACK's dseupd returned {})", info_));
+    }
+  }
+
+ private:
+  Eigen::Map<Eigen::VectorXd> column(int pointer) {
+    return Eigen::Map<Eigen::VectorXd>(work_.data() + pointers_[static_cast<std::size_t>(pointer)] - 1, size_);
+  }
+  int restarts() const { return parameters_[2]; }
+  a_int small_size() const { return static_cast<a_int>(small_work_.size()); }
+  a_int size_, wanted_, basis_;
+  a_int info_ = 1;  ///< start from `residual_`
+  double tolerance_;
+  Eigen::VectorXd residual_;
+  Eigen::MatrixXd lanczos_, work_;
+  std::vector<double> small_work_;
+  std::array<a_int, 11> parameters_{}, pointers_{};
+};
 
 /// @param known  pairs to be kept out of the search (size, k), M-orthonormal; may be empty
 /// @param seed   of the start vector
 Eigenpairs arpack_eigenpairs(const ShiftInvertProblem& problem, int count, const EigenpairOptions& options,
                              const Eigen::MatrixXd& known, int seed) {
-  const auto n = static_cast<a_int>(problem.size);
-  const a_int wanted = count;
-  // Enough vectors that most problems converge in one sweep: solutions are dear, vectors are not.
-  const a_int basis = std::min<a_int>(n, 2 * wanted + (known.cols() > 0 ? 12 : 20));
-  const a_int work_size = basis * (basis + 8);
-  Eigen::VectorXd residual = start_vectors(n, seed).rightCols(1);
-  Eigen::MatrixXd lanczos(n, basis);
-  Eigen::MatrixXd work(n, 3);
-  std::vector<double> small_work(work_size);
-  std::array<a_int, 11> parameters{}, pointers{};
-  parameters[0] = 1;                 // exact shifts
-  parameters[2] = options.restarts;  // on return: how many were made
-  parameters[3] = 1;                 // block size, the only one implemented
-  parameters[6] = 3;                 // shift-invert
+  // Enough vectors that most problems converge in one sweep: solutions are expensive, vectors are not.
+  const auto basis = static_cast<int>(std::min<Eigen::Index>(problem.size, 2 * count + (known.cols() > 0 ? 12 : 20)));
   const Eigen::MatrixXd mass_known = known.cols() > 0 ? problem.multiply_mass(known) : known;
   Eigenpairs pairs;
-  a_int request = 0, info = 1;  // info = 1: start from `residual`
-  const auto column = [&](int pointer) { return Eigen::Map<Eigen::VectorXd>(work.data() + pointers[pointer] - 1, n); };
-  const auto solve = [&](const Eigen::MatrixXd& b) {
+  LanczosIteration iteration(problem.size, count, basis, options, seed);
+  iteration.run(problem, [&](const Eigen::MatrixXd& b) {
     ++pairs.solves;
     if (options.on_solve) {
       options.on_solve(pairs.solves);
@@ -119,41 +182,8 @@ Eigenpairs arpack_eigenpairs(const ShiftInvertProblem& problem, int count, const
     Eigen::MatrixXd y = problem.solve(b);
     if (known.cols() > 0) y -= known * (mass_known.transpose() * y);
     return y;
-  };
-  while (request != 99) {
-    arpack::saupd(request, arpack::bmat::generalized, n, arpack::which::largest_magnitude, wanted, options.tolerance,
-                  residual.data(), basis, lanczos.data(), n, parameters.data(), pointers.data(), work.data(),
-                  small_work.data(), work_size, info);
-    if (request == -1) {  // y = OP x
-      column(1) = solve(problem.multiply_mass(column(0)));
-    } else if (request == 1) {  // the same with M x at hand
-      column(1) = solve(column(2));
-    } else if (request == 2) {  // y = M x
-      column(1) = problem.multiply_mass(column(0));
-    } else if (request != 99) {
-      throw ComputationError(fmt::format("ARPACK made an unknown request ({})", request));
-    }
-  }
-  pairs.restarts = parameters[2];
-  const int converged = parameters[4];
-  if (info == 1 || (info >= 0 && converged < wanted)) {
-    throw ComputationError(
-        fmt::format("the eigenvalue iteration stopped after {} restarts with {} of {} modes converged", pairs.restarts,
-                    converged, count));
-  }
-  if (info < 0) {
-    throw ComputationError(fmt::format("the eigenvalue iteration failed (ARPACK's dsaupd returned {})", info));
-  }
-  std::vector<a_int> select(basis);
-  pairs.values.resize(wanted);
-  pairs.vectors.resize(n, wanted);
-  arpack::seupd(1, arpack::howmny::ritz_vectors, select.data(), pairs.values.data(), pairs.vectors.data(), n,
-                problem.shift, arpack::bmat::generalized, n, arpack::which::largest_magnitude, wanted,
-                options.tolerance, residual.data(), basis, lanczos.data(), n, parameters.data(), pointers.data(),
-                work.data(), small_work.data(), work_size, info);
-  if (info != 0) {
-    throw ComputationError(fmt::format("the eigenvectors could not be formed (ARPACK's dseupd returned {})", info));
-  }
+  });
+  iteration.get(problem.shift, pairs);
   return pairs;
 }
 

@@ -58,8 +58,8 @@ class Common {
   cholmod_common common_;
 };
 
-/// CHOLMOD's loops ask for OpenMP threads beside those of OpenBLAS; together they fight for the cores. While this lives
-/// they get none.
+/// CHOLMOD's loops ask for OpenMP threads in addition to those of OpenBLAS; together they compete for the cores. While
+/// this lives they get none.
 class NoOpenMpThreads {
  public:
   NoOpenMpThreads() : before_(omp_get_max_active_levels()) { omp_set_max_active_levels(0); }

@@ -1,11 +1,11 @@
 #include "reduce/superelement/modal_damping.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 #include <fmt/format.h>
 
 #include "reduce/common/error.hpp"
+#include "reduce/common/orthogonal_factors.hpp"
+#include "reduce/common/symmetric_eigenpairs.hpp"
 #include "reduce/superelement/superelement.hpp"
 
 namespace bielle {
@@ -44,18 +44,17 @@ MatrixXd modal_damping(const Superelement& body, const std::vector<double>& rati
   const MatrixXd M = scale.asDiagonal() * body.mass * scale.asDiagonal();
   const MatrixXd K = scale.asDiagonal() * body.stiffness * scale.asDiagonal();
   const MatrixXd momenta = M * scale.cwiseInverse().asDiagonal() * rigid_motions(body);
-  const MatrixXd basis = MatrixXd(Eigen::HouseholderQR<MatrixXd>(momenta).householderQ()).rightCols(elastic);
+  const MatrixXd basis = orthogonal_basis(momenta).rightCols(elastic);
   const MatrixXd M_elastic = basis.transpose() * M * basis, K_elastic = basis.transpose() * K * basis;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(0.5 * (K_elastic + K_elastic.transpose()),
-                                                                 0.5 * (M_elastic + M_elastic.transpose()));
-  if (eigen.info() != Eigen::Success)
-    throw ComputationError(fmt::format("the mass matrix of '{}' is not positive definite", body.name));
+  const auto modes =
+      symmetric_eigenpairs(0.5 * (K_elastic + K_elastic.transpose()), 0.5 * (M_elastic + M_elastic.transpose()));
+  if (!modes) throw ComputationError(fmt::format("the mass matrix of '{}' is not positive definite", body.name));
   VectorXd coefficients(elastic);
   for (Index k = 0; k < elastic; ++k) {
     const auto index = std::min(static_cast<std::size_t>(k), ratios.size() - 1);
-    coefficients[k] = 2 * ratios[index] * std::sqrt(std::max(0.0, eigen.eigenvalues()[k]));
+    coefficients[k] = 2 * ratios[index] * std::sqrt(std::max(0.0, modes->values[k]));
   }
-  const MatrixXd Mv = scale.cwiseInverse().asDiagonal() * MatrixXd(M * basis * eigen.eigenvectors());
+  const MatrixXd Mv = scale.cwiseInverse().asDiagonal() * MatrixXd(M * basis * modes->vectors);
   const MatrixXd C = Mv * coefficients.asDiagonal() * Mv.transpose();
   return 0.5 * (C + C.transpose());
 }

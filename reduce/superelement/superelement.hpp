@@ -1,38 +1,64 @@
-// A reduced elastic body: all that the mechanism knows of the reduction. Its file is described in reduce/superelement/README.md.
+// A reduced elastic body: all that the mechanism knows of the reduction. Its file is described in
+// reduce/superelement/README.md.
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include <Eigen/Core>
 
 namespace bielle {
 
 /// An interface: a node with up to 6 directions through which the body is held, in the body's own axes.
 struct Interface {
   std::string name;
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();      ///< [m]
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< of the interface's axes: interface -> body
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();               ///< [m]
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();           ///< of the interface's axes: interface -> body
   std::array<bool, 6> kept = {true, true, true, true, true, true};  ///< x y z rx ry rz, in the interface's axes
 };
 
 /// The body's mesh, kept to draw it. Node numbers start at 0; node order within a cell is gmsh's.
 struct SuperelementMesh {
-  Eigen::Matrix3Xd points;                   ///< [m]
-  std::map<int, Eigen::MatrixXi> cells;      ///< by gmsh element type (4 tet4, 11 tet10, 2 tri3, 9 tri6): nodes per cell x cells
+  Eigen::Matrix3Xd points;  ///< [m]
+  std::map<int, Eigen::MatrixXi>
+      cells;  ///< by gmsh element type (4 tet4, 11 tet10, 2 tri3, 9 tri6): nodes per cell x cells
   std::map<std::string, std::vector<int>> groups;  ///< nodes of each physical group, ascending
 };
 
-/// A load pattern on internal nodes: column l of `components[k]` ... see formats: component k of the pattern acting along body axis l.
+/// A load pattern on internal nodes.
 struct LoadPattern {
   /// force[k].row(l): reduced generalised force (n) of component k of the pattern acting along body axis l, so that the
   /// pattern can follow the body (sum over k = l) or stay fixed in space.
   std::array<Eigen::Matrix3Xd, 3> force;
 };
 
+/// A point inside that the body file names, with the motion of the mesh there or the mean motion of a surface.
+struct NamedPoint {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m], body axes
+  Eigen::MatrixXd shapes;                              ///< (6,n): displacement and rotation, body axes
+  /// Which loads on it, x y z rx ry rz in body axes, have residual vectors: their static displacements are exact.
+  std::array<bool, 6> residual{};
+};
+
+/// A material at nodes where stress is recovered.
+struct StressMaterial {
+  std::string name;
+  Eigen::Matrix<double, 6, 6> elasticity = {};  ///< C [Pa], body axes, in the order xx yy zz yz xz xy
+};
+
+/// What the stress at nodes belongs to. Without materials (files of other programs) strain cannot be recovered.
+struct StressOrigin {
+  std::vector<StressMaterial> materials;
+  std::vector<int> material_of;                    ///< (s) of each stress node, number in `materials`
+  std::map<std::string, std::vector<int>> groups;  ///< by volume group: rows of `stress_nodes`, ascending
+};
+
 /// Craig-Bampton model of a free body with n = (kept interface directions) + m (modes) generalised coordinates, ordered
 /// interface by interface (translations, then rotations, those that are kept), then modal amplitudes (mass-normalised).
+/// The last modes may be residual vectors, which make the static answer to single loads exact.
 ///
 /// Symbols as in the theory: K~ (n,n) and M~ (n,n) symmetric; S_kl = T_k^T m T_l the inertia components with
 /// M~ = S_11 + S_22 + S_33 (+ rotary inertia of ties, which is in M~ alone).
@@ -42,14 +68,21 @@ struct Superelement {
   std::string input;       ///< text of the body file
 
   std::vector<Interface> interfaces;
-  Eigen::VectorXd frequencies;  ///< (m) of the fixed-boundary modes [Hz]
+  Eigen::VectorXd frequencies;        ///< (m) of the fixed-boundary modes [Hz], then of the residual vectors
+  Eigen::Index residual_vectors = 0;  ///< so many of the modes, the last ones
 
-  Eigen::MatrixXd stiffness;  ///< K~ [N/m, N, N m and mixed with amplitudes]
-  Eigen::MatrixXd mass;       ///< M~
-  Eigen::MatrixXd damping;    ///< C~
+  Eigen::MatrixXd stiffness;                          ///< K~ [N/m, N, N m and mixed with amplitudes]
+  Eigen::MatrixXd mass;                               ///< M~
+  Eigen::MatrixXd damping;                            ///< C~
   std::array<Eigen::MatrixXd, 6> inertia_components;  ///< S_11 S_22 S_33 S_23 S_13 S_12 (S_kl not symmetric for k != l)
-  std::array<Eigen::MatrixXd, 6> spin_stiffness;      ///< K_sigma per unit Om_k Om_l, order as above; empty when not computed
-  std::vector<Eigen::MatrixXd> load_stiffness;        ///< K_sigma per unit interface load of each kept direction; may be empty
+  std::array<Eigen::MatrixXd, 6>
+      spin_stiffness;  ///< K_sigma per unit Om_k Om_l, order as above; empty when not computed
+  std::vector<Eigen::MatrixXd>
+      load_stiffness;  ///< K_sigma per unit interface load of each kept direction; may be empty
+
+  /// Rotation of each interface's surface in terms of the coordinates, body axes (3,n), released rotations included; zero
+  /// for free ties. What the checks of load_stiffness need; may be empty.
+  std::vector<Eigen::MatrixXd> surface_rotations;
 
   Eigen::MatrixXd effective_mass;  ///< (m,6) of the modes: x y z [kg], rx ry rz about the centre [kg m^2]
   double total_mass = 0;           ///< integrated on the mesh [kg]
@@ -57,25 +90,40 @@ struct Superelement {
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the centre, body axes [kg m^2]
 
   std::map<std::string, LoadPattern> loads;
+  std::map<std::string, NamedPoint> points;
   SuperelementMesh mesh;
-  Eigen::MatrixXd displacement_recovery;  ///< (3p,n): displacement of every node, body axes; rows x y z of node 0, of node 1, ...
-  Eigen::MatrixXd stress_recovery;        ///< (6 s,n): xx yy zz yz xz xy [Pa] at the nodes `stress_nodes`; may be empty
-  std::vector<int> stress_nodes;          ///< (s) node numbers of the rows of stress_recovery
-  std::map<std::string, double> checks;   ///< numbers of every check that the reduction made, by name
+  Eigen::MatrixXd
+      displacement_recovery;  ///< (3p,n): displacement of every node, body axes; rows x y z of node 0, of node 1, ...
+  Eigen::MatrixXd stress_recovery;       ///< (6 s,n): xx yy zz yz xz xy [Pa] at the nodes `stress_nodes`; may be empty
+  std::vector<int> stress_nodes;         ///< (s) node numbers of the rows of stress_recovery
+  StressOrigin stress_origin;
+  std::map<std::string, double> checks;  ///< numbers of every check that the reduction made, by name
 
   Eigen::Index modes() const { return frequencies.size(); }
+  Eigen::Index fixed_boundary_modes() const { return modes() - residual_vectors; }
   Eigen::Index size() const { return stiffness.rows(); }
   Eigen::Index interface_directions() const { return size() - modes(); }
 };
 
-/// Version of the file format that this program writes, and the only one that it reads.
-inline constexpr int superelement_version = 1;
+/// Where a superelement stands: a file, or the group of one that holds the pieces of a cut body (cut_body.hpp).
+struct SuperelementPlace {
+  SuperelementPlace() = default;
+  SuperelementPlace(std::string file, std::string group_in_file = "/")
+      : path(std::move(file)), group(std::move(group_in_file)) {}
+  SuperelementPlace(const char* file) : path(file) {}
 
-/// Writes the whole superelement (beside, then renamed). @throws ComputationError
+  std::string path;
+  std::string group = "/";
+};
+
+/// Version of the file format that this program writes, and the only one that it reads.
+inline constexpr int superelement_version = 2;
+
+/// Writes the whole superelement (under a temporary name, then renamed). @throws ComputationError
 void write_superelement(const Superelement& superelement, const std::string& path);
 
 /// Reads and checks shapes, symmetry, finiteness and completeness.
 /// @throws InputError when the file is missing, truncated, no superelement, incomplete, or of another version
-Superelement read_superelement(const std::string& path);
+Superelement read_superelement(const SuperelementPlace& place);
 
 }  // namespace bielle

@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
+#include "reduce/common/counted.hpp"
 #include "reduce/superelement/superelement.hpp"
 
 namespace bielle {
@@ -59,8 +60,8 @@ void check_reduced(const Superelement& body) {
   for (const Interface& interface : body.interfaces)
     for (const bool kept : interface.kept) directions += kept ? 1 : 0;
   require(directions + m == n, "/reduced/stiffness",
-          fmt::format("expected {} rows for {} interface directions and {} modes, found {}", directions + m, directions,
-                      m, n));
+          fmt::format("expected {} for {} and {}, found {}", counted(directions + m, "row"),
+                      counted(directions, "interface direction"), counted(m, "mode"), n));
   check_matrix(body.stiffness, n, n, "/reduced/stiffness");
   check_matrix(body.mass, n, n, "/reduced/mass");
   check_matrix(body.damping, n, n, "/reduced/damping");
@@ -76,16 +77,28 @@ void check_reduced(const Superelement& body) {
   }
   require(body.load_stiffness.empty() || static_cast<Index>(body.load_stiffness.size()) == directions,
           "/reduced/geometric_stiffness/load",
-          fmt::format("expected {} matrices, found {}", directions, body.load_stiffness.size()));
+          fmt::format("expected {}, found {}", counted(directions, "matrix", "matrices"), body.load_stiffness.size()));
   for (const Eigen::MatrixXd& stiffness : body.load_stiffness) {
     check_matrix(stiffness, n, n, "/reduced/geometric_stiffness/load");
     check_symmetric(stiffness, "/reduced/geometric_stiffness/load");
   }
+  require(body.surface_rotations.empty() || body.surface_rotations.size() == body.interfaces.size(),
+          "/interface/surface_rotations",
+          fmt::format("expected {}, found {}", counted(body.interfaces.size(), "matrix", "matrices"),
+                      body.surface_rotations.size()));
+  for (const Eigen::MatrixXd& rotation : body.surface_rotations)
+    check_matrix(rotation, 3, n, "/interface/surface_rotations");
   check_matrix(body.frequencies, m, 1, "/modes/frequencies");
   require(m == 0 || body.frequencies.minCoeff() >= 0, "/modes/frequencies", "holds negative numbers");
+  require(body.residual_vectors >= 0 && body.residual_vectors <= m, "/modes",
+          fmt::format("of {}, {} cannot be residual vectors", counted(m, "mode"), body.residual_vectors));
   check_matrix(body.effective_mass, m, 6, "/modes/effective_mass");
   for (const auto& [name, pattern] : body.loads)
     for (const Eigen::Matrix3Xd& force : pattern.force) check_matrix(force, 3, n, "/loads/" + name);
+  for (const auto& [name, point] : body.points) {
+    require(point.position.allFinite(), "/points/" + name + "/position", "holds numbers that are not finite");
+    check_matrix(point.shapes, 6, n, "/points/" + name + "/shapes");
+  }
 }
 
 void check_mass_properties(const Superelement& body) {
@@ -114,6 +127,30 @@ void check_mesh(const Superelement& body) {
     check_matrix(body.stress_recovery, stresses, body.size(), "/recovery/stress");
 }
 
+void check_stress_origin(const Superelement& body) {
+  const StressOrigin& origin = body.stress_origin;
+  if (origin.materials.empty()) return;
+  const auto stressed = static_cast<int>(body.stress_nodes.size());
+  const auto materials = static_cast<int>(origin.materials.size());
+  for (const StressMaterial& material : origin.materials) {
+    const Eigen::MatrixXd elasticity = material.elasticity;
+    check_matrix(elasticity, 6, 6, "/recovery/elasticity");
+    check_symmetric(elasticity, "/recovery/elasticity");
+    require(elasticity.determinant() > 0, "/recovery/elasticity",
+            fmt::format("that of '{}' does not resist every strain", material.name));
+  }
+  require(static_cast<int>(origin.material_of.size()) == stressed, "/recovery/stress_materials",
+          fmt::format("expected one for each of {}, found {}", counted(stressed, "stress node"),
+                      origin.material_of.size()));
+  for (const int material : origin.material_of)
+    require(material >= 0 && material < materials, "/recovery/stress_materials",
+            "names materials that are not in /recovery/materials");
+  for (const auto& [name, rows] : origin.groups)
+    for (const int row : rows)
+      require(row >= 0 && row < stressed, "/recovery/stress_groups/" + name,
+              "names places that are not in /recovery/stress_nodes");
+}
+
 }  // namespace
 
 std::string fault_of(const Superelement& superelement) {
@@ -122,6 +159,7 @@ std::string fault_of(const Superelement& superelement) {
     check_reduced(superelement);
     check_mass_properties(superelement);
     check_mesh(superelement);
+    check_stress_origin(superelement);
   } catch (const Fault& fault) {
     return fault.message;
   }

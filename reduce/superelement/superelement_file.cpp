@@ -1,3 +1,5 @@
+#include "reduce/superelement/superelement_file.hpp"
+
 #include <algorithm>
 #include <charconv>
 
@@ -5,8 +7,11 @@
 
 #include "reduce/common/atomic_output.hpp"
 #include "reduce/common/hdf5_file.hpp"
+#include "reduce/superelement/named_points.hpp"
+#include "reduce/superelement/physical_check.hpp"
 #include "reduce/superelement/superelement.hpp"
 #include "reduce/superelement/superelement_check.hpp"
+#include "reduce/superelement/superelement_sum.hpp"
 
 namespace bielle {
 
@@ -22,28 +27,6 @@ constexpr const char* damping_units = "J s/(u_i u_j)";
 constexpr const char* mass_units = "J s^2/(u_i u_j)";
 
 std::size_t size(Eigen::Index n) { return static_cast<std::size_t>(n); }
-
-/// HDF5 separates with '/' and knows '.': names that users chose freely are written with %2F, %2E and %25.
-std::string link_name(const std::string& name) {
-  std::string result;
-  for (const char c : name) result += c == '/' ? "%2F" : c == '%' ? "%25" : c == '.' ? "%2E" : std::string(1, c);
-  return result;
-}
-
-std::string name_of_link(const std::string& link) {
-  std::string result;
-  for (std::size_t i = 0; i < link.size(); ++i) {
-    int code = 0;
-    if (link[i] == '%' && i + 2 < link.size() &&
-        std::from_chars(&link[i + 1], &link[i + 3], code, 16).ptr == &link[i + 3]) {
-      result += static_cast<char>(code);
-      i += 2;
-    } else {
-      result += link[i];
-    }
-  }
-  return result;
-}
 
 /// Matrices one after the other, each row by row.
 template <class Matrices>
@@ -88,8 +71,9 @@ void write_coordinates(Hdf5File& file, const Superelement& body) {
         names.push_back(fmt::format("{} {}", interface.name, direction_names[k]));
         units.emplace_back(k < 3 ? "m" : "rad");
       }
+  const Eigen::Index modes = body.fixed_boundary_modes();
   for (Eigen::Index k = 0; k < body.modes(); ++k) {
-    names.push_back(fmt::format("mode {}", k + 1));
+    names.push_back(k < modes ? fmt::format("mode {}", k + 1) : fmt::format("residual vector {}", k - modes + 1));
     units.emplace_back("m kg^0.5");
   }
   file.write_names("/reduced/coordinates", names);
@@ -109,6 +93,9 @@ void write_reduced(Hdf5File& file, const Superelement& body) {
   if (!body.load_stiffness.empty())
     file.write("/reduced/geometric_stiffness/load", flattened(body.load_stiffness), {body.load_stiffness.size(), n, n},
                "J/(u_i u_j)/(N or N m)", "per unit load of each kept interface direction");
+  if (!body.surface_rotations.empty())
+    file.write("/interface/surface_rotations", flattened(body.surface_rotations), {body.surface_rotations.size(), 3, n},
+               "rad/u_j", "of each interface's surface, body axes, released rotations included");
   for (const auto& [name, pattern] : body.loads)
     file.write("/loads/" + link_name(name), flattened(pattern.force), {3, 3, n}, "J/u_j",
                "(k, l, j): component k of the pattern acting along body axis l, for a factor of 1");
@@ -126,6 +113,25 @@ void write_mesh(Hdf5File& file, const SuperelementMesh& mesh) {
                "nodes, counted from 0");
 }
 
+void write_stress_origin(Hdf5File& file, const StressOrigin& origin) {
+  if (origin.materials.empty()) return;
+  std::vector<std::string> names;
+  std::vector<Eigen::Matrix<double, 6, 6>> elasticities;
+  for (const StressMaterial& material : origin.materials) {
+    names.push_back(material.name);
+    elasticities.push_back(material.elasticity);
+  }
+  file.write_names("/recovery/materials", names);
+  file.write("/recovery/elasticity", flattened(elasticities), {names.size(), 6, 6}, "Pa",
+             "of each material; stress over engineering strain, body axes");
+  const Integers material_of(origin.material_of.begin(), origin.material_of.end());
+  file.write("/recovery/stress_materials", material_of, {material_of.size()}, "-",
+             "of each of /recovery/stress_nodes: number in /recovery/materials, from 0");
+  for (const auto& [name, rows] : origin.groups)
+    file.write("/recovery/stress_groups/" + link_name(name), Integers(rows.begin(), rows.end()), {rows.size()}, "-",
+               "places in /recovery/stress_nodes, from 0, whose stress is that of this volume");
+}
+
 void write_recovery(Hdf5File& file, const Superelement& body) {
   if (body.displacement_recovery.size() > 0)
     file.write("/recovery/displacement", body.displacement_recovery, "m/u_j", "x y z of node 0, of node 1, ...");
@@ -134,6 +140,7 @@ void write_recovery(Hdf5File& file, const Superelement& body) {
                "xx yy zz yz xz xy of each of /recovery/stress_nodes");
     const Integers nodes(body.stress_nodes.begin(), body.stress_nodes.end());
     file.write("/recovery/stress_nodes", nodes, {nodes.size()}, "-", "nodes of the mesh, counted from 0");
+    write_stress_origin(file, body.stress_origin);
   }
 }
 
@@ -148,14 +155,18 @@ void write_all(Hdf5File& file, const Superelement& body) {
   write_coordinates(file, body);
   write_reduced(file, body);
   file.write("/modes/frequencies", body.frequencies, "Hz", "of the modes with all interfaces fixed");
+  if (body.residual_vectors > 0)
+    file.write_attribute("/modes", "residual_vectors", std::int64_t{body.residual_vectors});
   file.write("/modes/effective_mass", body.effective_mass, "kg, kg m^2",
              "x y z [kg], rx ry rz about the centre of mass [kg m^2]");
   file.write("/mass_properties/mass", body.total_mass, "kg");
   file.write("/mass_properties/centre", Eigen::VectorXd(body.centre), "m");
   file.write("/mass_properties/inertia", Eigen::MatrixXd(body.inertia), "kg m^2", "about the centre, body axes");
+  write_named_points(body.points, file);
   write_mesh(file, body.mesh);
   write_recovery(file, body);
   for (const auto& [name, value] : body.checks) file.write("/checks/" + link_name(name), value, "SI");
+  file.write_attribute("/", "checksum", sum_of(body));
   file.write_attribute("/", "complete", std::int64_t{1});
 }
 
@@ -166,7 +177,9 @@ class Reader {
  public:
   explicit Reader(const Hdf5File& file) : file_(file) {}
 
-  [[noreturn]] void fail(const std::string& what) const { throw InputError(fmt::format("{}: {}", file_.path(), what)); }
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(fmt::format("{}: {}", file_.place(), what));
+  }
   std::vector<double> numbers(const std::string& dataset, const Shape& expected) const {
     check_shape(dataset, expected);
     return file_.read(dataset);
@@ -243,6 +256,10 @@ void read_reduced(const Hdf5File& file, const Reader& reader, Superelement& body
     body.load_stiffness.resize(shape.empty() ? 0 : shape[0]);
     reader.matrices("/reduced/geometric_stiffness/load", body.load_stiffness, n, n);
   }
+  if (file.has("/interface/surface_rotations")) {
+    body.surface_rotations.resize(body.interfaces.size());
+    reader.matrices("/interface/surface_rotations", body.surface_rotations, 3, n);
+  }
   for (const std::string& link : reader.members("/loads")) {
     const std::vector<double> values = reader.numbers("/loads/" + link, {3, 3, n});
     LoadPattern& pattern = body.loads[name_of_link(link)];
@@ -275,20 +292,57 @@ void read_mesh(const Hdf5File& file, const Reader& reader, SuperelementMesh& mes
     mesh.groups[name_of_link(link)] = reader.nodes("/mesh/groups/" + link);
 }
 
+/// Optional: files of before and of other programs have none.
+void read_stress_origin(const Hdf5File& file, const Reader& reader, StressOrigin& origin) {
+  if (!file.has("/recovery/materials")) return;
+  const std::vector<std::string> names = file.read_names("/recovery/materials");
+  std::vector<Eigen::MatrixXd> elasticities(names.size());
+  reader.matrices("/recovery/elasticity", elasticities, 6, 6);
+  for (std::size_t k = 0; k < names.size(); ++k) origin.materials.push_back({names[k], elasticities[k]});
+  origin.material_of = reader.nodes("/recovery/stress_materials");
+  for (const std::string& link : reader.members("/recovery/stress_groups"))
+    origin.groups[name_of_link(link)] = reader.nodes("/recovery/stress_groups/" + link);
+}
+
+/// Files of other programs have no sum.
+void check_sum(const Hdf5File& file, const Reader& reader, const Superelement& body) {
+  if (!file.has_attribute("/", "checksum") || file.read_integer_attribute("/", "checksum") == sum_of(body)) return;
+  reader.fail(
+      "its numbers are not those that were written: it is damaged, or was changed; run bielle-reduce again (who "
+      "changes numbers on purpose removes the attribute 'checksum')");
+}
+
+/// What is wrong with the parts by themselves comes first.
+std::string first_fault(const Superelement& body) {
+  const std::string fault = fault_of(body);
+  return fault.empty() ? physical_fault_of(body) : fault;
+}
+
 }  // namespace
 
-void write_superelement(const Superelement& superelement, const std::string& path) {
-  const std::string fault = fault_of(superelement);
+void check_writable(const Superelement& superelement, const std::string& path) {
+  const std::string fault = first_fault(superelement);
   if (!fault.empty()) throw ComputationError(fmt::format("{}: not written, since {}", path, fault));
+}
+
+void write_superelement(const Superelement& superelement, Hdf5File& file) { write_all(file, superelement); }
+
+void write_superelement(const Superelement& superelement, const std::string& path) {
+  check_writable(superelement, path);
   AtomicOutput output(path);
   Hdf5File file = Hdf5File::create(output.temporary_path());
-  write_all(file, superelement);
+  write_superelement(superelement, file);
   file.close();
   output.commit();
 }
 
-Superelement read_superelement(const std::string& path) {
-  const Hdf5File file = Hdf5File::open(path);
+Superelement read_superelement(const SuperelementPlace& place) {
+  Hdf5File file = Hdf5File::open(place.path);
+  file.enter(place.group);
+  return read_superelement(file);
+}
+
+Superelement read_superelement(const Hdf5File& file) {
   const Reader reader(file);
   check_head(file, reader);
   Superelement body;
@@ -296,20 +350,24 @@ Superelement read_superelement(const std::string& path) {
   body.created_by = file.read_text_attribute("/", "created_by");
   body.input = file.read_text("/input");
   body.frequencies = file.read_vector("/modes/frequencies");
+  if (file.has_attribute("/modes", "residual_vectors"))
+    body.residual_vectors = file.read_integer_attribute("/modes", "residual_vectors");
   body.effective_mass = file.read_matrix("/modes/effective_mass");
   read_interfaces(file, reader, body);
   read_reduced(file, reader, body);
   read_mass_properties(file, reader, body);
+  body.points = read_named_points(file);
   read_mesh(file, reader, body.mesh);
   if (file.has("/recovery/displacement")) body.displacement_recovery = file.read_matrix("/recovery/displacement");
   if (file.has("/recovery/stress")) {
     body.stress_recovery = file.read_matrix("/recovery/stress");
     body.stress_nodes = reader.nodes("/recovery/stress_nodes");
+    read_stress_origin(file, reader, body.stress_origin);
   }
   for (const std::string& link : reader.members("/checks"))
     body.checks[name_of_link(link)] = file.read_number("/checks/" + link);
-  const std::string fault = fault_of(body);
-  if (!fault.empty()) reader.fail(fault);
+  if (const std::string fault = first_fault(body); !fault.empty()) reader.fail(fault);
+  check_sum(file, reader, body);
   return body;
 }
 

@@ -17,7 +17,7 @@ namespace bielle::laws {
 struct BadValue {
   std::string key;    ///< of `it`, nested with dots: "section.young"
   std::string value;  ///< YAML; empty: the key is left out
-  std::string says;   ///< must occur in the message beside the key
+  std::string says;   ///< must occur in the message besides the key
 };
 
 /// Sizes of the random states: of positions, rates and unknowns in SI.

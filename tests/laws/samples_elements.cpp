@@ -1,4 +1,5 @@
 // Samples of elements and loads.
+#include "mechanism/elements/superelement/point_shapes.hpp"
 #include "reduce/superelement/superelement.hpp"
 #include "tests/laws/sample.hpp"
 #include "tests/support/beam_superelement.hpp"
@@ -264,7 +265,7 @@ std::vector<Sample> beams_of_sections() {
                    {"section.offset", "[1]", "[y, z]"}})};
 }
 
-/// Loads per length, dead and follower, beside the centre of a curved and twisted beam.
+/// Loads per length, dead and follower, off the centre of a curved and twisted beam.
 Sample loaded_beam(const std::string& variant, const std::string& load, bool inertial) {
   Sample sample{Section::elements,
                 "beam",
@@ -374,6 +375,9 @@ elements:
                  {"loads.push", "'x*t'", "x"},
                  {"loads.spread.factor", "'x*t'", "x"},
                  {"loads.spread.follower", "maybe", "true or false"}}};
+  // Second-order displacements make forces vary on a shorter scale than the body's length: half of it, so that differences
+  // are as exact as the law wants them.
+  sample.scales.length = 0.5;
   sample.scales.deformation = 0.1;
   sample.scales.amplitude = 0.1;
   sample.files = [](const std::string& folder) {
@@ -419,6 +423,43 @@ elements:
     chain.interfaces[1].kept = {true, true, true, true, true, false};
     chain.interfaces[2].kept = {true, false, true, false, true, false};
     write_superelement(chain.reduced().body, folder + "/body.h5");
+  };
+  return sample;
+}
+
+/// With nodes that ride on points inside, one on the body's axis and one beside it.
+/// @param inside, beside  "at: [..]", or "point: .." for those of the file
+Sample superelement_with_points(const std::string& variant, const std::string& inside, const std::string& beside) {
+  Sample sample{Section::elements,
+                "superelement",
+                variant,
+                R"yaml(
+gravity: [1, -2, 3]
+nodes:
+  tip: {position: [0.3, -0.1, 0], rotation_vector: [0.3, -0.5, 0.8]}
+points:
+  inside: {element: it, )yaml" +
+                    inside + R"yaml(}
+  beside: {element: it, )yaml" +
+                    beside + R"yaml(}
+elements:
+  it: {type: superelement, file: body.h5, nodes: {a: tip}, frame: mean_axes}
+)yaml",
+                {{"file", "", ""},
+                 {"nodes", "{z: tip}", "no interface"},
+                 {"frame", "middle", "no frame of a superelement"},
+                 {"frame", "{interface: z}", "no interface"}}};
+  sample.scales.length = 0.25;  // see above; points are nearer still
+  sample.scales.deformation = 0.1;
+  sample.scales.amplitude = 0.1;
+  sample.files = [](const std::string& folder) {
+    const test::BeamChain chain = test::bent_chain();
+    test::BeamSuperelement reduced = chain.reduced();
+    test::add_mesh(chain, 0.05, reduced);
+    for (const auto& [name, place] :
+         {std::pair("core", Eigen::Vector3d(0.55, -0.07, 0.17)), std::pair("rim", Eigen::Vector3d(0.92, 0.09, 0.25))})
+      reduced.body.points[name] = {place, mechanism::point_shapes(reduced.body, place), {}};
+    write_superelement(reduced.body, folder + "/body.h5");
   };
   return sample;
 }
@@ -474,6 +515,8 @@ std::vector<Sample> element_samples() {
                               superelement_with_followers(),
                               superelement_with_dead_load(),
                               superelement_with_free_directions(),
+                              superelement_with_points("points", "at: [0.55, -0.07, 0.17]", "at: [0.92, 0.09, 0.25]"),
+                              superelement_with_points("named points", "point: core", "point: rim"),
                               dead_load(),
                               follower_load()};
   for (Sample& sample : beams_of_sections()) list.push_back(std::move(sample));

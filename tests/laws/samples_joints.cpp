@@ -77,17 +77,18 @@ std::vector<Sample> joint_samples() {
                                                     {"stops.damping", "-1", ""},
                                                     {"locked", "{to: 1, until: 2}", "until"},
                                                     {"locked.from", "-1", ""},
-                                                    {"locked.to", "0.05", "behind"},
+                                                    {"locked.to", "0.05", "after"},
                                                     {"locked.release", "0", ""}})
     of_hinge.push_back(each);
-  list.push_back(with_actions("hinge", "spring, stops, lock",
-                              "stiffness: 3, damping: 0.5, rest: 0.2, preload: 1.5, stops: {range: [-9, 9], stiffness: 5, "
-                              "damping: 1}, locked: {from: 0.1, to: 0.2, release: 4}",
-                              of_hinge));
+  list.push_back(
+      with_actions("hinge", "spring, stops, lock",
+                   "stiffness: 3, damping: 0.5, rest: 0.2, preload: 1.5, stops: {range: [-9, 9], stiffness: 5, "
+                   "damping: 1}, locked: {from: 0.1, to: 0.2, release: 4}",
+                   of_hinge));
   list.push_back(with_actions("prismatic", "formulas", "stiffness: \"3*q + 2*q^3\", damping: \"0.5*v + 0.1*v^3\"",
                               {{"stiffness", "'3*x'", "x"}, {"damping", "'w'", "w"}}));
-  list.push_back(with_actions("hinge", "actuator", "stiffness: \"3*q*(1 + 0.2*sin(t)) + 0.5*v\"",
-                              {{"stiffness", "[1]", ""}}));
+  list.push_back(
+      with_actions("hinge", "actuator", "stiffness: \"3*q*(1 + 0.2*sin(t)) + 0.5*v\"", {{"stiffness", "[1]", ""}}));
   list.push_back(with_actions("cylindrical", "springs",
                               "stiffness: {displacement: 4, angle: \"2*q + q^2*v\"}, damping: {angle: 0.3}, rest: "
                               "{displacement: 0.1}, preload: {angle: 1}, locked: {angle: {from: 1}}",
@@ -101,7 +102,7 @@ std::vector<Sample> joint_samples() {
                                {"preload", "1", "several coordinates"},
                                {"preload.angle", "'q'", "q"},
                                {"locked", "{from: 1}", "from"},
-                               {"locked.angle", "{to: 0}", "behind"},
+                               {"locked.angle", "{to: 0}", "after"},
                                {"locked.angle.from", "-2", ""}}));
   list.push_back(with_actions("planar", "springs",
                               "stiffness: {x: 4, y: \"3*q + q^3\", angle: 2}, damping: {x: 0.2, y: 0.4, angle: 0.3}",
@@ -125,7 +126,8 @@ std::vector<Sample> joint_samples() {
                                {"damping.rz", "-1", ""}}));
   // Formulas of the state: every kind of measure.
   const std::string everything =
-      "2 + axle.angle*sin(t) - 0.3*axle.angle.rate + 0.1*axle.reaction.x - 0.2*axle.reaction.rz + b.position.y*a.velocity.z"
+      "2 + axle.angle*sin(t) - 0.3*axle.angle.rate + 0.1*axle.reaction.x - 0.2*axle.reaction.rz + "
+      "b.position.y*a.velocity.z"
       " + b.rotation.x + 0.1*a.angular_velocity.y + distance(a, b)*angle(a, b)";
   Sample of_state = drive("hinge", "torque", everything, {{"torque", "'axle.angel'", "did you mean 'angle'"}});
   of_state.inertial = true;

@@ -7,7 +7,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "mechanism/solvers/time_integration.hpp"
+#include "mechanism/solvers/dynamics/time_integration.hpp"
 
 namespace bielle::test {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "mechanism/math/so3.hpp"
-#include "mechanism/system/state.hpp"
+#include "mechanism/model/state.hpp"
 
 namespace bielle::test {
 

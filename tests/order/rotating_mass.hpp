@@ -8,7 +8,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 
-#include "mechanism/solvers/scheme.hpp"
+#include "mechanism/solvers/dynamics/scheme.hpp"
 
 namespace bielle::test {
 

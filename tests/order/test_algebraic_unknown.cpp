@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "mechanism/io/mechanism_file.hpp"
-#include "mechanism/solvers/time_integration.hpp"
+#include "mechanism/solvers/dynamics/time_integration.hpp"
 #include "tests/support/orifices_in_series.hpp"
 #include "tests/support/second_order.hpp"
 #include "tests/support/series_strut.hpp"
@@ -34,7 +34,7 @@ joints: {pivot: {type: spherical, nodes: [ground, bob], position: [0, 0, 0]}}
                                  "pendulum.yaml")) {
     file.model.add(std::make_unique<SeriesStrut>("strut", *file.model.find_node("anchor"), *file.model.find_node("bob"),
                                                  law, eliminated),
-                   "");
+                   Entry{Section::elements, "strut"}, Recorded::no);
     system = std::make_unique<System>(file.model);
   }
 };
@@ -76,7 +76,7 @@ struct Errors {
   double x = 0, v = 0, lambda = 0, y = 0;
 };
 
-/// Largest errors over all steps of 0.5 s, of h, and of `factor` h behind the first 0.2 s.
+/// Largest errors over all steps of 0.5 s, of h, and of `factor` h after the first 0.2 s.
 Errors largest_errors(const Scheme& scheme, ConstraintForm form, double h, double factor) {
   const Pendulum model(false);
   TimeIntegration integration(*model.system, model.file.model.environment, scheme, model.system->start(0), form);
@@ -173,7 +173,8 @@ nodes: {mass: {position: [0, 0, 0]}}
 elements: {mass: {type: rigid_body, node: mass, mass: 1, inertia: [1, 1, 1]}}
 )yaml",
                                            "chamber.yaml");
-  file.model.add(std::make_unique<OrificesInSeries>("chamber", orifices, p, 0), "");
+  file.model.add(std::make_unique<OrificesInSeries>("chamber", orifices, p, 0), Entry{Section::elements, "chamber"},
+                 Recorded::no);
   const System system(file.model);
   const double root = std::sqrt(p) - 2e-7 / std::sqrt(5.0) / (2 * orifices.capacity) * end;
   const auto error = [&](double h) -> Eigen::VectorXd {

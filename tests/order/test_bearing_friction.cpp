@@ -41,8 +41,7 @@ Instant solve(const Vector2& z) {
   };
   // Contracts by mu r m l / (I + m l^2) = 0.18 each time.
   double a = 0;
-  for (int k = 0; k < 30; ++k)
-    a = (-m * g * l * c - mu_r * force(a).norm() * std::tanh(z[1] / w_0)) / (I + m * l * l);
+  for (int k = 0; k < 30; ++k) a = (-m * g * l * c - mu_r * force(a).norm() * std::tanh(z[1] / w_0)) / (I + m * l * l);
   return {a, force(a)};
 }
 

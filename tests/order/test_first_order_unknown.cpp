@@ -30,7 +30,7 @@ joints: {pivot: {type: spherical, nodes: [ground, bob], position: [0, 0, 0]}}
     file.model.add(std::make_unique<bielle::test::MaxwellStrut>("strut", *file.model.find_node("anchor"),
                                                                 *file.model.find_node("bob"), stiffness, relaxation,
                                                                 tension_at_start),
-                   "");
+                   Entry{Section::elements, "strut"}, Recorded::no);
     system = std::make_unique<System>(file.model);
   }
 };
@@ -70,7 +70,7 @@ struct Errors {
   double x = 0, v = 0, lambda = 0, tension = 0;
 };
 
-/// Largest errors over all steps of 0.5 s, of h, and of `factor` h behind the first 0.2 s.
+/// Largest errors over all steps of 0.5 s, of h, and of `factor` h after the first 0.2 s.
 Errors largest_errors(ConstraintForm form, double h, double factor) {
   const Pendulum model;
   TimeIntegration integration(*model.system, model.file.model.environment, Scheme::generalized_alpha(0.8),

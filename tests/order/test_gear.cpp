@@ -6,8 +6,8 @@
 //   gear on the slider: m (s'' - rho phi'^2) + m g sin(phi) + lambda ratio = 0,   ratio = -1/k
 #include <catch2/catch.hpp>
 
-#include "mechanism/elements/rigid_body.hpp"
-#include "mechanism/joints/lower_pairs.hpp"
+#include "mechanism/elements/rigid_body/rigid_body.hpp"
+#include "mechanism/joints/pairs/lower_pairs.hpp"
 #include "tests/order/constraint_forms.hpp"
 #include "tests/support/coordinate_gear.hpp"
 #include "tests/support/runge_kutta.hpp"
@@ -37,7 +37,7 @@ struct Spiral {
     slider = model.add_node(sliding);
     auto made = std::make_unique<CoordinateGear>("gear", -1 / k);
     CoordinateGear& gear = *made;
-    model.add(std::move(made), "");
+    model.add(std::move(made), Entry{Section::elements, "gear"}, Recorded::no);
     const auto entry = [](const char* text) { return YamlValue::parse(text, "spiral.yaml"); };
     read_rigid_body("arm", entry("{type: rigid_body, node: arm, mass: 1, inertia: [0.2, 0.2, 0.3]}"), model);
     read_rigid_body("slider", entry("{type: rigid_body, node: slider, mass: 2, inertia: [0.05, 0.05, 0.05]}"), model);

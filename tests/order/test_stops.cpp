@@ -83,12 +83,12 @@ TEST_CASE("the first contact is met to the tolerance of its search, at steps tha
     const Ran ran = run(falling, steps_of(0.3, h));
     REQUIRE(!ran.events.empty());
     CHECK(ran.events.front().name == "joint 'path': displacement at its upper stop");
-    // Steps end behind the zero, by less than 1e-10 of their size; positions of the fall are exact but for rounding.
+    // Steps end past the zero, by less than 1e-10 of their size; positions of the fall are exact but for rounding.
     CHECK(ran.events.front().time == Approx(met).margin(1e-10 * h + 1e-14).epsilon(0));
   }
 }
 
-TEST_CASE("contact and what comes behind are of order 2 in each form of constraints") {
+TEST_CASE("contact and what comes after are of order 2 in each form of constraints") {
   const auto form = GENERATE(ConstraintForm::position, ConstraintForm::corrected, ConstraintForm::stabilised);
   const bool turns = GENERATE(false, true);
   Bounce exact = turns ? turn() : fall();
@@ -116,7 +116,7 @@ TEST_CASE("contact and what comes behind are of order 2 in each form of constrai
   CHECK(q.back() < 1e-5);
 }
 
-TEST_CASE("adaptive steps keep the errors behind events in proportion to tolerance^(2/3)") {
+TEST_CASE("adaptive steps keep the errors after events in proportion to tolerance^(2/3)") {
   Bounce exact = turn();
   const double end = exact.events(1.15).at(4) + 0.03;
   const Bounce::Point wanted = exact.at(end);
@@ -133,7 +133,7 @@ TEST_CASE("adaptive steps keep the errors behind events in proportion to toleran
   CHECK(slope(tolerances, q) == Approx(2.0 / 3).margin(0.12));
 }
 
-TEST_CASE("the grid of fixed steps goes on behind events") {
+TEST_CASE("the grid of fixed steps goes on after events") {
   const Ran ran = run(falling, steps_of(1.04, 0.01));
   REQUIRE(ran.time.size() == 105);
   for (std::size_t k = 0; k < ran.time.size(); ++k)

@@ -10,7 +10,7 @@ namespace bielle::performance {
 inline const std::string spherical = "spherical", hinge = "hinge, axis: [0, 1, 0]";
 
 /// Gravity, nodes, elements and joints of a mechanism file.
-/// @param joint  its type, with what it needs beside nodes and position
+/// @param joint  its type, with what it needs besides nodes and position
 inline std::string chain(int links, const std::string& joint) {
   std::string nodes, elements, joints;
   for (int k = 0; k < links; ++k) {

@@ -21,9 +21,9 @@
 
 #include <fmt/format.h>
 
-#include "mechanism/session/energy_balance.hpp"
 #include "mechanism/io/mechanism_file.hpp"
 #include "mechanism/io/results_file.hpp"
+#include "mechanism/session/energy_balance.hpp"
 #include "tests/performance/chain.hpp"
 #include "tests/performance/processor_time.hpp"
 
@@ -53,7 +53,7 @@ struct Run {
   double processor = 0;       ///< of the computing thread in the steps
   double end = 0;             ///< and when the file is closed
   double all_processors = 0;  ///< and of the one that writes
-  long iterations = 0, factorisations = 0, steps = 0;
+  long iterations = 0, factorisations = 0, evaluations = 0, solutions = 0, orders = 0, steps = 0;
   State state;
 };
 
@@ -80,6 +80,9 @@ Run integrate(const MechanismFile& file, const System& system, bool reuse, const
     const StepReport report = integration.step(step);
     run.iterations += report.iterations;
     run.factorisations += report.factorisations;
+    run.evaluations += report.evaluations;
+    run.solutions += report.solutions;
+    run.orders += report.order;
     books.advance(integration.state().time, system.energy(integration.state(), file.model.environment));
     if (results) {
       StepRecord row;
@@ -158,8 +161,12 @@ int run_only(const std::string& model, const std::string& tangents, int links, l
   System system(file.model);
   system.set_aside({});
   const Run run = integrate(file, system, tangents == "reused", results_path(), steps);
-  fmt::print("{:.2f} us per step, {:.2f} iterations\n", 1e6 * run.processor / static_cast<double>(run.steps),
-             static_cast<double>(run.iterations) / static_cast<double>(run.steps));
+  const auto per_step = [&](auto number) { return static_cast<double>(number) / static_cast<double>(run.steps); };
+  fmt::print(
+      "{:.2f} us per step, {:.2f} iterations, {:.3f} factorisations, {:.2f} evaluations, {:.2f} solutions, order "
+      "{:.1f}\n",
+      1e6 * per_step(run.processor), per_step(run.iterations), per_step(run.factorisations), per_step(run.evaluations),
+      per_step(run.solutions), per_step(run.orders));
   return 0;
 }
 
@@ -182,10 +189,12 @@ void measure(const std::string& title, const std::string& text) {
     std::vector<double> values;
     const State& state = with.state;
     linear.factor(state, environment, weights, &dq);
-    // Each part by how often a step needs it: residuals once more than there are iterations.
+    // Each part by how often a step needs it.
     const auto steps = static_cast<double>(with.steps);
     const double iterations = static_cast<double>(with.iterations) / steps;
-    const double tangents = static_cast<double>(with.factorisations) / steps, residuals = 1 + iterations;
+    const double tangents = static_cast<double>(with.factorisations) / steps;
+    const double residuals = static_cast<double>(with.evaluations) / steps;
+    const double solutions = static_cast<double>(with.solutions) / steps;
     const double energy = time_of([&] { system.energy(state, environment); });
     const double memory = time_of([&] { evaluate_memory(system, state, environment); });
     const double residual = time_of([&] { system.residual(state, environment, r, &scale); });
@@ -197,14 +206,18 @@ void measure(const std::string& title, const std::string& text) {
       system.set_rates(moved, dq, dq);
     });
     const double factor = tangents * factored;
-    const double solve = time_of([&] { linear.solve(r, delta); }) * (reuse ? residuals : iterations);
+    const double solved = time_of([&] { linear.solve(r, delta); }), solve = solutions * solved;
 
     const double total = 1e6 * with.processor / steps, output = total - 1e6 * without.processor / steps;
     const auto line = [&](const char* name, double us) {
       fmt::print("      {:<28} {:8.2f} us {:6.1f} %\n", name, us, 100 * us / total);
     };
-    fmt::print("  tangent {}: {:.2f} iterations and {:.2f} factorisations per step\n", reuse ? "reused" : "renewed",
-               iterations, tangents);
+    fmt::print(
+        "  tangent {}: {:.2f} iterations, {:.2f} factorisations, {:.2f} evaluations, {:.2f} solutions per step from "
+        "order "
+        "{:.1f}\n    which costs {:.1f} times one evaluation and one solution\n",
+        reuse ? "reused" : "renewed", iterations, tangents, residuals, solutions,
+        static_cast<double>(with.orders) / steps, without.processor / steps / (residual + motion + solved));
     fmt::print(
         "    per step {:.2f} us of the processor, {:.2f} per iteration; elapsed with all ends {:.2f}, both threads "
         "{:.2f}; closing the file {:.1f} ms\n",

@@ -5,8 +5,8 @@
 //
 // Each model runs with constraints of index 3 and with stabilised ones, with several rho, in steps of several sizes.
 // Errors are largest ones over all steps against a run in much smaller steps (stabilised, rho = 0.8): of the positions
-// of all nodes, and of the multipliers of holonomic constraints beside the largest multiplier. The cost is processor
-// time.
+// of all nodes, and of the multipliers of holonomic constraints relative to the largest multiplier. The cost is
+// processor time.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -16,8 +16,8 @@
 #include <fmt/format.h>
 
 #include "mechanism/io/mechanism_file.hpp"
-#include "mechanism/solvers/redundancy.hpp"
-#include "mechanism/solvers/time_integration.hpp"
+#include "mechanism/solvers/constraints/redundancy.hpp"
+#include "mechanism/solvers/dynamics/time_integration.hpp"
 #include "tests/performance/chain.hpp"
 #include "tests/performance/processor_time.hpp"
 

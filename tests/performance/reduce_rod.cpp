@@ -1,4 +1,5 @@
-// What the reduction of the connecting rod costs, phase by phase, beside what the same machine can do in the same run.
+// What the reduction of the connecting rod costs, phase by phase, compared with what the same machine can do in the
+// same run.
 //
 //   reduce_rod [SIZE_IN_MM ...]      element edges; default 4.6 2.8 2.05: about 50, 150 and 300 thousand dofs
 //

@@ -105,7 +105,7 @@ struct Full {
     }
   }
 
-  /// Geometric stiffness under the axial forces that `load` raises in the free body, balanced by rigid-body inertia.
+  /// Geometric stiffness under the section forces that `load` raises in the free body, balanced by rigid-body inertia.
   MatrixXd prestress(const BeamChain& chain, const VectorXd& load) const {
     const MatrixXd MU = M * rigid;
     const VectorXd balanced = load - MU * (rigid.transpose() * MU).ldlt().solve(rigid.transpose() * load);
@@ -115,16 +115,41 @@ struct Full {
     MatrixXd geometric = MatrixXd::Zero(size, size);
     for (std::size_t e = 0; e < turn.size(); ++e) {
       const auto first = static_cast<Eigen::Index>(6 * e);
-      const double L = length[e];
-      const double N = chain.properties.EA * shape_functions(0.5, L, 1).row(0).dot(turn[e] * u.segment<12>(first));
+      const Eigen::Matrix<double, 12, 1> ends = turn[e] * u.segment<12>(first);
       Eigen::Matrix<double, 12, 12> k = Eigen::Matrix<double, 12, 12>::Zero();
-      for (std::size_t g = 0; g < 4; ++g) {
-        const Rows d1 = shape_functions((1 + gauss_points[g]) / 2, L, 1);
-        k += (gauss_weights[g] / 2 * L * N) * (d1.row(1).transpose() * d1.row(1) + d1.row(2).transpose() * d1.row(2));
-      }
-      geometric.block<12, 12>(first, first) += turn[e].transpose() * k * turn[e];
+      for (std::size_t g = 0; g < 4; ++g)
+        k += gauss_weights[g] / 2 * length[e] *
+             second_variation(chain.properties, (1 + gauss_points[g]) / 2, length[e], ends);
+      geometric.block<12, 12>(first, first) += turn[e].transpose() * (k + k.transpose()) * turn[e];
     }
     return geometric;
+  }
+
+  /// n.Gamma_2 + m.kappa_2 at z as a form in the ends' displacements, element axes, for the n and m of others of them.
+  static Eigen::Matrix<double, 12, 12> second_variation(const BeamProperties& p, double z, double L,
+                                                        const Eigen::Matrix<double, 12, 1>& ends) {
+    const Rows d1 = shape_functions(z, L, 1), d2 = shape_functions(z, L, 2);
+    const Rows d3 = (shape_functions(1, L, 2) - shape_functions(0, L, 2)) / L;  // linear in z
+    Rows theta = Rows::Zero(), theta_rate = Rows::Zero();
+    theta(0, 3) = 1 - z;
+    theta(0, 9) = z;
+    theta_rate(0, 9) = 1 / L;
+    theta_rate(0, 3) = -1 / L;
+    theta.row(1) = -d1.row(2);
+    theta.row(2) = d1.row(1);
+    theta_rate.row(1) = -d2.row(2);
+    theta_rate.row(2) = d2.row(1);
+    // m' + e_1 x n = 0
+    const Vector3d m(p.GJ * theta_rate.row(0).dot(ends), p.EIy * theta_rate.row(1).dot(ends),
+                     p.EIz * theta_rate.row(2).dot(ends));
+    const Vector3d n(p.EA * d1.row(0).dot(ends), -p.EIz * d3.row(1).dot(ends), -p.EIy * d3.row(2).dot(ends));
+    const auto cross = [](const Vector3d& v) {
+      Matrix3d s;
+      s << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+      return s;
+    };
+    return theta.transpose() * cross(n) * d1 + 0.5 * (theta.transpose() * n) * theta.row(0) -
+           0.5 * n.x() * theta.transpose() * theta + 0.5 * theta.transpose() * cross(m) * theta_rate;
   }
 
   /// Loads of the centrifugal field of the pair k, l: half of the terms of Om_k Om_l when k differs from l.
@@ -217,6 +242,22 @@ BeamSuperelement BeamChain::reduced() const {
   body.inertia = symmetric(rigid.bottomRightCorner<3, 3>()) + body.total_mass * lever * lever;
   body.effective_mass = MatrixXd::Zero(modes, 6);
   return result;
+}
+
+void add_mesh(const BeamChain& chain, double distance, BeamSuperelement& reduced) {
+  const auto nodes = static_cast<Eigen::Index>(chain.nodes.size());
+  Superelement& body = reduced.body;
+  body.mesh.points.resize(3, 4 * nodes);
+  body.displacement_recovery.resize(12 * nodes, body.stiffness.cols());
+  for (Eigen::Index k = 0; k < nodes; ++k)
+    for (Eigen::Index i = 0; i < 4; ++i) {
+      const Vector3d offset = distance * (i % 2 == 0 ? 1 : -1) * (i < 2 ? Vector3d::UnitY() : Vector3d::UnitZ());
+      Matrix3d cross;
+      cross << 0, -offset.z(), offset.y(), offset.z(), 0, -offset.x(), -offset.y(), offset.x(), 0;
+      body.mesh.points.col(4 * k + i) = chain.nodes[static_cast<std::size_t>(k)] + offset;
+      body.displacement_recovery.middleRows<3>(3 * (4 * k + i)) =
+          reduced.basis.middleRows<3>(6 * k) - cross * reduced.basis.middleRows<3>(6 * k + 3);
+    }
 }
 
 BeamChain straight_beam(const BeamProperties& properties, int modes) {

@@ -2,7 +2,7 @@
 // form.
 //
 // Free:     q'' = f.                        In contact, p = q - upper:   p'' = f - 2 delta p' - omega^2 p,
-// as long as the stop pushes, omega^2 p + 2 delta p' > 0; behind that q'' = f until p = 0, where contact ends. All per
+// as long as the stop pushes, omega^2 p + 2 delta p' > 0; after that q'' = f until p = 0, where contact ends. All per
 // unit of mass.
 #pragma once
 
@@ -50,7 +50,7 @@ class Bounce {
     const double v = e * ((b * w - delta_ * a) * c - (a * w + delta_ * b) * n);
     return {upper_ + p, v, -(omega_ * omega_ * p + 2 * delta_ * v)};
   }
-  /// The first zero of a function behind `from`, negative there. @param step  below the distance of its zeros
+  /// The first zero of a function past `from`, negative there. @param step  below the distance of its zeros
   template <class Function>
   static double zero(const Function& g, double from, double step) {
     double low = from, high = from + step;

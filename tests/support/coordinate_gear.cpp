@@ -21,15 +21,16 @@ void CoordinateGear::add_residual(const LocalState& state, Eigen::Ref<VectorX> r
 
 void CoordinateGear::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   if (!tangent.wants_K) return;
+  auto K = tangent.K.dense();
   CoordinateJet jet;
   for (const int k : {0, 1}) {
     const auto j = static_cast<std::size_t>(k);
     joints_[j]->calc_coordinate(0, state.of(k), jet);
     const int at = state.slots().reference_row(k);
     const auto n = jet.g().size();
-    tangent.K.block(0, at, 1, n) += factors_[j] * jet.g().transpose();
-    tangent.K.block(at, 0, n, 1) += factors_[j] * jet.g();
-    tangent.K.block(at, at, n, n) += state.multiplier()[0] * factors_[j] * jet.S();
+    K.block(0, at, 1, n) += factors_[j] * jet.g().transpose();
+    K.block(at, 0, n, 1) += factors_[j] * jet.g();
+    K.block(at, at, n, n) += state.multiplier()[0] * factors_[j] * jet.S();
   }
 }
 

@@ -8,6 +8,7 @@
 namespace bielle::test {
 
 using mechanism::exp_so3;
+using mechanism::LocalMatrix;
 using mechanism::LocalState;
 using mechanism::LocalTangent;
 using mechanism::NodeState;
@@ -172,8 +173,9 @@ MatrixX DenseModel::tangent(const State& state, Part part) const {
     const Placed& m = members_[k];
     const int n = m.slots.size();
     MatrixX K = MatrixX::Zero(n, n), C = MatrixX::Zero(n, n), M = MatrixX::Zero(n, n);
-    LocalTangent tangent{K, C, M, part == Part::K, part == Part::C, part == Part::M};
     const Declaration& d = declarations_[k];
+    const auto target = [&](MatrixX& matrix) { return LocalMatrix(matrix, d.in_blocks); };
+    LocalTangent tangent{target(K), target(C), target(M), part == Part::K, part == Part::C, part == Part::M};
     const bool declared = part == Part::K ? d.stiffness : part == Part::C ? d.damping : d.mass;
     if (!declared) continue;
     m.component->add_tangent({state, m.slots, environment}, tangent);

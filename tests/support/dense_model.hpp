@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "mechanism/system/model.hpp"
+#include "mechanism/model/model.hpp"
 
 namespace bielle::test {
 

@@ -31,6 +31,7 @@ void MaxwellStrut::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) 
 // With Q = (I - u u^T)/l and w = Q (v_B - v_A), columns x_A, x_B, N:
 //   K = [ N Q, -N Q, -u;  -N Q, N Q, u;  k w^T, -k w^T, 1/tau ],   C = [ 0, 0, 0;  0, 0, 0;  k u^T, -k u^T, 1 ]
 void MaxwellStrut::add_tangent(const LocalState& state, LocalTangent& tangent) const {
+  auto K = tangent.K.dense(), C = tangent.C.dense();
   const NodeState &A = state.node(0), &B = state.node(1);
   const Vector3 s = B.x - A.x, u = s.normalized();
   if (tangent.wants_K) {
@@ -38,16 +39,15 @@ void MaxwellStrut::add_tangent(const LocalState& state, LocalTangent& tangent) c
     const Vector3 w = Q * (B.v - A.v);
     for (const int row : {0, 6}) {
       for (const int column : {0, 6})
-        tangent.K.block<3, 3>(row, column) += (row == column ? 1 : -1) * state.first_order()[0] * Q;
-      tangent.K.block<3, 1>(row, 12) += (row == 6 ? 1 : -1) * u;
-      tangent.K.block<1, 3>(12, row) -= (row == 6 ? 1 : -1) * stiffness_ * w.transpose();
+        K.block<3, 3>(row, column) += (row == column ? 1 : -1) * state.first_order()[0] * Q;
+      K.block<3, 1>(row, 12) += (row == 6 ? 1 : -1) * u;
+      K.block<1, 3>(12, row) -= (row == 6 ? 1 : -1) * stiffness_ * w.transpose();
     }
-    tangent.K(12, 12) += 1 / relaxation_;
+    K(12, 12) += 1 / relaxation_;
   }
   if (tangent.wants_C) {
-    for (const int column : {0, 6})
-      tangent.C.block<1, 3>(12, column) -= (column == 6 ? 1 : -1) * stiffness_ * u.transpose();
-    tangent.C(12, 12) += 1;
+    for (const int column : {0, 6}) C.block<1, 3>(12, column) -= (column == 6 ? 1 : -1) * stiffness_ * u.transpose();
+    C(12, 12) += 1;
   }
 }
 

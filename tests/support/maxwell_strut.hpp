@@ -5,7 +5,7 @@
 //   forces on the nodes: +-N u
 #pragma once
 
-#include "mechanism/system/component.hpp"
+#include "mechanism/model/component.hpp"
 
 namespace bielle::test {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "mechanism/system/model.hpp"
+#include "mechanism/model/model.hpp"
 
 namespace bielle::test {
 

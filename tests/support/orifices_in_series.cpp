@@ -36,15 +36,16 @@ void OrificesInSeries::add_residual(const LocalState& state, Eigen::Ref<VectorX>
 }
 
 void OrificesInSeries::add_tangent(const LocalState& state, LocalTangent& tangent) const {
+  auto K = tangent.K.dense(), C = tangent.C.dense();
   const double p = state.first_order()[0], y = state.first_order()[1];
   if (tangent.wants_K) {
     const double in = flow_by_pressure(law_.c_1, p - y, law_.s_0), out = flow_by_pressure(law_.c_2, y, law_.s_0);
-    tangent.K(0, 0) += in;
-    tangent.K(0, 1) -= in;
-    tangent.K(1, 0) += in;
-    tangent.K(1, 1) -= in + out;
+    K(0, 0) += in;
+    K(0, 1) -= in;
+    K(1, 0) += in;
+    K(1, 1) -= in + out;
   }
-  if (tangent.wants_C) tangent.C(0, 0) += law_.capacity;
+  if (tangent.wants_C) C(0, 0) += law_.capacity;
 }
 
 }  // namespace bielle::test

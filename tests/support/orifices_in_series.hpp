@@ -6,7 +6,7 @@
 // With s_0 = 0:  y = p c_1^2/(c_1^2 + c_2^2),  C dp/dt = -c sqrt(p),  1/c^2 = 1/c_1^2 + 1/c_2^2.
 #pragma once
 
-#include "mechanism/system/component.hpp"
+#include "mechanism/model/component.hpp"
 
 namespace bielle::test {
 

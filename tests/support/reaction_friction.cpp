@@ -20,6 +20,7 @@ void ReactionFriction::add_residual(const LocalState& state, Eigen::Ref<VectorX>
 
 void ReactionFriction::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   if (!tangent.wants_K) return;
+  auto K = tangent.K.dense();
   CoordinateJet jet;
   MatrixX derivatives;
   joint_.calc_coordinate(0, state.of(0), jet);
@@ -27,9 +28,8 @@ void ReactionFriction::add_tangent(const LocalState& state, LocalTangent& tangen
   const double F = force.norm(), friction = mu_ * std::copysign(1.0, jet.rate);
   const int at = state.slots().reference_row(0);
   const auto n = jet.w().size();
-  tangent.K.block(at, at, n, n) += friction * F * jet.W();
-  if (F > 0)
-    tangent.K.block(at, at, n, n) += friction * jet.w() * (force.transpose() / F) * derivatives.topRows<3>();
+  K.block(at, at, n, n) += friction * F * jet.W();
+  if (F > 0) K.block(at, at, n, n) += friction * jet.w() * (force.transpose() / F) * derivatives.topRows<3>();
 }
 
 }  // namespace bielle::test

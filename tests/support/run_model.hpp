@@ -5,8 +5,8 @@
 #include <string>
 
 #include "mechanism/io/mechanism_file.hpp"
-#include "mechanism/solvers/redundancy.hpp"
-#include "mechanism/solvers/time_integration.hpp"
+#include "mechanism/solvers/constraints/redundancy.hpp"
+#include "mechanism/solvers/dynamics/time_integration.hpp"
 
 namespace bielle::test {
 

@@ -20,9 +20,9 @@ void ScalarAmplitude::add_residual(const LocalState& state, Eigen::Ref<VectorX> 
 
 void ScalarAmplitude::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   const double x = state.amplitude()[0] / law_.b;
-  if (tangent.wants_K) tangent.K(0, 0) += law_.k * (1 + 3 * x * x);
-  if (tangent.wants_C) tangent.C(0, 0) += law_.d;
-  if (tangent.wants_M) tangent.M(0, 0) += law_.m;
+  if (tangent.wants_K) tangent.K.dense()(0, 0) += law_.k * (1 + 3 * x * x);
+  if (tangent.wants_C) tangent.C.dense()(0, 0) += law_.d;
+  if (tangent.wants_M) tangent.M.dense()(0, 0) += law_.m;
 }
 
 }  // namespace bielle::test

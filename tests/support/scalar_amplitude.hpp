@@ -2,7 +2,7 @@
 //   m q'' + d q' + k q (1 + (q/b)^2) = k b (1 + sin(w t))
 #pragma once
 
-#include "mechanism/system/component.hpp"
+#include "mechanism/model/component.hpp"
 
 namespace bielle::test {
 

@@ -18,8 +18,8 @@ void ScalarEquation::add_residual(const LocalState& state, Eigen::Ref<VectorX> r
 
 void ScalarEquation::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   const Law law = law_(state.first_order()[0], state.first_order_rate()[0]);
-  if (tangent.wants_K) tangent.K(0, 0) += law.by_value;
-  if (tangent.wants_C) tangent.C(0, 0) += law.by_rate;
+  if (tangent.wants_K) tangent.K.dense()(0, 0) += law.by_value;
+  if (tangent.wants_C) tangent.C.dense()(0, 0) += law.by_rate;
 }
 
 }  // namespace bielle::test

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "mechanism/system/component.hpp"
+#include "mechanism/model/component.hpp"
 
 namespace bielle::test {
 

@@ -10,8 +10,8 @@
 namespace bielle::test {
 
 /// Runs `error` (h -> computed minus reference, a vector) at h, h/2, h/4, ... and checks two things: each halving
-/// divides the error by four, and what Richardson's extrapolation of the two finest leaves is small beside the finest
-/// error, so that it is the reference that the scheme converges to.
+/// divides the error by four, and what Richardson's extrapolation of the two finest leaves is small relative to the
+/// finest error, so that it is the reference that the scheme converges to.
 /// @param margin  on the observed order, which is 2 up to the next term of the error's series
 template <class Error>
 void check_second_order(const Error& error, double h, int halvings, double margin = 0.1, double left = 0.1) {

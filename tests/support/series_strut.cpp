@@ -44,6 +44,7 @@ void SeriesStrut::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) c
 // With Q = (I - u u^T)/l and w = Q (v_B - v_A), by the relative position, relative velocity and y:
 //   N u:  N Q,  0,  N' u;    f:  -(k_2 u + d w)^T,  -d u^T,  N' + k_2
 void SeriesStrut::add_tangent(const LocalState& state, LocalTangent& tangent) const {
+  auto K = tangent.K.dense(), C = tangent.C.dense();
   const NodeState &A = state.node(0), &B = state.node(1);
   const Vector3 s = B.x - A.x, u = s.normalized();
   const double l = s.norm(), rate = u.dot(B.v - A.v);
@@ -53,20 +54,20 @@ void SeriesStrut::add_tangent(const LocalState& state, LocalTangent& tangent) co
   const Vector3 f_x = -(law_.k_2 * u + law_.d * (Q * (B.v - A.v))), f_v = -law_.d * u;
   for (const int column : {0, 6}) {
     const double sign = column == 6 ? 1 : -1;
-    if (!eliminated_ && tangent.wants_K) tangent.K.block<1, 3>(12, column) += sign * f_x.transpose();
-    if (!eliminated_ && tangent.wants_C) tangent.C.block<1, 3>(12, column) += sign * f_v.transpose();
+    if (!eliminated_ && tangent.wants_K) K.block<1, 3>(12, column) += sign * f_x.transpose();
+    if (!eliminated_ && tangent.wants_C) C.block<1, 3>(12, column) += sign * f_v.transpose();
     for (const int row : {0, 6}) {
       const double both = row == column ? 1 : -1;
-      if (tangent.wants_K) tangent.K.block<3, 3>(row, column) += both * law_.force(y) * Q;
+      if (tangent.wants_K) K.block<3, 3>(row, column) += both * law_.force(y) * Q;
       if (!eliminated_) continue;
-      if (tangent.wants_K) tangent.K.block<3, 3>(row, column) -= both * N_y / f_y * u * f_x.transpose();
-      if (tangent.wants_C) tangent.C.block<3, 3>(row, column) -= both * N_y / f_y * u * f_v.transpose();
+      if (tangent.wants_K) K.block<3, 3>(row, column) -= both * N_y / f_y * u * f_x.transpose();
+      if (tangent.wants_C) C.block<3, 3>(row, column) -= both * N_y / f_y * u * f_v.transpose();
     }
   }
   if (eliminated_ || !tangent.wants_K) return;
-  tangent.K.block<3, 1>(0, 12) -= N_y * u;
-  tangent.K.block<3, 1>(6, 12) += N_y * u;
-  tangent.K(12, 12) += f_y;
+  K.block<3, 1>(0, 12) -= N_y * u;
+  K.block<3, 1>(6, 12) += N_y * u;
+  K(12, 12) += f_y;
 }
 
 }  // namespace bielle::test

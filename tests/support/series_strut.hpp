@@ -1,11 +1,12 @@
-// Two springs in series between two nodes, a damper parallel to both, and no mass where the springs meet: the elongation y
-// of the first one follows from the balance of forces there. It is an algebraic first-order unknown, or is eliminated.
+// Two springs in series between two nodes, a damper parallel to both, and no mass where the springs meet: the
+// elongation y of the first one follows from the balance of forces there. It is an algebraic first-order unknown, or is
+// eliminated.
 //
 //   N(y) = k_1 y + c y^3,    0 = N(y) - k_2 (l - l_0 - y) - d dl/dt,    l the distance of the nodes
 //   forces on the nodes: +-N u
 #pragma once
 
-#include "mechanism/system/component.hpp"
+#include "mechanism/model/component.hpp"
 
 namespace bielle::test {
 

@@ -21,7 +21,9 @@ struct Mix {
  private:
   /// A number in [0.2, 1] of its own for each row.
   static double share(int row, double phase) { return 0.6 + 0.4 * std::sin(2.3 * row + phase); }
-  static Vector3 shares(int row, double phase) { return {share(row, phase), share(row + 1, phase), share(row + 2, phase)}; }
+  static Vector3 shares(int row, double phase) {
+    return {share(row, phase), share(row + 1, phase), share(row + 2, phase)};
+  }
 
   void add(const LocalState& state, int begin) {
     const Slots& slots = state.slots();
@@ -79,9 +81,9 @@ void StateMixer::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) co
 void StateMixer::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   const Mix mix(state);
   const VectorX by_p = (std::cos(mix.p) + mix.p / 2) * mix.w;
-  if (tangent.wants_K) tangent.K += by_p * mix.by_position.transpose();
-  if (tangent.wants_C) tangent.C += by_p * mix.by_rate.transpose();
-  if (tangent.wants_M) tangent.M += by_p * mix.by_acceleration.transpose();
+  if (tangent.wants_K) tangent.K.dense() += by_p * mix.by_position.transpose();
+  if (tangent.wants_C) tangent.C.dense() += by_p * mix.by_rate.transpose();
+  if (tangent.wants_M) tangent.M.dense() += by_p * mix.by_acceleration.transpose();
 }
 
 }  // namespace bielle::test

@@ -6,7 +6,7 @@
 // w is a constant vector, zero in rows of constraints; of node axes R, the share is b . R c of constant b, c.
 #pragma once
 
-#include "mechanism/system/component.hpp"
+#include "mechanism/model/component.hpp"
 
 namespace bielle::test {
 

@@ -15,7 +15,7 @@
 
 namespace bielle::test {
 
-/// Nodes `fixed: true` (and `ground`) are held; the other unknowns are free, but for those of `hold`.
+/// Nodes `fixed: true` (and `ground`) are held; the others and amplitudes are free, but for what `hold` takes.
 struct StaticModel {
   std::unique_ptr<Model> model;
   DenseModel dense;
@@ -26,6 +26,7 @@ struct StaticModel {
     for (int k = 0; k < dense.nodes(); ++k)
       for (int d = 0; d < 6; ++d)
         if (model->node(k).freedom[static_cast<std::size_t>(d)] == mechanism::Freedom::free) free.push_back(6 * k + d);
+    for (int k = dense.amplitude_begin(); k < dense.first_order_begin(); ++k) free.push_back(k);
   }
   const mechanism::NodeState& node(const std::string& name) const {
     return state.nodes[static_cast<std::size_t>(*model->find_node(name))];

@@ -7,7 +7,7 @@ namespace bielle::test {
 using namespace mechanism;
 
 SuperelementAlone::SuperelementAlone(const Superelement& superelement, std::vector<Matrix3> reference_rotations,
-                                     std::vector<SuperelementPlacement::Load> loads) {
+                                     std::vector<SuperelementPlacement::Load> loads, BodyFrame frame) {
   SuperelementPlacement placement;
   for (std::size_t k = 0; k < superelement.interfaces.size(); ++k) {
     placement.nodes.push_back(static_cast<int>(k));
@@ -16,12 +16,12 @@ SuperelementAlone::SuperelementAlone(const Superelement& superelement, std::vect
                                                                         : reference_rotations[k]);
   }
   placement.loads = std::move(loads);
+  placement.frame = frame;
   body_ = std::make_unique<SuperelementBody>("alone", superelement, std::move(placement));
   Declaration declaration;
   body_->declare(declaration);
   slots_.nodes = declaration.nodes;
   slots_.amplitudes = static_cast<int>(declaration.amplitudes.size());
-  slots_.memories = static_cast<int>(declaration.memory.size());
 }
 
 State SuperelementAlone::rigid_state(const Frame& frame, const Vector3& v, const Vector3& Om) const {
@@ -36,14 +36,12 @@ State SuperelementAlone::rigid_state(const Frame& frame, const Vector3& v, const
     state.nodes.push_back(node);
   }
   state.amplitude = state.amplitude_rate = state.amplitude_acceleration = VectorX::Zero(slots_.amplitudes);
-  state.memory = VectorX::Zero(slots_.memories);
   return state;
 }
 
-State SuperelementAlone::random_state(Random& random, double deformation, double rate, double force) const {
+State SuperelementAlone::random_state(Random& random, double deformation, double rate) const {
   const Frame frame{random.vector3(3), exp_so3(random.vector3(2))};
-  State state = moved(rigid_state(frame), random.vector(size(), deformation));
-  state.memory = random.vector(slots_.memories, force);
+  const State state = moved(rigid_state(frame), random.vector(size(), deformation));
   return with_rates(state, random.vector(size(), rate), random.vector(size(), rate * rate));
 }
 
@@ -101,7 +99,7 @@ VectorX SuperelementAlone::residual(const State& state) const {
 SuperelementAlone::Tangent SuperelementAlone::tangent(const State& state) const {
   Tangent t;
   t.K = t.C = t.M = MatrixX::Zero(size(), size());
-  LocalTangent parts{t.K, t.C, t.M};
+  LocalTangent parts{LocalMatrix(t.K), LocalMatrix(t.C), LocalMatrix(t.M)};
   body_->add_tangent(local(state), parts);
   return t;
 }
@@ -126,11 +124,10 @@ CorotatedGeometry SuperelementAlone::geometry(const State& state) const {
   return geometry;
 }
 
-State SuperelementAlone::accepted(State state) const {
-  VectorX memory = state.memory;
-  body_->accept(local(state), memory);
-  state.memory = memory;
-  return state;
+VectorX SuperelementAlone::coordinates(const State& state) const {
+  LinearCoordinates coordinates;
+  coordinates.solve(body_->matrices(), geometry(state).q);
+  return coordinates.eps();
 }
 
 }  // namespace bielle::test

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "mechanism/elements/superelement_body.hpp"
+#include "mechanism/elements/superelement/superelement_body.hpp"
 #include "tests/support/beam_superelement.hpp"
 #include "tests/support/random.hpp"
 
@@ -13,7 +13,8 @@ class SuperelementAlone {
  public:
   /// @param reference_rotations  node axes -> body axes of each interface; identities when empty
   explicit SuperelementAlone(const Superelement& superelement, std::vector<mechanism::Matrix3> reference_rotations = {},
-                             std::vector<mechanism::SuperelementPlacement::Load> loads = {});
+                             std::vector<mechanism::SuperelementPlacement::Load> loads = {},
+                             mechanism::BodyFrame frame = mechanism::BodyFrame::mean);
 
   const mechanism::SuperelementBody& body() const { return *body_; }
   int nodes() const { return static_cast<int>(slots_.nodes.size()); }
@@ -25,8 +26,8 @@ class SuperelementAlone {
   mechanism::State rigid_state(const mechanism::Frame& frame, const mechanism::Vector3& v = mechanism::Vector3::Zero(),
                                const mechanism::Vector3& Om = mechanism::Vector3::Zero()) const;
   /// Anywhere in space, deformed by translations and rotations up to `deformation`, with rates and accelerations of
-  /// order `rate` and memory of order `force`.
-  mechanism::State random_state(Random& random, double deformation, double rate, double force = 0) const;
+  /// order `rate`.
+  mechanism::State random_state(Random& random, double deformation, double rate) const;
 
   /// state with positions moved by z and rates and accelerations changed.
   mechanism::State moved(const mechanism::State& state, const Eigen::VectorXd& z) const;
@@ -42,7 +43,8 @@ class SuperelementAlone {
   mechanism::Energy energy(const mechanism::State& state) const;
   Eigen::VectorXd output(const mechanism::State& state) const;
   mechanism::CorotatedGeometry geometry(const mechanism::State& state) const;
-  mechanism::State accepted(mechanism::State state) const;
+  /// The body's linear coordinates at a state, in the layout of its matrices.
+  Eigen::VectorXd coordinates(const mechanism::State& state) const;
   mechanism::LocalState local(const mechanism::State& state) const { return {state, slots_, environment}; }
 
  private:

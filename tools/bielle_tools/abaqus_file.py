@@ -12,7 +12,7 @@ import re
 
 import numpy as np
 
-from .messages import InputError
+from .messages import InputError, counted
 from .solid_mesh import RawMesh
 
 # Element families of the two programs: label pattern, meshio type (None: points, lines and couplings, left out), nodes.
@@ -132,8 +132,8 @@ class _Reader:
             return
         numbers = [int(word) for row in rows for word in row.split(",") if word.strip()]
         if len(numbers) % (count + 1):
-            raise InputError(f"{where}: {label} needs {count} nodes per element, but {len(numbers)} numbers do not divide "
-                             f"into rows of {count + 1}")
+            raise InputError(f"{where}: {label} needs {count} nodes per element: {counted(len(numbers), 'number')} cannot be "
+                             f"divided into rows of {count + 1}")
         table = np.array(numbers, dtype=np.int64).reshape(-1, count + 1)
         self.blocks.append((kind, table[:, 0], table[:, 1:]))
         if "ELSET" in options:
@@ -190,7 +190,7 @@ class _Reader:
                 self.cell_place[label] = (block, row)
         mesh = RawMesh(np.array(self.points), self.cells, notes=self.notes)
         for count, kind in ((count, kind) for kind, count in self.skipped.items()):
-            mesh.notes.append(f"{count} elements of type {kind} are left out: they carry neither volume nor surface")
+            mesh.notes.append(f"left out: {counted(count, 'element')} of type {kind}, which has neither volume nor surface")
         for key, (name, _) in self.sets["ELSET"].items():
             if not name.startswith("_"):  # Abaqus' own helpers of surfaces
                 mesh.cell_sets[name] = self._cells_of(key)

@@ -48,7 +48,8 @@ def superelement_paths(options, results):
         if not separator or not element or not path:
             raise InputError(f"--superelement '{text}': ELEMENT=FILE.h5 is expected")
         pairs[element] = path
-    check_names("superelement", pairs, results.elements_with("frame"))
+    known = results.elements_with("frame")
+    check_names("superelement", pairs, known + [results.entry_of(name) for name in known])
     return pairs
 
 

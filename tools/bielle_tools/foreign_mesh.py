@@ -13,6 +13,7 @@ import numpy as np
 
 from .abaqus_file import read_abaqus
 from .messages import InputError
+from .nastran_file import read_extras
 from .solid_mesh import RawMesh
 
 READ_BY_GMSH = (".geo", ".step", ".stp", ".brep", ".iges", ".igs", ".msh", ".unv")
@@ -31,10 +32,16 @@ def read_foreign(path):
         raise InputError(f"'{path}': {extension} needs no conversion, bielle-reduce reads it")
     if extension == ".inp":
         return read_abaqus(path)
-    mesh = _read_nastran(path) if extension in NASTRAN else _read(path)
-    if np.ndim(mesh.points) != 2 or not len(mesh.points):
-        raise InputError(f"'{path}' holds no points: it is no mesh of the format that '{extension}' stands for")
+    if extension in NASTRAN:
+        return _nastran_mesh(path)
+    mesh = _read(path)
+    _check_points(mesh, path)
     return _raw_mesh(mesh)
+
+
+def _check_points(mesh, path):
+    if np.ndim(mesh.points) != 2 or not len(mesh.points):
+        raise InputError(f"'{path}' holds no points: it is no mesh of the format that '{os.path.splitext(path)[1]}' stands for")
 
 
 def _read(path, shown=None, file_format=None):
@@ -51,10 +58,21 @@ def _read(path, shown=None, file_format=None):
         raise InputError(f"meshio cannot read '{shown or path}': {reason}") from None
 
 
-def _read_nastran(path):
-    """meshio wants the case control section's end, which many programs leave out of mesh files."""
+def _nastran_mesh(path):
+    """The mesh that meshio reads, with the sets and notes of what it passes over."""
     with open(path, encoding="utf-8", errors="replace") as file:
         text = file.read()
+    mesh = _read_nastran(path, text)
+    _check_points(mesh, path)
+    raw = _raw_mesh(mesh)
+    extras = read_extras(text, path)
+    raw.point_sets.update(extras.point_sets)
+    raw.notes += extras.notes
+    return raw
+
+
+def _read_nastran(path, text):
+    """meshio wants the case control section's end, which many programs leave out of mesh files."""
     lines = text.upper().splitlines()
     begin = "" if any(line.strip().startswith("BEGIN BULK") for line in lines) else "BEGIN BULK\n"
     end = "" if any(line.startswith("ENDDATA") for line in lines) else "\nENDDATA\n"

@@ -42,6 +42,11 @@ def note(text):
     print(f"note: {text}", file=sys.stderr)
 
 
+def counted(count, noun, plural=None):
+    """A number with its noun: "1 step", "3 steps"; plural: where it is not the noun with an s."""
+    return f"{count} {noun if count == 1 else plural or noun + 's'}"
+
+
 def check_names(what, wanted, known):
     """@raises InputError with the nearest known name when a wanted one is missing."""
     for name in wanted:

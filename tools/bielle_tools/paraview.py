@@ -18,7 +18,7 @@ import numpy as np
 from .messages import InputError
 from .results_file import rotation_matrices
 from .rigid_bodies import rigid_bodies
-from .superelement_body import SuperelementBody, find_superelement
+from .superelement_body import superelement_of
 
 RESULTANTS = ["axial_force", "shear_force_y", "shear_force_z", "torque", "bending_moment_y", "bending_moment_z"]
 
@@ -33,7 +33,7 @@ def export(results, folder, name, *, every=None, count=100, span=(None, None), s
     if not len(results.time):
         raise InputError(f"'{results.path}' holds no motion to show")
     rows = results.frames(every, count, span)
-    parts = [_superelement(results, element, superelements or {}, scale, volume)
+    parts = [_superelement(results, element, superelements or {}, scale, volume, rows)
              for element in results.elements_with("frame")]
     parts += [part for part in (_rigid(results), _beams(results), _nodes(results), _joints(results)) if part]
     if not parts:
@@ -56,8 +56,8 @@ def export(results, folder, name, *, every=None, count=100, span=(None, None), s
     return path
 
 
-def _superelement(results, element, given, scale, volume):
-    body = SuperelementBody(find_superelement(results, element, given))
+def _superelement(results, element, given, scale, volume, rows):
+    body = superelement_of(results, element, given)
     cells = {kind: c for kind, c in body.cells.items() if kind.startswith("tet")} if volume else body.surface()
     used = np.unique(np.concatenate([c.ravel() for c in cells.values()]))
     number = np.full(len(body.points), -1)
@@ -65,11 +65,20 @@ def _superelement(results, element, given, scale, volume):
     cells = [(kind, number[c]) for kind, c in cells.items()]
     place = f"elements/{element}"
 
+    blocks = body.blocks(list(rows))
+    ready = {}  # fields of the rows of a block, by row
+
     def mesh_at(row):
-        q = results.rows(f"{place}/coordinates", row)
-        positions, displacement = body.at(results.rows(f"{place}/frame", row), q, scale)
+        if row not in ready:
+            ready.clear()
+            block = next(block for block in blocks if row in block)
+            q = np.stack([results.rows(f"{place}/coordinates", other) for other in block])
+            stresses = body.von_mises(q)
+            for k, (other, u) in enumerate(zip(block, body.local_displacement(q))):
+                ready[other] = u, None if stresses is None else stresses[k]
+        u, stress = ready[row]
+        positions, displacement = body.placed(results.rows(f"{place}/frame", row), u, scale)
         data = {"displacement": displacement[used]}
-        stress = body.von_mises(q)
         if stress is not None:
             data["von_mises"] = stress[used]
         return positions[used], cells, data, {}
@@ -96,7 +105,7 @@ def _beams(results):
     names = results.elements_with("position", "rotation")
     if not names:
         return None
-    counts = [results.group(f"elements/{name}/position").shape[1] for name in names]
+    counts = [results.shape(f"elements/{name}/position")[1] for name in names]
     first = np.cumsum([0] + counts)
     lines = np.concatenate([np.column_stack([np.arange(n - 1), np.arange(1, n)]) + start for n, start in zip(counts, first)])
 
@@ -150,7 +159,7 @@ def _joints(results):
         return None
     vertices = np.arange(len(places))[:, None]
     driven = [joint for joint in places if results.has(f"joints/{joint}/drive_force")]
-    width = max((results.group(f"joints/{joint}/drive_force").shape[1] for joint in driven), default=0)
+    width = max((results.shape(f"joints/{joint}/drive_force")[1] for joint in driven), default=0)
 
     def mesh_at(row):
         points = np.array([results.rows(f"nodes/{node}/position", row) for node in places.values()])

@@ -9,7 +9,7 @@ import numpy as np
 
 from . import plot_style as style
 from .results_file import Results
-from .superelement_body import SuperelementBody, find_superelement
+from .superelement_body import superelement_of
 
 ENERGY_COLOURS = dict(zip(("kinetic", "elastic", "gravity", "dissipated", "input"), style.COLOURS))
 MOST_CURVES = 14  # per panel; more cannot be told apart
@@ -167,11 +167,11 @@ def bodies(results, at, superelements):
     """Per superelement: elastic displacement of the node that moves most, and the highest stress of the body."""
     written = []
     for name in results.elements_with("frame", "coordinates"):
-        body = SuperelementBody(find_superelement(results, name, superelements))
+        body = superelement_of(results, name, superelements)
         q = results.rows(f"elements/{name}/coordinates")
         largest, node = 0.0, 0
-        for row in results.frames(count=60):
-            u = np.linalg.norm(body.local_displacement(q[row]), axis=1)
+        for block in body.blocks(results.frames(count=60)):
+            u = np.linalg.norm(body.local_displacement(q[block]), axis=-1).max(axis=0)
             if u.max() > largest:
                 largest, node = u.max(), int(u.argmax())
         row = int(np.flatnonzero(body.displaced == node)[0])
@@ -186,8 +186,8 @@ def bodies(results, at, superelements):
         style.legend(axes[0, 0])
         if has_stress:
             rows = results.frames(count=400)
-            peak = [np.nanmax(body.von_mises(q[row])) for row in rows]
-            axes[1, 0].plot(results.time[rows], 1e-6 * np.array(peak))
+            peak = np.concatenate([np.nanmax(body.von_mises(q[block]), axis=1) for block in body.blocks(rows)])
+            axes[1, 0].plot(results.time[rows], 1e-6 * peak)
             axes[1, 0].set_ylabel("von Mises [MPa]")
             axes[1, 0].set_title("highest von Mises stress of the body")
         axes[-1, 0].set_xlabel(results.axis)
@@ -231,11 +231,11 @@ def signals(results, at):
     drawn = set(results.elements_with("frame") + results.elements_with("rotation") + results.elements_with("angular_momentum"))
     for section in ("elements", "contacts", "hydraulics", "points"):
         for name in results.names(section):
-            group = results.group(f"{section}/{name}")
-            if (section == "elements" and name in drawn) or not hasattr(group, "keys"):
+            if section == "elements" and name in drawn:
                 continue
-            places = {q: f"{section}/{name}/{q}" for q in group
-                      if hasattr(group[q], "shape") and group[q].ndim in (1, 2) and len(group[q]) >= len(results.time)}
+            places = {q: f"{section}/{name}/{q}" for q in results.datasets(f"{section}/{name}")}
+            shapes = {q: results.shape(place) for q, place in places.items()}
+            places = {q: place for q, place in places.items() if len(shapes[q]) in (1, 2) and shapes[q][0] >= len(results.time)}
             places = {q: place for q, place in places.items() if 0 < len(_columns(results, place)) <= 6}
             if not places:
                 continue
@@ -275,7 +275,7 @@ def solver(results, at):
 def eigenvalues(results, at):
     if not results.has("eigen/frequency"):
         return []
-    frequency = np.asarray(results.group("eigen/frequency"))
+    frequency = results.array("eigen/frequency")
     fig, axes = style.figure(1, f"{results.title}: eigenfrequencies", height=3.2)
     panel = axes[0, 0]
     bars = panel.bar(np.arange(1, len(frequency) + 1), frequency, color=style.COLOURS[0])
@@ -289,9 +289,8 @@ def eigenvalues(results, at):
 def frequency_response(results, at):
     if not results.has("frequency_response/response"):
         return []
-    group = results.group("frequency_response")
-    frequency = np.asarray(group["frequency"])
-    response = np.asarray(group["response"])
+    frequency = results.array("frequency_response/frequency")
+    response = results.array("frequency_response/response")
     response = response[..., 0] + 1j * response[..., 1]  # (nf,outputs,inputs)
     fig, axes = style.figure(2, f"{results.title}: frequency response")
     for o in range(response.shape[1]):

@@ -9,7 +9,7 @@ from matplotlib.colors import Normalize, to_rgb
 
 from .plot_style import COLOURS, plt
 from .rigid_bodies import rigid_bodies
-from .superelement_body import SuperelementBody, find_superelement
+from .superelement_body import superelement_of
 
 RIGID = "#b0b0b0"
 STRESS = plt.cm.YlOrRd  # pale to dark: shading shows on it, and so does the order without colours
@@ -29,7 +29,7 @@ class Scene:
         self.axes = _view_axes(results, view)
         self.bodies = []
         for name in results.elements_with("frame", "coordinates"):
-            body = SuperelementBody(find_superelement(results, name, superelements or {}))
+            body = superelement_of(results, name, superelements or {})
             corners = np.concatenate([faces[:, :3] for faces in body.surface().values()])
             self.bodies.append((name, body, corners))
         self.rigid = rigid_bodies(results)

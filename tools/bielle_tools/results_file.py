@@ -1,6 +1,7 @@
 """Reads results of bielle-mechanism: times, nodes, joints, elements, energies, as numpy arrays with their units.
 
-Only the rows of `/time` count: after an interruption other datasets may be longer.
+Only the rows of `/time` count: after an interruption other datasets may be longer. In both layouts of the file a quantity of
+an entry is known by the same name, `joints/main/coordinate`.
 """
 
 import os
@@ -9,6 +10,7 @@ import h5py
 import numpy as np
 
 from .messages import InputError, note
+from .stacked_layout import StackedLayout
 
 
 class Results:
@@ -24,6 +26,7 @@ class Results:
                 known = ", ".join(sorted(name[9:] for name in self.file if name.startswith("analysis_"))) or "none"
                 raise InputError(f"'{path}' holds no analysis {analysis} (it has {known})")
             self.root = self.file[f"analysis_{analysis}"]
+        self._stacked = StackedLayout(self.root) if _text(self.file.attrs.get("layout", "named")) == "stacked" else None
         if "time" not in self.root and "eigen" not in self.root and "frequency_response" not in self.root:
             raise InputError(f"'{path}' holds no results yet: the run ended before its first step was recorded")
         self.time = np.asarray(self.root["time"]) if "time" in self.root else np.zeros(0)
@@ -61,20 +64,53 @@ class Results:
 
     def names(self, section):
         """Names under `nodes`, `joints`, `elements`, ...; empty when there are none."""
+        stacked = self._stacked and self._stacked.names(section)
+        if stacked is not None:
+            return stacked
         return list(self.root[section]) if section in self.root else []
 
     def has(self, place):
-        return place in self.root
+        found = self._found(place)
+        return place in self.root if found is None else self._stacked.has(found)
 
-    def group(self, place):
-        return self.root[place]
+    def array(self, place):
+        """A dataset that is not over time, whole."""
+        found = self._found(place)
+        return np.asarray(self.root[place]) if found is None else self._stacked.value(found)
+
+    def shape(self, place):
+        """Of a dataset over time, (nt,...)."""
+        found = self._found(place)
+        return self.root[place].shape if found is None else self._stacked.shape(found)
+
+    def datasets(self, place):
+        """Names of the datasets in a group; empty where it is none."""
+        found = self._found(place)
+        if found is not None:
+            return self._stacked.datasets(found) if self._stacked.has(found) else []
+        group = self.root[place]
+        return [name for name in group if hasattr(group[name], "shape")] if hasattr(group, "keys") else []
+
+    def _found(self, place):
+        """Where the stacked layout has what the layout by names calls `place`; None where it stands under its name."""
+        return self._stacked.split(place) if self._stacked else None
 
     def text(self, place, attribute):
         """A text attribute of a group or dataset; empty when there is none."""
+        found = self._found(place)
+        if found is not None:
+            return _text(self._stacked.text(found, attribute)) if found else ""
         return _text(self.root[place].attrs.get(attribute, "") if place in self.root else "")
+
+    def entry_of(self, element):
+        """The element of the mechanism file: of the piece `blade.2` of a body it is `blade`."""
+        return element.rpartition(".")[0] if self.text(f"elements/{element}", "group") else element
 
     def rows(self, place, index=None):
         """A dataset over time, clipped to the rows that count; `index` picks rows."""
+        found = self._found(place)
+        if found is not None:
+            return self._stacked.read(found, slice(0, len(self.time)) if index is None else index)
         data = self.root[place]
         return np.asarray(data[:len(self.time)] if index is None else data[index])
 
@@ -83,7 +119,7 @@ class Results:
 
     def elements_with(self, *datasets):
         """Elements that record all of these: `frame` is a superelement, `rotation` a beam."""
-        return [name for name in self.names("elements") if all(d in self.root["elements"][name] for d in datasets)]
+        return [name for name in self.names("elements") if all(self.has(f"elements/{name}/{d}") for d in datasets)]
 
     def frames(self, every=None, count=None, span=(None, None)):
         """Row numbers of every `every`-th time, or of about `count` evenly spaced ones, within span = (from, to) [s]."""

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from .messages import InputError
+from .messages import InputError, counted
 
 TRIANGLES = {"triangle": 3, "triangle6": 6}
 TETRAHEDRA = {"tetra": 4, "tetra10": 10}
@@ -84,7 +84,7 @@ def solid_mesh(raw):
         if members:
             _add_surface(surfaces, volumes, name, members, notes)
         else:
-            notes.append(f"node set '{name}' ({len(nodes)} nodes) covers no boundary face and is left out")
+            notes.append(f"node set '{name}' ({counted(len(nodes), 'node')}) covers no boundary face and is left out")
     cells = faces.all_cells()
     points, cells = _drop_unused(raw.points, cells, notes)
     cells = {kind: block[:, VTK_TO_GMSH[kind]] for kind, block in cells.items()}
@@ -127,14 +127,14 @@ def _merge_blocks(raw, notes):
             place.append((kind, sum(len(b) for b in before)))
             before.append(np.asarray(block, dtype=np.int64))
         else:
-            raise InputError(f"holds {len(block)} cells of type '{kind}', but Bielle reduces tetrahedra of 4 or 10 nodes: "
-                             "remesh the body with tetrahedra")
+            raise InputError(f"holds {counted(len(block), 'cell')} of type '{kind}', but Bielle reduces tetrahedra of 4 or 10 "
+                             "nodes: remesh the body with tetrahedra")
     if not any(kind in TETRAHEDRA for kind in parts):
         what = ", ".join(sorted({kind for kind, _ in raw.cells})) or "no cells at all"
         raise InputError(f"holds no tetrahedra ({what}); Bielle reduces solids meshed with tetrahedra of 4 or 10 nodes")
     ignored = sum(len(block) for kind, block in raw.cells if kind in IGNORED)
     if ignored:
-        notes.append(f"{ignored} cells that are points or lines are left out")
+        notes.append(f"left out: {counted(ignored, 'cell')} of points or lines")
     return {kind: np.concatenate(blocks) for kind, blocks in parts.items()}, place
 
 
@@ -177,7 +177,8 @@ def _orient(points, kind, cells, notes):
     flat = np.abs(volumes) <= 1e-15 * scale
     if flat.any():
         first = int(np.argmax(flat))
-        raise InputError(f"{int(flat.sum())} tetrahedra have no volume (the first near {_place(points[cells[first, 0]])})")
+        raise InputError(f"holds {counted(int(flat.sum()), 'tetrahedron', 'tetrahedra')} of no volume "
+                             f"(the first near {_place(points[cells[first, 0]])})")
     negative = volumes < 0
     if negative.any():
         cells = cells.copy()
@@ -206,7 +207,7 @@ def _members(parts, place, cells):
 
 
 def _add_surface(surfaces, volumes, name, members, notes):
-    """Adds a surface group; when its name is taken by another group, with `_surface` or a number behind it."""
+    """Adds a surface group; when its name is taken by another group, with `_surface` or a number appended."""
     if name in surfaces and _same(surfaces[name], members):
         return
     free, count = name, 1
@@ -225,7 +226,7 @@ def _same(one, other):
 def _drop_unused(points, cells, notes):
     used = np.unique(np.concatenate([block.ravel() for block in cells.values()]))
     if len(used) < len(points):
-        notes.append(f"{len(points) - len(used)} points belong to no tetrahedron or triangle and are left out")
+        notes.append(f"left out: {counted(len(points) - len(used), 'point')} of no tetrahedron or triangle")
     number = np.full(len(points), -1, dtype=np.int64)
     number[used] = np.arange(len(used))
     return points[used], {kind: number[block] for kind, block in cells.items()}

@@ -17,7 +17,7 @@ import tempfile
 import h5py
 import numpy as np
 
-from .messages import InputError
+from .messages import InputError, counted
 
 KEPT = ["joints", "energy", "points", "eigen", "frequency_response", "hydraulics", "contacts"]
 GROUPS = [*KEPT, "nodes", "elements", "solver", "all"]  # what may be kept
@@ -39,7 +39,8 @@ def read_table(path):
             raise InputError(f"{path}:{number}: the column name '{name}' is " + ("missing" if not name else "there twice"))
     for number, row in rows[1:]:
         if len(row) != len(names) or not all(row):
-            raise InputError(f"{path}:{number}: {len([c for c in row if c])} values for {len(names)} parameters")
+            raise InputError(f"{path}:{number}: "
+                             f"{counted(len([c for c in row if c]), 'value')} for {counted(len(names), 'parameter')}")
     if len(rows) == 1:
         raise InputError(f"'{path}' has a header but no runs")
     return names, [row for _, row in rows[1:]]

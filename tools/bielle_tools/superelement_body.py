@@ -1,14 +1,15 @@
 """The mesh of a superelement and what its reduced coordinates say about every node: displacement and stress.
 
 points(row) = x_0 + R_0 (X + U q), with the body's frame (x_0, R_0) and its reduced coordinates q from the results, and
-the recovery matrix U from the superelement file. Stress is linear in q: S q, six components per node.
+the recovery matrix U from the superelement file. Stress is linear in q: S q, six components per node. One time reads whole
+matrices for a few operations per number; several times at once (`blocks`) take little longer than one.
 """
 
 import os
 
 import numpy as np
 
-from .messages import InputError
+from .messages import InputError, counted
 from .results_file import open_hdf5, rotation_matrices
 from .solid_mesh import boundary_faces, tetrahedron_faces
 
@@ -19,9 +20,11 @@ GMSH_TO_VTK = {"tetra10": [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]}
 class SuperelementBody:
     """points (p,3) as meshed; cells {meshio type: (n,k)} in VTK's order; results at times through `at`."""
 
-    def __init__(self, path):
+    def __init__(self, path, group=""):
+        """group: of a piece in the file of a body that is cut into pieces ("/pieces/2")."""
         self.path = path
-        with open_hdf5(path, "bielle superelement", "a superelement of bielle-reduce") as file:
+        with _open(path, group) as opened:
+            file = opened[group] if group else opened
             if "mesh" not in file or "recovery/displacement" not in file:
                 raise InputError(f"'{path}' keeps no mesh or no displacements: set 'recovery: {{displacement: all}}' in its "
                                  "body file and reduce it again to see it move")
@@ -44,51 +47,76 @@ class SuperelementBody:
         return boundary_faces(tetrahedron_faces(self.cells))
 
     def local_displacement(self, q):
-        """(p,3) displacement of every node in the body's frame [m]; nodes without recovery stay at rest."""
-        u = np.zeros_like(self.points)
-        u[self.displaced] = (self.displacement @ q).reshape(-1, 3)
+        """(...,p,3) displacement of every node in the body's frame [m]; nodes without recovery stay at rest. q: (...,n)."""
+        u = np.zeros(q.shape[:-1] + self.points.shape)
+        u[..., self.displaced, :] = (q @ self.displacement.T).reshape(q.shape[:-1] + (-1, 3))
         return u
 
     def von_mises(self, q):
-        """(p) [Pa], not a number where no stress was kept; None without stress recovery."""
+        """(...,p) [Pa], not a number where no stress was kept; None without stress recovery. q: (...,n)."""
         if self.stress is None:
             return None
-        xx, yy, zz, yz, xz, xy = (self.stress @ q).reshape(-1, 6).T
-        value = np.full(len(self.points), np.nan)
-        value[self.stressed] = np.sqrt(0.5 * ((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2)
-                                       + 3 * (yz ** 2 + xz ** 2 + xy ** 2))
+        xx, yy, zz, yz, xz, xy = np.moveaxis((q @ self.stress.T).reshape(q.shape[:-1] + (-1, 6)), -1, 0)
+        value = np.full(q.shape[:-1] + (len(self.points),), np.nan)
+        value[..., self.stressed] = np.sqrt(0.5 * ((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2)
+                                            + 3 * (yz ** 2 + xz ** 2 + xy ** 2))
         return value
+
+    def blocks(self, rows):
+        """The rows in pieces whose fields are recovered together: as many as make some 100 MB."""
+        numbers = len(self.displacement) + (0 if self.stress is None else len(self.stress))
+        together = int(np.clip(100e6 / (8 * max(numbers, 1)), 1, 64))
+        return [rows[begin:begin + together] for begin in range(0, len(rows), together)]
 
     def at(self, frame, q, scale=1.0):
         """Positions (p,3) and elastic displacements (p,3), inertial, with the latter magnified by `scale` in the positions.
 
         frame: (7) x y z and quaternion w x y z of the body's frame; q: reduced coordinates (n).
         """
+        return self.placed(frame, self.local_displacement(q), scale)
+
+    def placed(self, frame, u, scale=1.0):
+        """The same of displacements (p,3) in the body's frame."""
         R = rotation_matrices(frame[3:])
-        u = self.local_displacement(q)
         return frame[:3] + (self.points + scale * u) @ R.T, u @ R.T
+
+
+def _open(path, group):
+    if not group:
+        return open_hdf5(path, "bielle superelement", "a superelement of bielle-reduce")
+    file = open_hdf5(path, "bielle cut body", "the pieces of a body")
+    if group not in file:
+        file.close()
+        raise InputError(f"'{path}' has no piece '{group}', which the results name: was it reduced again with other cuts?")
+    return file
 
 
 def _node_numbers(recovery, name, count, points):
     if name in recovery:
         return np.asarray(recovery[name], np.int64)
     if count != points:
-        raise InputError(f"the recovery has {count} nodes, the mesh {points}, and '{name}' is missing")
+        raise InputError(f"the recovery has {counted(count, 'node')}, the mesh {points}, and '{name}' is missing")
     return np.arange(points)
+
+
+def superelement_of(results, element, given):
+    """The superelement of an element of the results, or one piece of a body. given: as in find_superelement."""
+    return SuperelementBody(find_superelement(results, element, given), results.text(f"elements/{element}", "group"))
 
 
 def find_superelement(results, element, given):
     """Path of the superelement file of an element of the results.
 
-    given: {element: path} from the command line. Otherwise the attribute `file` of the element; a file of that name beside
+    given: {element: path} from the command line, where an element stands for all its pieces. Otherwise the attribute `file` of the element; a file of that name beside
     the results or in the current folder serves as well, so that results and superelements can be moved together.
     """
-    if element in given:
-        return given[element]
+    for name in (element, results.entry_of(element)):
+        if name in given:
+            return given[name]
     written = results.text(f"elements/{element}", "file")
     name = os.path.basename(written)
     for path in (written, os.path.join(os.path.dirname(results.path), name), name):
         if name and os.path.isfile(path):
             return path
     raise InputError(f"the superelement file of '{element}' ({written or 'not named in the results'}) was not found; "
-                     f"say where it is: --superelement {element}=PATH")
+                     f"say where it is: --superelement {results.entry_of(element)}=PATH")

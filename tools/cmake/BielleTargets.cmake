@@ -7,6 +7,10 @@ set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
 
 add_library(bielle_warnings INTERFACE)
 target_compile_options(bielle_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow)
+if(BIELLE_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  # A class of a source may have members of types that are the source's own; in a batch GCC takes sources for headers.
+  target_compile_options(bielle_warnings INTERFACE -Wno-subobject-linkage)
+endif()
 
 add_library(bielle_options INTERFACE)
 target_include_directories(bielle_options INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
@@ -14,6 +18,8 @@ target_include_directories(bielle_options INTERFACE $<BUILD_INTERFACE:${PROJECT_
 target_compile_features(bielle_options INTERFACE cxx_std_20)
 # Eigen must not start threads of its own inside ours.
 target_compile_definitions(bielle_options INTERFACE EIGEN_DONT_PARALLELIZE BIELLE_VERSION="${PROJECT_VERSION}")
+# In every library and test: sources share a precompiled header, and flags that define macros have to agree with it.
+target_compile_options(bielle_options INTERFACE $<BUILD_INTERFACE:${OpenMP_CXX_FLAGS}>)
 if(BIELLE_NATIVE)
   target_compile_options(bielle_options INTERFACE -march=native)
 endif()
@@ -22,26 +28,57 @@ if(BIELLE_SANITIZE)
   target_link_options(bielle_options INTERFACE -fsanitize=address,undefined)
 endif()
 
-# bielle_library(NAME SOURCES a.cpp ... DEPENDS Bielle::x ...): the static library of one folder, as target Bielle::NAME.
+# A precompiled header, or Eigen alone, is larger than the memory [kB] from which on GCC collects garbage: it would then do so
+# all the time, which is a fifth of the whole.
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  add_compile_options($<$<COMPILE_LANGUAGE:CXX>:--param=ggc-min-heapsize=600000> $<$<COMPILE_LANGUAGE:CXX>:--param=ggc-min-expand=100>)
+endif()
+
+# bielle_library(NAME SOURCES a.cpp ... DEPENDS Bielle::x ...): the static library of one folder, as target Bielle::NAME,
+# compiled with the precompiled header BIELLE_PRECOMPILED.
 function(bielle_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
   add_library(bielle_${name} STATIC ${ARG_SOURCES})
   add_library(Bielle::${name} ALIAS bielle_${name})
   set_target_properties(bielle_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
   target_link_libraries(bielle_${name} PUBLIC bielle_options ${ARG_DEPENDS} PRIVATE $<BUILD_INTERFACE:bielle_warnings>)
+  bielle_precompile(bielle_${name} ${BIELLE_PRECOMPILED})
+  set_target_properties(bielle_${name} PROPERTIES UNITY_BUILD ${BIELLE_UNITY} UNITY_BUILD_BATCH_SIZE 6)
   set_property(GLOBAL APPEND PROPERTY BIELLE_LIBRARIES bielle_${name})
 endfunction()
 
-# bielle_tests(NAME SOURCES a.cpp ... DEPENDS Bielle::x ... [LABELS long]): one Catch2 program; each test case is a ctest.
+# bielle_tests(NAME SOURCES a.cpp ... DEPENDS Bielle::x ... [LABELS long] [SERIAL]): one Catch2 program; each test case is a
+# ctest. SERIAL ones compare times: no other test runs meanwhile.
 function(bielle_tests name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "SERIAL" "" "SOURCES;DEPENDS;LABELS" ${ARGN})
   add_executable(test_${name} ${ARG_SOURCES})
   target_link_libraries(test_${name} PRIVATE ${ARG_DEPENDS} Bielle::test_main bielle_warnings)
   target_compile_definitions(test_${name} PRIVATE BIELLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                                                   BIELLE_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  bielle_precompile(test_${name} bielle_test_precompiled)
   set(properties "")
   if(ARG_LABELS)
     set(properties PROPERTIES LABELS "${ARG_LABELS}")
   endif()
+  if(ARG_SERIAL)
+    list(APPEND properties RUN_SERIAL TRUE)
+  endif()
   catch_discover_tests(test_${name} TEST_PREFIX "${name}: " ${properties})
 endfunction()
+
+# bielle_fast_to_compile(SOURCE ...): sources of the current folder that are full of somebody's headers and never wait for the
+# processor (CLI11, Catch2's main): to optimise them takes the compiler seconds and saves the program nothing.
+function(bielle_fast_to_compile)
+  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:-O1>" SKIP_PRECOMPILE_HEADERS ON)
+endfunction()
+
+# bielle_library_headers(NAME header ...): a precompiled header for all libraries that follow, besides the heavy headers.
+# Libraries are position-independent code, and their precompiled header has to be.
+function(bielle_library_headers name)
+  bielle_precompiled_header(${name} ${BIELLE_HEAVY_HEADERS} ${ARGN})
+  if(TARGET ${name})
+    set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  endif()
+  set(BIELLE_PRECOMPILED ${name} PARENT_SCOPE)
+endfunction()
+bielle_library_headers(bielle_precompiled)

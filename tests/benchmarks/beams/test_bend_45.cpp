@@ -10,7 +10,7 @@
 
 #include "mechanism/analyses/static.hpp"
 #include "mechanism/io/mechanism_file.hpp"
-#include "mechanism/solvers/statics.hpp"
+#include "mechanism/solvers/statics/statics.hpp"
 #include "tests/support/static_model.hpp"
 
 using namespace bielle::mechanism;

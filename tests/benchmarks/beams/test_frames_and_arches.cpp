@@ -110,7 +110,7 @@ TEST_CASE("a deep arch of 215 degrees, clamped and hinged, up to 95 percent of i
              {0, 100, 0}, 50, 1e-4, 100);
 }
 
-TEST_CASE("the limit loads of Lee's frame, before and behind its snap") {
+TEST_CASE("the limit loads of Lee's frame, before and after its snap") {
   // The horizontal displacement of the loaded point grows all the way; the vertical one turns back in between.
   std::vector<double> first, second;
   for (const int elements : {5, 10, 20}) {

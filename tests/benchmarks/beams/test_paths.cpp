@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/analyses/static.hpp"
-#include "mechanism/solvers/arc_length.hpp"
+#include "mechanism/solvers/statics/arc_length.hpp"
 #include "tests/support/run_model.hpp"
 
 using namespace bielle::mechanism;
@@ -120,7 +120,7 @@ TEST_CASE("Lee's frame: both limit points of the program's path, with full, redu
   }
 }
 
-TEST_CASE("Lee's frame: points of the path before, between and behind its limit points") {
+TEST_CASE("Lee's frame: points of the path before, between and past its limit points") {
   struct Case {
     std::string end;
     Point exact;
@@ -160,7 +160,7 @@ TEST_CASE("a deep arch of 215 degrees, clamped and hinged: both limit points of 
   check_order(each(second, &Point::P), -73.0463771, 1e-3);
 }
 
-TEST_CASE("the deep arch behind its first limit point") {
+TEST_CASE("the deep arch past its first limit point") {
   std::vector<Point> ends;
   for (const int elements : {10, 20, 40})
     ends.push_back(Path(deep_arch(elements, 1e8, 5e7, until("x", 64.6131898710))).end);
@@ -178,7 +178,7 @@ TEST_CASE("the limit load of the deep arch without extension and shear") {
 
 TEST_CASE("a shallow arch: the path passes its bifurcation and both limit points") {
   // Span 100, rise 5, E = 1e6, A = 1, I = 1/12, hinged at both ends; nothing holds the crown in its middle. It
-  // bifurcates to its side at P = 75.00, where the path goes straight on; behind the lower limit point it winds through
+  // bifurcates to its side at P = 75.00, where the path goes straight on; past the lower limit point it winds through
   // shapes of more waves.
   const double with_shear = 5.0 / 6 * 1e6 / 2.6, without_shear = 1e9;
   for (const auto& [GA, exact] : {std::pair(without_shear, Point{85.507018218, 0, 2.414187377}),

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/math/so3.hpp"
-#include "mechanism/solvers/statics.hpp"
+#include "mechanism/solvers/statics/statics.hpp"
 #include "tests/support/run_model.hpp"
 
 using namespace bielle::mechanism;

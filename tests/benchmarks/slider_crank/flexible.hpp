@@ -46,7 +46,7 @@ inline std::string beam_rod(int elements) {
          "shear_factors: [0.8333333333333333, 0.8333333333333333]}}\n";
 }
 
-/// Deflection of a point beside the line between a and b, positive to the left of the way from a to b.
+/// Deflection of a point from the line between a and b, positive to the left of the way from a to b.
 inline double deflection(const Vector3& point, const Vector3& a, const Vector3& b) {
   const Vector3 along = (b - a).normalized();
   return Vector3(-along.y(), along.x(), 0).dot(point - a);
@@ -68,7 +68,7 @@ inline BeamSuperelement reduced_rod(bool prestress, double stiffening = 1) {
   return rod;
 }
 
-/// The slider-crank with the rod as a superelement, and the deflection of its middle beside the line of the ends.
+/// The slider-crank with the rod as a superelement, and the deflection of its middle from the line of the ends.
 class WithSuperelement {
  public:
   explicit WithSuperelement(const BeamSuperelement& rod) : model(text_with(rod, file_)) {

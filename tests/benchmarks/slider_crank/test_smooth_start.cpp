@@ -17,7 +17,7 @@ double parabola(double x, double middle, double end) { return 4 * x * (1 - x) * 
 
 double stretch(double x) { return parabola(x, 0.103339863e-4, 0.169327969e-4); }
 
-/// Of the deformation, beside the turning line.
+/// Of the deformation, relative to the turning line.
 Vector3 deformation_rate(double x) {
   return {parabola(x, -0.178591076e-5, -0.268938672e-5),
           turning * stretch(x) + 0.444896105 * std::sin(M_PI * x) + 0.463434311e-2 * std::sin(2 * M_PI * x), 0};

@@ -11,7 +11,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
-#include "mechanism/elements/superelement_body.hpp"
+#include "mechanism/elements/superelement/superelement_body.hpp"
 #include "tests/support/beam_superelement.hpp"
 #include "tests/support/run_model.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -54,8 +54,8 @@ Integrals integrals_of(const ReadyModel& model, const State& state) {
   const auto& body = dynamic_cast<const SuperelementBody&>(*model.file.model.members()[0].component);
   const LocalState local(state, model.system.slots()[0], model.environment());
   SuperelementMotion motion;
-  motion.set_motion(body.frame(), local);
-  motion.set_forces(body.matrices(), local.memory());
+  motion.set_motion(body.matrices(), body.frame(), local);
+  motion.set_forces(body.matrices(), body.matrices().C);
   const Frame& frame = motion.geometry.frame;
   const Vector3 P = frame.R * motion.pi.head<3>();
   const Energy energy = model.system.energy(state, model.environment());

@@ -56,7 +56,7 @@ class Events(CommandTest):
         self.assertGreater(len(events), 8)
         self.assertTrue(np.all(np.diff(events) >= 0))
         self.assertIn("joint 'main': angle at its upper stop", names)
-        # Cut off behind each of several checkpoints: before the lock, within, between contacts.
+        # Cut off after each of several checkpoints: before the lock, within, between contacts.
         for keep in (1, 3, 8, 12, checkpoints - 1):
             shutil.copy(os.path.join(self.folder, "whole.h5"), os.path.join(self.folder, "part.h5"))
             with h5py.File(os.path.join(self.folder, "part.h5"), "r+") as part:

@@ -53,6 +53,13 @@ class Mechanism(CommandTest):
             self.assertEqual(results["nodes/bob/position"].shape, (101, 3))
             self.assertIn("mechanism: pendulum", results["input"][()].decode())
 
+    def test_one_thing_is_counted_in_the_singular(self):
+        self.write("model.yaml", PENDULUM.replace("duration: 0.1, step: 1e-3", "duration: 1e-3, step: 1e-3"))
+        done = self.run_program("model.yaml")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("  1 step, ", done.stdout)
+        self.assertNotRegex(done.stdout, r"\b1 (steps|rows|factorisations|iterations)")
+
     def test_quiet_says_nothing(self):
         self.write("model.yaml", PENDULUM)
         done = self.run_program("model.yaml", "--quiet")
@@ -119,7 +126,7 @@ class Mechanism(CommandTest):
         self.write("model.yaml", PENDULUM)
         done = self.run_program("model.yaml", "--check")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("1 degrees of freedom", done.stdout)
+        self.assertIn("1 degree of freedom", done.stdout)
         self.assertIn("joint 'pivot' (hinge)", done.stdout)
         self.assertFalse(os.path.exists(os.path.join(self.folder, "model.h5")))
 
@@ -132,7 +139,7 @@ class Mechanism(CommandTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("element 'bob' (rigid_body): mass 1 kg", done.stdout)
         self.assertIn("inertia about it xx 0.001", done.stdout)
-        self.assertRegex(done.stdout, r"element 'arm' \(beam\): length [\d.]+ m, mass [\d.]+ kg, elements 3")
+        self.assertRegex(done.stdout, r"element 'arm' \(beam\): length [\d.]+ m, mass [\d.]+ kg, 3 elements")
         self.assertIn("EA 7, GAy 6, GAz 5 N, GJ 4, EIy 3, EIz 2 N m^2", done.stdout)
         self.assertIn("unused       node 'lonely'", done.stdout)
         self.assertIn("massless     node 'lonely'", done.stdout)

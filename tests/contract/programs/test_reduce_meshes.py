@@ -98,12 +98,36 @@ class Meshes(CommandTest):
         self.write("box.inp", self.abaqus())
         self.reduce("box.inp\nlength_unit: mm", "Body")
 
+    def test_a_mesh_is_cut_along_faces_of_elements(self):
+        self.write("box.inp", self.abaqus())
+        self.write("body.yaml", BODY.format(file="box.inp", region="Body", surface="Left") +
+                   "pieces: {planes: {axis: x, at: 0.12}}\n")
+        done = self.run_program("body.yaml")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        # Layers of elements are 0.1 m long, with centroids a quarter of that inside.
+        self.assertIn("cut_1: between pieces 1 and 2, at (0.1, 0.1, 0.05) m, area 0.02 m^2, along faces of elements, up to "
+                      "20 mm from its plane", done.stdout)
+        with h5py.File(self.path("body.h5")) as result:
+            masses = [result[f"pieces/{k}/mass_properties/mass"][()] for k in (1, 2)]
+        np.testing.assert_allclose(masses, [MASS / 3, 2 * MASS / 3], rtol=1e-6)
+
     def test_a_set_that_a_foreign_mesh_does_not_have(self):
         self.write("box.inp", self.abaqus())
         self.write("body.yaml", BODY.format(file="box.inp", region="Body", surface="Lfet"))
         self.expect_refusal(1, "body.yaml", says=["body.yaml:7", "Lfet", "did you mean 'Left'"])
         self.write("body.yaml", BODY.format(file="box.inp", region="Bdy", surface="Left"))
         self.expect_refusal(1, "body.yaml", says=["body.yaml:5", "did you mean 'Body'"])
+
+    def test_a_group_that_names_an_element_that_is_not_there(self):
+        write_unv(self.path("box.unv"), self.points, self.cells, self.sides(), 2467)
+        with open(self.path("box.unv"), encoding="utf-8") as file:
+            text = file.read()
+        last = f"{8:10d}{len(self.cells) + len(self.sides()):10d}"
+        self.assertIn(last, text)
+        self.write("box.unv", text.replace(last, f"{8:10d}{999999:10d}"))
+        self.write("body.yaml", BODY.format(file="box.unv", region="body", surface="left"))
+        self.expect_refusal(1, "body.yaml", says=["body.yaml:2: geometry: 'box.unv' cannot be read"])
+        self.expect_refusal(1, "--list", "box.unv", says=["'box.unv' cannot be read"])
 
     def test_broken_foreign_meshes(self):
         for name in ("bad.inp", "bad.bdf", "bad.vtu", "bad.med", "bad.unv"):

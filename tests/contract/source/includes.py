@@ -1,7 +1,8 @@
 """Which folder may include which: the layout of the project as a rule.
 
-A folder includes only from itself and from those before it in its program's list. `mechanism` knows of `reduce` the common floor,
-the superelement and the sparse solvers; `reduce` knows nothing of `mechanism`.
+A folder includes only from itself and from those before it in its program's list. `mechanism` knows of `reduce` the common
+floor, the superelement and the sparse solvers; `reduce` knows nothing of `mechanism`. What moves (elements, joints) and what
+solves (systems, solvers) know the model between them, and nothing of each other.
 """
 
 import os
@@ -10,19 +11,34 @@ import re
 # "" is the program's own folder: what stands beside main.
 FOLDERS = {
     "reduce": ["common", "superelement", "spectral", "mesh", "fe", "reduction", ""],
-    "mechanism": ["math", "system", "measures", "elements", "joints", "solvers", "session", "analyses", "io", ""],
+    "mechanism": ["math", "model", "reading", "measures",
+                  "elements/beam", "elements/forces", "elements/rigid_body",
+                  "elements/superelement/recovery", "elements/superelement",
+                  "joints", "joints/actions", "joints/pairs",
+                  "system", "solvers/newton", "solvers/constraints", "solvers/start", "solvers/statics", "solvers/dynamics",
+                  "session", "analyses", "io", ""],
 }
 SHARED = ["common", "superelement", "spectral"]
-# Integration schemes know no measure, no element and no joint.
-FORBIDDEN = {("mechanism", "solvers"): ["measures", "elements", "joints"]}
+COMPONENTS = [f for f in FOLDERS["mechanism"] if f.split("/")[0] in ("measures", "elements", "joints")]
+SOLVING = [f for f in FOLDERS["mechanism"] if f.split("/")[0] in ("system", "solvers")]
+
+
+def forbidden(folder, wanted):
+    """Whether a folder of the mechanism must not know one before it."""
+    if folder in SOLVING:
+        return wanted in COMPONENTS + ["reading"] or {folder, wanted} == {"solvers/statics", "solvers/dynamics"}
+    if folder.split("/")[0] in ("elements", "joints") and wanted.startswith("elements/"):
+        return not (wanted + "/").startswith(folder + "/")
+    return False
+
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"')
 
 
 def place_of(path):
-    """Program and folder of a file or include path: ("reduce", "mesh"), ("mechanism", "")."""
+    """Program and folder of a file or include path: ("reduce", "mesh"), ("mechanism", "joints/pairs"), ("mechanism", "")."""
     program, *rest = path.split("/")
-    return program, rest[0] if len(rest) > 1 else ""
+    return program, "/".join(rest[:-1])
 
 
 def fault_of(path, included):
@@ -42,7 +58,7 @@ def fault_of(path, included):
     order = FOLDERS[program]
     if order.index(wanted) > order.index(folder):
         return f"'{program}/{folder}' stands below '{program}/{wanted}'"
-    if wanted in FORBIDDEN.get((program, folder), []):
+    if program == "mechanism" and forbidden(folder, wanted):
         return f"'{program}/{folder}' must not know '{program}/{wanted}'"
     return None
 

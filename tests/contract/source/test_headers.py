@@ -24,12 +24,28 @@ def compilers():
     calls = {}
     with open(os.path.join(BUILD, "compile_commands.json"), encoding="utf-8") as file:
         for entry in json.load(file):
-            words = shlex.split(entry["command"])
-            if os.path.basename(words[0]) == "ccache":
-                words = words[1:]
-            words = words[:words.index("-o")]
-            calls.setdefault(os.path.relpath(os.path.dirname(entry["file"]), ROOT), words)
+            words = without_help(shlex.split(entry["command"]))
+            for source in compiled_by(entry["file"]):
+                calls.setdefault(os.path.relpath(os.path.dirname(source), ROOT), words[:words.index("-o")])
     return calls
+
+
+def compiled_by(file):
+    """The sources that a file of the build compiles: itself, or those of a batch (`BIELLE_UNITY`)."""
+    if "/Unity/" not in file:
+        return [file]
+    with open(file, encoding="utf-8") as batch:
+        return re.findall(r'^#include "(.*\.cpp)"$', batch.read(), re.MULTILINE)
+
+
+def without_help(words):
+    """A compiler call without ccache (`env NAME=VALUE ccache`) and without the precompiled header that goes first."""
+    while os.path.basename(words[0]) in ("env", "ccache") or re.match(r"\w+=", words[0]):
+        words = words[1:]
+    while "-include" in words:
+        at = words.index("-include")
+        words = words[:at] + words[at + 2:]
+    return [word for word in words if word != "-Winvalid-pch"]
 
 
 def errors_of(header, call, folder):

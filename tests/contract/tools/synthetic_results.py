@@ -96,6 +96,34 @@ def write_results(path, superelement, rows=41, complete=True, extra_rows=0, anal
     return time
 
 
+def stack(path):
+    """Turns a results file by names into the stacked layout, as the program writes it: each entry is a kind of its own or
+    stands with others that record the same."""
+    with h5py.File(path, "r+") as file:
+        root = file["analysis_1"] if "analysis_1" in file else file
+        for section in ("nodes", "elements", "joints"):
+            entries = {name: root[section][name] for name in root[section]}
+            kinds = {}
+            for name, group in entries.items():
+                signature = (group.attrs.get("type", "thing"), tuple((d, group[d].shape) for d in group))
+                kinds.setdefault(signature, []).append(name)
+            stacked = root.create_group("stacked")
+            for number, ((kind, fields), names) in enumerate(kinds.items()):
+                group = stacked.create_group(f"{kind}_{number}")
+                group.attrs["type"] = kind
+                text = h5py.string_dtype()
+                group.create_dataset("name", data=names, dtype=text)
+                for field, _ in fields:
+                    group[field] = np.stack([entries[name][field][()] for name in names], axis=1)
+                    group[field].attrs.update(dict(entries[names[0]][field].attrs))
+                for key in {key for name in names for key in entries[name].attrs} - {"type"}:
+                    group.create_dataset(f"attributes/{key}", dtype=text,
+                                         data=[str(entries[name].attrs.get(key, "")) for name in names])
+            del root[section]
+            root.move("stacked", section)
+        file.attrs["layout"] = "stacked"
+
+
 def put(file, place, values, units):
     file[place] = values
     file[place].attrs["units"] = units

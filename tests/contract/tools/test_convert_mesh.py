@@ -182,7 +182,7 @@ class Abaqus(Converter):
         mesh = self.convert("box.inp")
         self.assertEqual(len(mesh.points), len(self.points))
         self.assertIn("MASS", self.notes)
-        self.assertIn("1 points belong to no", self.notes)
+        self.assertIn("left out: 1 point of no tetrahedron", self.notes)
 
     def test_gmsh_order_in_an_abaqus_file_is_noticed_and_righted(self):
         self.cells = self.cells[:, ABAQUS_TO_GMSH]
@@ -268,6 +268,38 @@ class OtherFormats(Converter):
             text = file.read().replace("BEGIN BULK\n", "").replace("ENDDATA", "")
         self.write("box.nas", text)
         self.convert("box.nas")
+
+    def nastran(self, extra):
+        """The box with more cards before its end."""
+        self.mesh().write(self.path("plain.bdf"))
+        with open(self.path("plain.bdf"), encoding="utf-8") as file:
+            self.write("box.bdf", file.read().replace("ENDDATA", extra + "ENDDATA"))
+
+    def test_nastran_masses_materials_and_rigid_elements_are_converted_or_told(self):
+        left = [str(n + 1) for n in self.left]
+        members = left[:5]
+        rbe2 = "RBE2,77,9001,123456," + ",".join(members) + ",\n"
+        for k in range(5, len(left), 8):
+            rbe2 += "," + ",".join((left[k:k + 8] + [""] * 8)[:8]) + "\n"
+        right = [str(n + 1) for n in np.flatnonzero(self.points[:, 0] == SIZE[0])]
+        rbe3 = "RBE3,78,,9002,123456,1.0,123," + ",".join(right[:2]) + "\n"
+        for k in range(2, len(right), 8):
+            rbe3 += "," + ",".join((right[k:k + 8] + [""] * 8)[:8]) + "\n"
+        self.nastran("GRID,9001,,0.0,0.1,0.05\nGRID    9002            .3      .1      .05\n" + rbe2 + rbe3 +
+                     "CONM2   1001    9001            10.     \n" + "CONM2*  %-16s%-16s%-16s%-16s\n" % (1002, 9002, "", "25.-1") +
+                    "RBE2,79,9002,1,1,2,3\n"
+                     "MAT1,5,2.1+11,,.3,7850.\nPSOLID,1,5\nCBUSH,31,1,9001,9002\nMPC,4,9001,1,1.0\n")
+        mesh = self.convert("box.bdf")
+        self.check_side(mesh, "rbe2_77")
+        self.assertAlmostEqual(area(mesh.points, mesh.groups[2, "rbe3_78"]["triangle6"]), 0.2 * 0.1, delta=1e-6)
+        for text in ("{surface: rbe2_77, tie: rigid, position: [0, 0.1, 0.05]}", "{surface: rbe3_78, tie: average, position: [0.3, 0.1, 0.05]}",
+                     "2 CONM2 with a mass of 12.5 in total", "1001: 10 at (0, 0.1, 0.05), tied by rbe2_77", "1 CBUSH (31)", "RBE2 79 (3 nodes), which ties the components 1 alone", "1 MPC (4)",
+                     "MAT1 5 of property_1", "mat_5: {young: 2.1e+11, poisson: 0.3, density: 7850}"):
+            self.assertIn(text, self.notes)
+
+    def test_nastran_rigid_element_on_a_node_that_is_none(self):
+        self.nastran("RBE2,77,9001,123456,1,2,3\n")
+        self.refuse("box.bdf", "RBE2 77", "the node 9001")
 
     def test_a_numbering_is_no_group(self):
         data = {"GlobalCellId": [np.arange(1000, 1000 + len(self.cells)), np.arange(len(self.boundary()))]}

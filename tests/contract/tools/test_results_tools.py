@@ -156,6 +156,25 @@ class ParaView(ResultsTool):
         self.refuse("bielle-paraview", [self.path("run.h5")], "'rod'", "box.h5", "--superelement rod=PATH")
         self.succeed("bielle-paraview", self.path("run.h5"), "--superelement", "rod=" + self.path("other/box.h5"))
 
+    def test_pieces_of_a_body_stand_in_one_file(self):
+        with h5py.File(self.path("box.h5")) as whole, h5py.File(self.path("cut.h5"), "w") as cut:
+            cut.attrs["format"] = "bielle cut body"
+            whole.copy(whole["/"], cut, "pieces/1")
+        with h5py.File(self.path("run.h5"), "r+") as run:
+            run["elements"].move("rod", "rod.1")
+            run["elements/rod.1"].attrs.update({"file": "cut.h5", "group": "/pieces/1"})
+        self.succeed("bielle-paraview", self.path("run.h5"), "--frames", "3", "--volume")
+        last = self.parts(self.path("run.pvd"))["rod.1"][-1][1]
+        self.assertEqual(len(last.points), len(self.points))
+        os.makedirs(self.path("other"))
+        os.replace(self.path("cut.h5"), self.path("other/cut.h5"))
+        self.refuse("bielle-paraview", [self.path("run.h5")], "'rod.1'", "cut.h5", "--superelement rod=PATH")
+        self.succeed("bielle-paraview", self.path("run.h5"), "--superelement", "rod=" + self.path("other/cut.h5"))
+        with h5py.File(self.path("other/cut.h5"), "r+") as cut:
+            cut.move("pieces/1", "pieces/2")
+        self.refuse("bielle-paraview", [self.path("run.h5"), "--superelement", "rod=" + self.path("other/cut.h5")],
+                    "has no piece '/pieces/1'", "reduced again")
+
 
 class Plots(ResultsTool):
     def test_every_figure_is_there_and_not_blank(self):

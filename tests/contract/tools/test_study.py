@@ -77,7 +77,8 @@ class Study(unittest.TestCase):
             self.assertEqual(sorted(file["runs"]), ["1", "3"])
 
     def test_wrong_tables_are_told_with_their_line(self):
-        for table, part in (("", "is empty"), ("speed,mass\n", "no runs"), ("speed,mass\n1,2\n1\n", "table.csv:3"),
+        for table, part in (("", "is empty"), ("speed,mass\n", "no runs"),
+                            ("speed,mass\n1,2\n1\n", "table.csv:3: 1 value for 2 parameters"),
                             ("speed,speed\n1,2\n", "table.csv:1")):
             done = self.study(table)
             self.assertEqual(done.returncode, 1)

@@ -3,7 +3,7 @@
 
 #include "mechanism/io/results_file.hpp"
 #include "mechanism/math/so3.hpp"
-#include "mechanism/system/model.hpp"
+#include "mechanism/model/model.hpp"
 #include "reduce/superelement/superelement.hpp"
 
 int main() {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "mechanism/io/results_file.hpp"
-#include "mechanism/system/model.hpp"
+#include "mechanism/model/model.hpp"
 
 namespace bielle::test {
 
@@ -40,18 +40,21 @@ struct ResultsSample {
 
   ResultsSample() {
     using mechanism::OutputField;
+    const mechanism::Entry joint{mechanism::Section::joints, "main"}, shaft{mechanism::Section::elements, "shaft"};
     model.title = "a sample";
     add_node("pin", false);
     add_node("inner", true);
     add_node("tip", false);
     model.node(3).carrier = 1;
-    add("hinge", "main", 1, "joints/main", false,
-        {{"coordinate", {1}, "rad", "of the hinge"}, {"reaction", {6}, "N, N m", ""}});
+    add("hinge", "main", 1, joint, {{"coordinate", {1}, "rad", "of the hinge"}, {"reaction", {6}, "N, N m", ""}});
     for (int id : {2, 3})
-      add("beam", "shaft", id, "elements/shaft", true, {{"strain", {6}, "-", ""}, {"energy", {}, "J", ""}});
-    add("drive", "motor", 4, "joints/main", false, {{"drive_force", {1}, "N m", ""}});
-    add("load", "weight", 5, "", false, {{"never", {}, "-", ""}});
-    model.add_chain("elements/shaft", {1, 2, 3});
+      add("beam", "shaft", id, shaft, {{"strain", {6}, "-", ""}, {"energy", {}, "J", ""}},
+          mechanism::Recorded::stacked);
+    model.add_within(std::make_unique<NumberedComponent>("drive", "motor", 4,
+                                                         std::vector<OutputField>{{"drive_force", {1}, "N m", ""}}),
+                     {mechanism::Section::drives, "motor"}, joint);
+    add("load", "weight", 5, {mechanism::Section::loads, "weight"}, {{"never", {}, "-", ""}}, mechanism::Recorded::no);
+    model.add_chain(shaft, {1, 2, 3});
     state.nodes.resize(4);
     slots.resize(model.members().size());
   }
@@ -90,9 +93,9 @@ struct ResultsSample {
     node.internal = internal;
     model.add_node(node);
   }
-  void add(const std::string& type, const std::string& name, int id, const std::string& group, bool stacked,
-           std::vector<mechanism::OutputField> fields) {
-    model.add(std::make_unique<NumberedComponent>(type, name, id, std::move(fields)), group, stacked);
+  void add(const std::string& type, const std::string& name, int id, const mechanism::Entry& entry,
+           std::vector<mechanism::OutputField> fields, mechanism::Recorded recorded = mechanism::Recorded::alone) {
+    model.add(std::make_unique<NumberedComponent>(type, name, id, std::move(fields)), entry, recorded);
   }
 };
 

@@ -209,12 +209,12 @@ TEST_CASE("Mistakes of the program are told") {
   using test::NumberedComponent;
   sample.model.add(
       std::make_unique<NumberedComponent>("beam", "x", 9, std::vector<OutputField>{{"other", {}, "-", ""}}),
-      "elements/shaft", true);
+      Entry{Section::elements, "shaft"}, Recorded::stacked);
   CHECK_THROWS_WITH(ResultsFile(folder / "run.h5", sample.model, ""),
                     Contains("'elements/shaft' record different results"));
   ResultsSample again;
   again.model.add(std::make_unique<NumberedComponent>("x", "x", 9, std::vector<OutputField>{{"reaction", {}, "-", ""}}),
-                  "joints/main");
+                  Entry{Section::joints, "main"});
   CHECK_THROWS_WITH(ResultsFile(folder / "run.h5", again.model, ""), Contains("'joints/main/reaction'"));
   CHECK_THROWS_AS(ResultsFile(folder / "no/folder/run.h5", sample.model, ""), std::exception);
 }

@@ -48,13 +48,29 @@ void tell(int pipe) {
   if (write(pipe, "x", 1) != 1) _exit(1);
 }
 
+/// The numbers of an entry, by the place that each layout gives them.
+std::vector<double> read(const Hdf5File& file, const std::string& named, const std::string& stacked,
+                         std::size_t number) {
+  if (file.read_text_attribute("/", "layout") == "named") return file.read(named);
+  const Shape shape = file.shape(stacked);
+  std::size_t size = 1;
+  for (std::size_t k = 2; k < shape.size(); ++k) size *= shape[k];
+  const std::vector<double> all = file.read(stacked);
+  std::vector<double> values;
+  for (std::size_t row = 0; row < shape[0]; ++row)
+    for (std::size_t k = 0; k < size; ++k) values.push_back(all[(row * shape[1] + number) * size + k]);
+  return values;
+}
+
 /// Every row that /time counts must be whole: sample row i has time 0.5 i.
 std::size_t check_rows(const std::string& path) {
   const Hdf5File file = Hdf5File::open(path);
   REQUIRE(file.read_integer_attribute("/", "complete") == 0);
   if (!file.has("/time")) return 0;
-  const std::vector<double> time = file.read("/time"), position = file.read("/nodes/tip/position"),
-                            strain = file.read("/elements/shaft/strain"), step = file.read("/solver/step");
+  const std::vector<double> time = file.read("/time"),
+                            position = read(file, "/nodes/tip/position", "/nodes/node/position", 1),
+                            strain = read(file, "/elements/shaft/strain", "/elements/beam/strain", 0),
+                            step = file.read("/solver/step");
   REQUIRE(position.size() >= 3 * time.size());
   REQUIRE(strain.size() >= 12 * time.size());
   REQUIRE(step.size() >= time.size());
@@ -72,12 +88,14 @@ std::size_t check_rows(const std::string& path) {
 
 TEST_CASE("A killed run leaves a readable file with whole rows, whenever it is killed") {
   const TemporaryFolder folder;
+  const auto layout = GENERATE(ResultsLayout::named, ResultsLayout::stacked);
+  CAPTURE(layout_name(layout));
   std::size_t most = 0;
   for (int trial = 0; trial < 40; ++trial) {
     const std::string path = folder / "run.h5";
     run_and_kill(trial * 5ms + trial * 37us, [&](int pipe) {
       ResultsSample sample;
-      ResultsFile results(path, sample.model, "");
+      ResultsFile results(path, sample.model, "", layout);
       constexpr int rows = 50'000;
       results.begin_analysis("dynamic", rows);
       sample.record(results, 0);
@@ -89,6 +107,52 @@ TEST_CASE("A killed run leaves a readable file with whole rows, whenever it is k
     most = std::max(most, check_rows(path));
   }
   CHECK(most > 1000);
+}
+
+TEST_CASE("A run that is killed while it makes its datasets leaves a readable file") {
+  const TemporaryFolder folder;
+  const std::string path = folder / "run.h5";
+  // What is made takes some 100 ms, by names 16 000 datasets: kills are spread over all of it, and beyond.
+  const auto [layout, nodes] =
+      GENERATE(table<ResultsLayout, int>({{ResultsLayout::named, 4000}, {ResultsLayout::stacked, 40'000}}));
+  CAPTURE(layout_name(layout));
+  const auto sample_model = [nodes = nodes] {
+    Model model;
+    for (int k = 0; k < nodes; ++k) {
+      Node node;
+      node.name = "node number " + std::to_string(k);
+      node.frame.x = Vector3(k, 0, 0);
+      model.add_node(node);
+    }
+    return model;
+  };
+  const auto run = [&, layout = layout, nodes = nodes](const std::function<void()>& ready) {
+    const Model model = sample_model();
+    State state;
+    state.nodes.resize(static_cast<std::size_t>(nodes) + 1);
+    for (NodeState& node : state.nodes) node.R.setIdentity();
+    const std::vector<Slots> slots;
+    ResultsFile results(path, model, "the text of the model", layout);
+    results.begin_analysis("dynamic");
+    ready();
+    results.record(state, slots, model.environment, {});
+    results.file();
+  };
+  auto began = std::chrono::steady_clock::now();
+  run([&] { began = std::chrono::steady_clock::now(); });
+  const auto whole = std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - began);
+  constexpr int trials = 12;
+  for (int trial = 0; trial < trials; ++trial) {
+    CAPTURE(trial);
+    run_and_kill(whole * trial / (trials - 2), [&](int pipe) {
+      run([&] { tell(pipe); });
+      std::this_thread::sleep_for(1h);
+    });
+    const Hdf5File file = Hdf5File::open(path);
+    CHECK(file.read_integer_attribute("/", "complete") == 0);
+    CHECK(file.read_text("/input") == "the text of the model");
+    if (file.has("/time")) CHECK(file.shape("/time") == Shape{1});
+  }
 }
 
 TEST_CASE("Steps that were completed are in the file while a slow one runs") {

@@ -90,7 +90,7 @@ analysis:
   CHECK(second[0] == Approx(0.5 * (1 + end)));
   CHECK(second[1] == 1);
   CHECK(moved[1] == Approx(0.5));
-  // Behind the motion all of the loads act, and the stage stands where its motion at that time has it.
+  // After the motion all of the loads act, and the stage stands where its motion at that time has it.
   const Eigen::VectorXd last = results.read_vector("/analysis_4/time");
   REQUIRE(last.size() == 1);
   CHECK(last[0] == 1);
@@ -235,7 +235,7 @@ TEST_CASE(
     const test::TemporaryFolder folder;
     const std::string whole = folder / "whole.h5", part = folder / "part.h5", rest = folder / "rest.h5";
     run(pendulum(steps, 0.4, "every: 3, checkpoint: 30"), whole);
-    // Cut off within the second motion, in between two checkpoints: its rows behind the last one are taken back.
+    // Cut off within the second motion, in between two checkpoints: its rows after the last one are taken back.
     {
       const std::string text = pendulum(steps, 0.4, "every: 3, checkpoint: 30");
       std::filesystem::copy_file(whole, part);

@@ -86,9 +86,15 @@ void check_coordinates(const Joints& joints, const Joint& joint, const State& st
       joint.calc_coordinate(k, joints.local(joint, there), other);
       return read(other);
     };
-    const MatrixX g = jacobian([&](const VectorX& s) { return at(s, [](CoordinateJet& j) -> VectorX { return VectorX::Constant(1, j.value); }); }, n, h);
-    const MatrixX S = jacobian([&](const VectorX& s) { return at(s, [](CoordinateJet& j) -> VectorX { return j.g(); }); }, n, h);
-    const MatrixX W = jacobian([&](const VectorX& s) { return at(s, [](CoordinateJet& j) -> VectorX { return j.w(); }); }, n, h);
+    const MatrixX g = jacobian(
+        [&](const VectorX& s) {
+          return at(s, [](CoordinateJet& j) -> VectorX { return VectorX::Constant(1, j.value); });
+        },
+        n, h);
+    const MatrixX S =
+        jacobian([&](const VectorX& s) { return at(s, [](CoordinateJet& j) -> VectorX { return j.g(); }); }, n, h);
+    const MatrixX W =
+        jacobian([&](const VectorX& s) { return at(s, [](CoordinateJet& j) -> VectorX { return j.w(); }); }, n, h);
     CHECK((g.transpose() - jet.g()).cwiseAbs().maxCoeff() < accurate);
     CHECK((S - jet.S()).cwiseAbs().maxCoeff() < accurate * std::max(1.0, S.cwiseAbs().maxCoeff()));
     CHECK((W - jet.W()).cwiseAbs().maxCoeff() < accurate);
@@ -117,7 +123,8 @@ TEST_CASE("coordinates of joints have the derivatives that finite differences fi
         State near = state;
         const NodeState& first = near.nodes[static_cast<std::size_t>(joint->frames().first)];
         near.nodes[static_cast<std::size_t>(joint->frames().second)].R =
-            first.R * joint->frames().on_first.R * exp_so3(Vector3(random.vector_of_length(random.uniform(0.3, most)))) *
+            first.R * joint->frames().on_first.R *
+            exp_so3(Vector3(random.vector_of_length(random.uniform(0.3, most)))) *
             joint->frames().on_second.R.transpose();
         check_coordinates(joints, *joint, near, 1e-9, 0.01);
       }

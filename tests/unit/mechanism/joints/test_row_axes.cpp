@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "mechanism/io/mechanism_file.hpp"
-#include "mechanism/solvers/time_integration.hpp"
+#include "mechanism/solvers/dynamics/time_integration.hpp"
 
 using namespace bielle::mechanism;
 

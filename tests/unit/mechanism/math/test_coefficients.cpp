@@ -126,7 +126,7 @@ Worst scan(double from, double to, int points) {
     evaluate(x, value);
     reference(x, exact);
     for (std::size_t n = 0; n < count; ++n) {
-      const Long size = n == 0 ? 1 : std::abs(exact[n]);  // a1 = 1 at rest, 0 at pi: beside 1
+      const Long size = n == 0 ? 1 : std::abs(exact[n]);  // a1 = 1 at rest, 0 at pi: relative to 1
       const auto error = static_cast<double>(std::abs(value[n] - exact[n]) / size);
       if (error > worst.error[n]) worst.error[n] = error, worst.phi[n] = phi;
     }
@@ -149,7 +149,7 @@ TEST_CASE("the coefficients of finite rotations have the digits of their closed 
     evaluate(row.phi * row.phi, value);
     for (std::size_t n = 0; n < count; ++n) {
       CAPTURE(row.phi, names[n]);
-      // Rounding of phi^2 counts 1/(2 pi - phi) times at the pole of b, and beside the zeros of a1 at pi and of a2, c1
+      // Rounding of phi^2 counts 1/(2 pi - phi) times at the pole of b, and near the zeros of a1 at pi and of a2, c1
       // at 2 pi, where the terms have the size of their value at rest.
       const double pole = n < 7 ? 1 : 1 + 4 / std::abs(2 * M_PI - row.phi);
       const bool vanishes = (n == 0 && row.phi > 2.9) || ((n == 1 || n == 3 || n == 5) && row.phi > 5);

@@ -1,43 +1,22 @@
 // Sparse patterns and factors: solutions against dense ones, pivots that degenerate, rows of any units, singular
-// matrices.
+// matrices; the ordering that is cheapest.
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
+#include <klu.h>
 
 #include "mechanism/math/sparse.hpp"
 #include "tests/support/random.hpp"
+#include "tests/support/sparse_values.hpp"
 
 using namespace bielle::mechanism;
+using bielle::test::backward_error;
 using bielle::test::Random;
+using Sparse = bielle::test::SparseValues;
 
 namespace {
-
-/// A dense matrix as a pattern with values; zeros stay out but on the diagonal where `diagonal`.
-struct Sparse {
-  SparsePattern pattern;
-  std::vector<double> values;
-  explicit Sparse(const MatrixX& A) : pattern(pattern_of(A)) { set(A); }
-  void set(const MatrixX& A) {
-    values.clear();
-    for (int column = 0; column < pattern.size(); ++column)
-      for (int k = pattern.column_start()[static_cast<std::size_t>(column)];
-           k < pattern.column_start()[static_cast<std::size_t>(column) + 1]; ++k)
-        values.push_back(A(pattern.row()[static_cast<std::size_t>(k)], column));
-  }
-  static SparsePattern pattern_of(const MatrixX& A) {
-    std::vector<std::pair<int, int>> entries;
-    for (int j = 0; j < A.cols(); ++j)
-      for (int i = 0; i < A.rows(); ++i)
-        if (A(i, j) != 0) entries.insert(entries.end(), 2, {i, j});  // repeated entries count once
-    return SparsePattern(static_cast<int>(A.rows()), entries);
-  }
-};
-
-/// Largest residual beside |A| |x|, row by row: of the order of rounding for a stable solution.
-double backward_error(const MatrixX& A, const VectorX& x, const VectorX& b) {
-  return ((A * x - b).cwiseAbs().array() / (A.cwiseAbs() * x.cwiseAbs()).array()).maxCoeff();
-}
 
 /// [M B^T; B 0] with a random positive M and full-rank B: zeros on the diagonal.
 MatrixX saddle(Random& random, int n, int m) {
@@ -138,4 +117,125 @@ TEST_CASE("no equations have an empty solution") {
   VectorX x;
   lu.solve(x);
   CHECK(lu.reciprocal_condition() == 1);
+}
+
+namespace {
+
+/// What factors cost by one of KLU's orderings alone.
+FactorCost cost_by(const Sparse& sparse, int ordering) {
+  const SparsePattern& pattern = sparse.pattern;
+  int *start = const_cast<int*>(pattern.column_start().data()), *row = const_cast<int*>(pattern.row().data());
+  std::vector<double> values = sparse.values, largest(static_cast<std::size_t>(pattern.size()), 0.0);
+  pattern.for_each([&](int k, int i, int) {
+    double& most = largest[static_cast<std::size_t>(i)];
+    most = std::max(most, std::abs(values[static_cast<std::size_t>(k)]));
+  });
+  pattern.for_each(
+      [&](int k, int i, int) { values[static_cast<std::size_t>(k)] /= largest[static_cast<std::size_t>(i)]; });
+  klu_common common;
+  klu_defaults(&common);
+  common.scale = -1;
+  common.btf = 0;
+  common.ordering = ordering;
+  klu_symbolic* symbolic = klu_analyze(pattern.size(), start, row, &common);
+  klu_numeric* numeric = klu_factor(start, row, values.data(), symbolic, &common);
+  klu_flops(symbolic, numeric, &common);
+  const FactorCost cost{common.flops, static_cast<double>(numeric->lnz) + static_cast<double>(numeric->unz)};
+  klu_free_numeric(&numeric, &common);
+  klu_free_symbolic(&symbolic, &common);
+  return cost;
+}
+
+FactorCost cost_of(const Sparse& sparse) {
+  SparseLU lu(sparse.pattern);
+  REQUIRE(lu.factor(sparse.values, VectorX::Ones(sparse.pattern.size())) == FactorStatus::good);
+  return lu.cost();
+}
+
+/// The stiffness of a square net of n by n springs: pivots stay on the diagonal.
+MatrixX net(int n) {
+  MatrixX A = MatrixX::Identity(n * n, n * n);
+  const auto spring = [&](int a, int b) {
+    A(a, a) += 1;
+    A(b, b) += 1;
+    A(a, b) = A(b, a) = -1;
+  };
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; k + 1 < n; ++k) {
+      spring(n * i + k, n * i + k + 1);
+      spring(n * k + i, n * k + n + i);
+    }
+  return A;
+}
+
+/// A ladder of four-bars: an upper bar, a lower one and a rung for each loop, of six unknowns each, all upper hinges
+/// first; the last hinge of each loop has two rows, since three repeat others. Rows of constraints have no diagonal.
+MatrixX four_bars(Random& random, int loops) {
+  const int dofs = 18 * loops, rows = 17 * loops;
+  MatrixX A = MatrixX::Zero(dofs + rows, dofs + rows);
+  A.diagonal().head(dofs).setOnes();
+  int row = dofs;
+  const auto add_hinge = [&](int a, int b, int count) {
+    for (const int body : {a, b}) {
+      if (body < 0) continue;  // the ground
+      A.block(row, 6 * body, count, 6) = random.matrix(count, 6);
+      A.block(6 * body, row, 6, count) = A.block(row, 6 * body, count, 6).transpose();
+    }
+    row += count;
+  };
+  for (const int side : {0, 1})
+    for (int k = 0; k < loops; ++k) {
+      add_hinge(3 * k - 1, 3 * k + side, 5);
+      add_hinge(3 * k + side, 3 * k + 2, side == 0 ? 5 : 2);
+    }
+  return A;
+}
+
+}  // namespace
+
+TEST_CASE("of two orderings the one that makes fewer operations of the matrix is taken") {
+  constexpr int minimum_degree = 0, column_minimum_degree = 1;
+  Random random(4);
+  const Sparse springs(net(20)), bars(four_bars(random, 24));
+  // The net is what minimum degree is for.
+  CHECK(cost_by(springs, minimum_degree).operations < 0.7 * cost_by(springs, column_minimum_degree).operations);
+  CHECK(cost_of(springs).operations == cost_by(springs, minimum_degree).operations);
+  // Constraints bring pivots off the diagonal: what is best is measured.
+  CHECK(cost_of(bars).operations ==
+        std::min(cost_by(bars, minimum_degree).operations, cost_by(bars, column_minimum_degree).operations));
+}
+
+TEST_CASE("minimum degree is left where pivots leave the diagonal later") {
+  // First the diagonal is large, and minimum degree is taken; then the constraints have none.
+  Random random(5);
+  constexpr int loops = 24, size = 35 * loops;
+  MatrixX A = four_bars(random, loops);
+  const Sparse before(A + 100 * MatrixX::Identity(size, size));
+  Sparse after = before;
+  after.set(A);
+  SparseLU lu(before.pattern);
+  const VectorX scale = VectorX::Ones(size), b = random.vector(size);
+  REQUIRE(lu.factor(before.values, scale) == FactorStatus::good);
+  REQUIRE(lu.cost().operations == cost_by(before, 0).operations);
+  REQUIRE(lu.factor(after.values, scale) == FactorStatus::good);
+  // Twice the entries that column minimum degree needed then, at most.
+  CHECK(lu.cost().entries <= 2 * cost_by(before, 1).entries + 2 * size);
+  VectorX x = b;
+  lu.solve(x);
+  CHECK((A * x - b).norm() < 1e-10 * (A.norm() * x.norm() + b.norm()));
+}
+
+TEST_CASE("factors that forget are those of a new start") {
+  Random random(6);
+  const Sparse first(four_bars(random, 20)), other(four_bars(random, 20));
+  const VectorX scale = VectorX::Ones(first.pattern.size()), b = random.vector(first.pattern.size());
+  SparseLU used(first.pattern), fresh(first.pattern);
+  REQUIRE(used.factor(first.values, scale) == FactorStatus::good);
+  used.forget();
+  REQUIRE(used.factor(other.values, scale) == FactorStatus::good);
+  REQUIRE(fresh.factor(other.values, scale) == FactorStatus::good);
+  VectorX x = b, y = b;
+  used.solve(x);
+  fresh.solve(y);
+  CHECK(x == y);
 }

@@ -76,7 +76,7 @@ TEST_CASE("a controller written with measures moves a hinge as its closed form")
       0.01, 4);
 }
 
-TEST_CASE("a law may name what is declared behind it") {
+TEST_CASE("a law may name what is declared after it") {
   // The motor of the first hinge follows the second, which stands below it, and is driven.
   const std::string text = R"yaml(
 measures: {lag: "first.angle - second.angle"}
@@ -184,7 +184,7 @@ TEST_CASE("a saved motion goes on with the inputs that it had") {
 }
 
 TEST_CASE("formulas' kinks in time end steps, wherever the formula stands") {
-  // 4 N up to 0.1234 s, -6 N behind it, on 2 kg (or N m on 2 kg m^2): constant on either side, exact for the scheme
+  // 4 N up to 0.1234 s, -6 N after it, on 2 kg (or N m on 2 kg m^2): constant on either side, exact for the scheme
   // that is started anew there.
   struct Place {
     const char *joint, *more;

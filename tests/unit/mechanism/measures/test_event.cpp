@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "mechanism/elements/rigid_body.hpp"
+#include "mechanism/elements/rigid_body/rigid_body.hpp"
 #include "mechanism/io/mechanism_file.hpp"
 #include "mechanism/session/memory_sink.hpp"
 #include "mechanism/session/session.hpp"
@@ -111,7 +111,8 @@ Model slider(double speed) {
   node.name = "slider";
   node.velocity = {speed, 0, 0};
   const int at = model.add_node(node);
-  model.add(std::make_unique<RigidBody>("rigid_body", "slider", at, 500.0 * sphere(0.1)), "elements/slider");
+  model.add(std::make_unique<RigidBody>("rigid_body", "slider", at, 500.0 * sphere(0.1)),
+            Entry{Section::elements, "slider"});
   return model;
 }
 
@@ -134,7 +135,7 @@ TEST_CASE("an event stands where the measure crosses its value") {
         std::find_if(events.begin(), events.end(), [&](const Event& e) { return e.name == wanted[k].first; });
     REQUIRE(found != events.end());
     INFO(wanted[k].first);
-    // Less than 1e-10 of a step behind; adaptive ones grow up to what is left of 0.6 s.
+    // Less than 1e-10 of a step late; adaptive ones grow up to what is left of 0.6 s.
     CHECK(found->time == Approx(wanted[k].second).margin(1e-10 * (tolerance > 0 ? 0.6 : h) + 1e-14).epsilon(0));
     if (k > 0) CHECK(events[k].time >= events[k - 1].time);
   }
@@ -219,7 +220,7 @@ TEST_CASE("an event that stops ends the run there, with a last row") {
   CHECK(sink.read(0, "nodes/stone/position").back() == Approx(1.3).epsilon(1e-9));
   REQUIRE(sink.analyses()[0].events.size() == 1);
   CHECK(sink.analyses()[0].events[0].time == motion.time());
-  // What comes behind starts there.
+  // What comes after starts there.
   Motion further = session.dynamics(steps_of(0.1, 0.01));
   CHECK(further.finish());
   CHECK(session.time() == Approx(landed + 0.1).epsilon(1e-10));
@@ -240,7 +241,7 @@ TEST_CASE("an event is noted where its measure jumps over its value") {
 
 TEST_CASE("what chatters is told so") {
   Model model = slider(0.3);
-  model.add(std::make_unique<Relay>(*model.find_node("slider"), 4), "elements/relay");
+  model.add(std::make_unique<Relay>(*model.find_node("slider"), 4), Entry{Section::elements, "relay"});
   Session session(model);
   Motion motion = session.dynamics(steps_of(1, 0.01));
   const std::string message = message_of<ComputationError>([&] { motion.finish(); });
@@ -254,7 +255,7 @@ TEST_CASE("what chatters is told so") {
 TEST_CASE("a component that leaves its branch starts the motion anew at the end of the step") {
   Model model = slider(1);
   const double mass = (500.0 * sphere(0.1)).mass, force = 6;
-  model.add(std::make_unique<LateForce>(*model.find_node("slider"), 0.437, force), "elements/late");
+  model.add(std::make_unique<LateForce>(*model.find_node("slider"), 0.437, force), Entry{Section::elements, "late"});
   Session session(model);
   Motion motion = session.dynamics(steps_of(1, 0.05));
   REQUIRE(motion.finish());

@@ -32,8 +32,8 @@ using Catch::Contains;
 }  // namespace
 
 TEST_CASE("an unknown joint, node, coordinate or component of a reaction in a formula is told with the nearest name") {
-  CHECK_THAT(message("2*mian.angle"), Contains("model.yaml") && Contains("no joint, node or element 'mian'") &&
-                                          Contains("did you mean 'main'"));
+  CHECK_THAT(message("2*mian.angle"),
+             Contains("model.yaml") && Contains("no joint, node or element 'mian'") && Contains("did you mean 'main'"));
   CHECK_THAT(message("2*main.angel"), Contains("'main' has no 'angel'") && Contains("did you mean 'angle'"));
   CHECK_THAT(message("2*main.angle.rat"), Contains("'main' has no 'angle.rat'") && Contains("'angle.rate'"));
   CHECK_THAT(message("main.reaction.w"), Contains("'main' has no 'reaction.w'") && Contains("reaction."));
@@ -77,10 +77,13 @@ drives: {motor: {joint: same, torque: "FORMULA"}}
 }
 
 TEST_CASE("measures that refer to themselves, at once or through others, are refused where they do") {
-  CHECK_THAT(message("one", "measures: {one: \"2*one + main.angle\"}\n"), Contains("model.yaml") && Contains("refers to itself"));
-  const std::string through = message("one", "measures:\n  one: \"2*two\"\n  two: \"three + 1\"\n  three: \"one*main.angle\"\n");
+  CHECK_THAT(message("one", "measures: {one: \"2*one + main.angle\"}\n"),
+             Contains("model.yaml") && Contains("refers to itself"));
+  const std::string through =
+      message("one", "measures:\n  one: \"2*two\"\n  two: \"three + 1\"\n  three: \"one*main.angle\"\n");
   CHECK_THAT(through, Contains("model.yaml") && Contains("refers to itself") && Contains("'one'"));
   // Two ways to the same measure are none.
-  CHECK(message("one + two", "measures:\n  one: \"2*three\"\n  two: \"3*three\"\n  three: main.angle\n") == "(nothing thrown)");
+  CHECK(message("one + two", "measures:\n  one: \"2*three\"\n  two: \"3*three\"\n  three: main.angle\n") ==
+        "(nothing thrown)");
   CHECK_THAT(message("1", "measures: {one: \"2*t\"}\n"), Contains("formula of the state"));
 }

@@ -18,7 +18,8 @@ NodeState random_node(Random& random) {
   return node;
 }
 
-void check_same(const PairMeasureRate& alone, const PairMeasure& whole, const NodeState& first, const NodeState& second) {
+void check_same(const PairMeasureRate& alone, const PairMeasure& whole, const NodeState& first,
+                const NodeState& second) {
   CHECK_THAT(alone.value, Catch::WithinAbs(whole.value, 1e-14));
   CHECK_THAT(alone.rate, Catch::WithinAbs(whole.rate(pair_rate(first, second)), 1e-12));
 }

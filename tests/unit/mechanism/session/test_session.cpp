@@ -4,7 +4,8 @@
 #include "swinging_arms.hpp"
 #include <catch2/catch.hpp>
 
-#include "mechanism/elements/rigid_body.hpp"
+#include "mechanism/elements/rigid_body/rigid_body.hpp"
+#include "mechanism/solvers/start/start_report.hpp"
 #include "tests/support/messages.hpp"
 
 using namespace bielle;
@@ -21,7 +22,8 @@ TEST_CASE("a model made of C++ objects falls as a stone does") {
   node.name = "stone";
   node.velocity = {3, 0, 4};
   const int stone = model.add_node(node);
-  model.add(std::make_unique<RigidBody>("rigid_body", "stone", stone, 2.0 * sphere(0.1)), "elements/stone");
+  model.add(std::make_unique<RigidBody>("rigid_body", "stone", stone, 2.0 * sphere(0.1)),
+            Entry{Section::elements, "stone"});
   Session session(std::move(model));
   Motion motion = session.dynamics(swing(0.5));
   REQUIRE(motion.finish());

@@ -180,7 +180,7 @@ class Refusing final : public Component {
 TEST_CASE("a component that refuses a state leaves nothing in the next residual") {
   MechanismFile file = read_mechanism_text(free_text, "assembly.yaml");
   bool refuses = false;
-  file.model.add(std::make_unique<Refusing>(refuses), "elements/refusing");
+  file.model.add(std::make_unique<Refusing>(refuses), Entry{Section::elements, "refusing"});
   const System system(file.model);
   State base;
   VectorX dq, v, a, before(system.size()), after(system.size());

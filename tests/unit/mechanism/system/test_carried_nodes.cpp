@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
-#include "mechanism/elements/rigid_body.hpp"
+#include "mechanism/elements/rigid_body/rigid_body.hpp"
 #include "mechanism/system/system.hpp"
 #include "tests/support/finite_difference.hpp"
 #include "tests/support/random.hpp"
@@ -42,7 +42,7 @@ struct Chain {
 
 void add_body(Model& model, int node, const MassProperties& p) {
   model.add(std::make_unique<RigidBody>("rigid_body", model.node(node).name, node, p),
-            "elements/" + model.node(node).name);
+            Entry{Section::elements, model.node(node).name});
 }
 
 /// Three bodies: a carries b, b carries c. The carried come first, so that no order of the file helps.

@@ -69,24 +69,25 @@ struct Mixed {
   explicit Mixed(const char* text, bool carried_axes = true) : file(read_mechanism_text(text, "mixed.yaml")) {
     Model& model = file.model;
     const auto node = [&](const char* name) { return *model.find_node(name); };
-    const auto joint = [&](const char* name) -> Component& { return *model.components_in(std::string("joints/") + name)[0]; };
+    const auto joint = [&](const char* name) -> Component& { return *model.components_of({Section::joints, name})[0]; };
     auto first = std::make_unique<StateMixer>("first", std::vector{node("a")}, std::vector<const Component*>{});
     StateMixer& mixed = *first;  // stands before what it refers to
-    model.add(std::move(first), "");
+    model.add(std::move(first), Entry{Section::elements, "first"}, Recorded::no);
     scalar = &model.add(std::make_unique<ScalarAmplitude>("scalar", Declaration::Scalar{"q", "m"},
                                                           ScalarAmplitude::Law{2, 0.3, 5, 0.7, 1}),
-                        "");
-    strut = &model.add(std::make_unique<MaxwellStrut>("strut", node("e"), node("c"), 30, 0.7, 2), "");
+                        Entry{Section::elements, "scalar"}, Recorded::no);
+    strut = &model.add(std::make_unique<MaxwellStrut>("strut", node("e"), node("c"), 30, 0.7, 2),
+                       Entry{Section::elements, "strut"}, Recorded::no);
     for (const Component* component : std::initializer_list<const Component*>{&joint("slide"), strut, scalar})
       mixed.refer_to(*component);
     mixed.refer_to(*model.components_named("pivot").back());
     mixer = &mixed;
     model.add(std::make_unique<StateMixer>("second", std::vector<int>{},
                                            std::vector<const Component*>{mixer, &joint("hook")}),
-              "");
+              Entry{Section::elements, "second"}, Recorded::no);
     auto wheels = std::make_unique<CoordinateGear>("gear", -1.7);
     wheels->join(dynamic_cast<const Joint&>(joint("pivot")), dynamic_cast<const Joint&>(joint("slide")));
-    gear = &model.add(std::move(wheels), "");
+    gear = &model.add(std::move(wheels), Entry{Section::elements, "gear"}, Recorded::no);
     system = std::make_unique<System>(model);
     if (!carried_axes) system->set_aside({});
   }
@@ -99,9 +100,9 @@ struct Point {
 
 Point random_point(const System& system) {
   bielle::test::Random random(11);
-  return {random.vector(system.dofs(), 0.5),        random.vector(system.dofs()),
-          random.vector(system.dofs()),             random.vector(system.first_orders()),
-          random.vector(system.first_orders()),     random.vector(system.multipliers())};
+  return {random.vector(system.dofs(), 0.5),    random.vector(system.dofs()),
+          random.vector(system.dofs()),         random.vector(system.first_orders()),
+          random.vector(system.first_orders()), random.vector(system.multipliers())};
 }
 
 State state_at(const System& system, const Point& point) {
@@ -195,7 +196,8 @@ TEST_CASE("with references of all kinds on nodes of all kinds the tangent is the
         CHECK(std::abs(d.C(row, column)) > 0.01);
       }
       for (int k = 0; k < system.multipliers(); ++k)
-        if (k != system.slots_of(*mixed.gear).multiplier_begin) CHECK(std::abs(d.K(row, system.size() - system.multipliers() + k)) > 0.01);
+        if (k != system.slots_of(*mixed.gear).multiplier_begin)
+          CHECK(std::abs(d.K(row, system.size() - system.multipliers() + k)) > 0.01);
       for (const int other : {strut, scalar}) CHECK(std::abs(d.K(other, row)) > 0.01);
     }
 }
@@ -262,9 +264,9 @@ TEST_CASE("the matrices of the linearised equations are the derivatives of the r
     };
     const VectorX none = VectorX::Zero(system.size());
     const auto by = [&](const auto& act) { return bielle::test::jacobian(act, system.size(), 0.01); };
-    const MatrixX by_x = by([&](const VectorX& s) { return residual(s, none, none); }),
-                  by_v = by([&](const VectorX& s) { return residual(none, s, none); }),
-                  by_a = by([&](const VectorX& s) { return residual(none, none, s); });
+    const MatrixX by_x = by([&](const VectorX&s) { return residual(s, none, none); }),
+                  by_v = by([&](const VectorX&s) { return residual(none, s, none); }),
+                  by_a = by([&](const VectorX&s) { return residual(none, none, s); });
     const SystemMatrices matrices = linearise(system, environment, state);
     CHECK(distance(matrices.K, by_x.topLeftCorner(n, n)) < accurate);
     CHECK(distance(matrices.C, by_v.topLeftCorner(n, n)) < accurate);
@@ -343,7 +345,7 @@ TEST_CASE("references in a circle are refused by name, and so is a reference to 
       for (const char* name : {"one", "two", "three"}) {
         auto mixer = std::make_unique<StateMixer>(name, std::vector{0}, std::vector<const Component*>{});
         mixers.push_back(mixer.get());
-        model.add(std::move(mixer), "");
+        model.add(std::move(mixer), Entry{Section::elements, name}, Recorded::no);
       }
       refer(*mixers[0], *mixers[1], *mixers[2]);
       const System system(model);
@@ -355,9 +357,9 @@ TEST_CASE("references in a circle are refused by name, and so is a reference to 
                two.refer_to(three);
                three.refer_to(one);
              })),
-             Catch::Contains("mixer 'three' refers to mixer 'one', which refers back to it"));
+             Catch::Contains("element 'three' refers to element 'one', which refers back to it"));
   CHECK_THAT(message_of<InputError>(numbered([](auto& one, auto&, auto&) { one.refer_to(one); })),
-             Catch::Contains("mixer 'one' refers to itself"));
+             Catch::Contains("element 'one' refers to itself"));
   // Two ways to the same component are no circle.
   CHECK_NOTHROW(numbered([](auto& one, auto& two, auto& three) {
     one.refer_to(two);

@@ -215,6 +215,49 @@ TEST_CASE("loads are a pressure, a traction or a force") {
   check("pressure: 1e5", "force: [0, 3]", "14: loads.gas.force: ");
 }
 
+TEST_CASE("points are places or means of surfaces, and ask for residual vectors") {
+  const auto with = [](const std::string& points) { return read("loads:\n", "points: {" + points + "}\nloads:\n"); };
+  const BodyFile file = with(
+      "sensor: {at: [1, 2, 3]}, pad: {group: crown, position: [0, 0, 1], residual: [x, z, ry]}, "
+      "pin: {at: [0, 0, 0], residual: true}, flat: {group: {plane: {point: [0, 0, 1], normal: [1, 0, 0]}}}");
+  const std::vector<PointRequest>& points = file.options.points;
+  REQUIRE(points.size() == 4);
+  CHECK(points[0].name == "sensor");
+  CHECK(points[0].group.empty());
+  CHECK(points[0].position == Eigen::Vector3d(1, 2, 3));
+  CHECK(points[0].residual == std::array<bool, 6>{});
+  CHECK(points[0].located == "models/rod.yaml:13: points.sensor");
+  CHECK(points[1].group == "crown");
+  CHECK(points[1].position == Eigen::Vector3d(0, 0, 1));
+  CHECK(points[1].residual == std::array<bool, 6>{true, false, true, false, true, false});
+  CHECK(points[2].residual == std::array<bool, 6>{true, true, true, true, true, true});
+  CHECK(points[3].group == "points.flat");
+  CHECK_FALSE(points[3].position.has_value());
+  REQUIRE(file.mesh.surfaces.size() == 5);
+  CHECK(file.mesh.surfaces[3].located == "models/rod.yaml:13: points.pad.group");
+  CHECK(read("order: 2}\n", "order: 2, sizes: {pad: 1e-3}}\npoints: {pad: {group: crown}}\n")
+            .mesh.sizes.at("crown")
+            .size == 1e-3);
+  CHECK(read("pressure: 1e5", "pressure: 1e5, residual: true").options.loads[0].residual);
+  CHECK_FALSE(read().options.loads[0].residual);
+
+  const auto refused = [](const std::string& point, const std::string& expected) {
+    check("loads:\n", "points: {pin: " + point + "}\nloads:\n", expected);
+  };
+  refused("{}", "13: points.pin: expected either `group`, a surface whose mean the point follows, or `at`");
+  refused("{at: [0, 0, 0], group: crown}", "13: points.pin: expected either `group`");
+  refused("{at: [0, 0]}", "13: points.pin.at: ");
+  refused("{at: [0, 0, 0], position: [0, 0, 0]}", "13: points.pin.position: `at` is its position: remove this key");
+  refused("{at: [0, 0, 0], residul: true}",
+          "13: points.pin: 'residul' is not a key of a point; did you mean 'residual'?");
+  refused("{at: [0, 0, 0], residual: some}", "13: points.pin.residual: expected true or false");
+  refused("{at: [0, 0, 0], residual: [x, xr]}", "13: points.pin.residual[2]: 'xr' is not a direction");
+  refused("{at: [0, 0, 0], residual: [x, x]}", "13: points.pin.residual[2]: 'x' stands here twice");
+  refused("{at: [0, 0, 0], residual: []}", "13: points.pin.residual: expected at least one direction");
+  check("pressure: 1e5", "pressure: 1e5, residual: 2", "14: loads.gas.residual: expected true or false");
+  check("gas: {surface", "g/as: {surface", "14: loads.g/as: expected a name without '/'");
+}
+
 TEST_CASE("recovery") {
   const BodyFile file = read("{displacement: all, stress: surface}", "{displacement: surface, stress: none}");
   CHECK(file.options.displacement_recovery == RecoveryExtent::surface);
@@ -222,7 +265,7 @@ TEST_CASE("recovery") {
   check("displacement: all, stress: surface", "displacement: surface, stress: all",
         "15: recovery: 'stress: all' needs 'displacement: all'");
   check("stress: surface", "stress: some", "15: recovery.stress: 'some' is not an extent of recovery");
-  check("stress: surface", "strain: surface", "15: recovery: 'strain' is not a key of the recovery");
+  check("stress: surface", "strain: surface", "15: recovery.strain: strain follows from stress and material");
 }
 
 TEST_CASE("mesh sizes by group, interface or load") {

@@ -130,7 +130,11 @@ TEST_CASE("impossible materials are refused with key and range") {
 }
 
 TEST_CASE("values that no solid has are doubted, with key and range") {
-  const auto doubts = [](const std::string& text) { return doubts_about_material(YamlValue::parse(text, "rod.yaml")); };
+  const auto doubts = [](const std::string& text) {
+    const YamlValue material = YamlValue::parse(text, "rod.yaml");
+    doubt_material(material);
+    return material.doubts();
+  };
   CHECK(doubts("{young: 210e9, poisson: 0.3, density: 7850}").empty());
   CHECK(doubts("{young: 1.2e12, poisson: 0.1, density: 22590}").empty());  // diamond's stiffness, osmium's density
   CHECK(doubts("{young: 2e6, poisson: 0.49, density: 30}").empty());       // a foam of rubber

@@ -152,7 +152,7 @@ TEST_CASE("A wrong formula is explained with the place and the nearest name") {
   CHECK_THAT(why_wrong("sin(t"), Contains("')' is missing"));
   CHECK_THAT(why_wrong("t)"), Contains("unexpected ')'"));
   CHECK_THAT(why_wrong("t+"), Contains("breaks off"));
-  CHECK_THAT(why_wrong("sin"), Contains("needs '('"));
+  CHECK_THAT(why_wrong("sin"), Contains("must be followed by '('"));
   CHECK_THAT(why_wrong("sin()"), Contains("too few arguments of 'sin'"));
   CHECK_THAT(why_wrong("sin(1, 2)"), Contains("too many arguments of 'sin'"));
   CHECK_THAT(why_wrong("step(t, 1)"), Contains("too few arguments of 'step'"));

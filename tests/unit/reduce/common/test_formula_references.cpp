@@ -119,9 +119,9 @@ TEST_CASE("A slip in a reference is told with its place") {
   CHECK(why("2*main. angle") == "'main. angle' at character 3 is written without blanks at the dots");
   CHECK(why("2*main .angle") == "'main .angle' at character 3 is written without blanks at the dots");
   CHECK(why("'left arm' . angle") == "''left arm' . angle' at character 1 is written without blanks at the dots");
-  CHECK(why("t + main.") == "a name is missing behind 'main.' at character 5");
-  CHECK(why("main.angle.*2") == "a name is missing behind 'main.angle.' at character 1");
-  CHECK(why("main.2") == "a name is missing behind 'main.' at character 1");
+  CHECK(why("t + main.") == "a name is missing after 'main.' at character 5");
+  CHECK(why("main.angle.*2") == "a name is missing after 'main.angle.' at character 1");
+  CHECK(why("main.2") == "a name is missing after 'main.' at character 1");
   CHECK(why("2*'left arm.angle") == "the quote at character 3 is not closed");
   CHECK(why("''.angle") == "a name is missing in the quotes at character 1");
   CHECK(why("1 + distance(a.x, b)") ==
@@ -129,7 +129,7 @@ TEST_CASE("A slip in a reference is told with its place") {
   for (const std::string text :
        {"angle(", "angle()", "angle(a,", "angle(a, )", "angle(a b)", "angle(a, 2*b)", "angle('', b)"})
     CHECK_THAT(why(text), Contains("'angle' at character 1 takes names"));
-  CHECK(why("distance (a, b)") == "the function 'distance' at character 1 needs '(' right behind it");
+  CHECK(why("distance (a, b)") == "the function 'distance' at character 1 must be followed by '('");
 }
 
 TEST_CASE("References are further arguments of the formula, and messages call them as the user does") {
@@ -174,7 +174,7 @@ TEST_CASE("Input files give formulas with references, and messages with their pl
   CHECK(read("number")(0.0) == 2.5);
   CHECK(file.at("number").text() == "2.50");
   const auto why_not = [&](const std::string& key) { return message_of<InputError>([&] { read(key); }); };
-  CHECK_THAT(why_not("slip"), Contains("model.yaml:2: slip: in '2*main.': a name is missing behind 'main.'"));
+  CHECK_THAT(why_not("slip"), Contains("model.yaml:2: slip: in '2*main.': a name is missing after 'main.'"));
   CHECK_THAT(why_not("wrong"), Contains("model.yaml:3: wrong: in '3*main.angle*q': unknown name 'q' at character 14"));
   CHECK_THAT(why_not("list"), Contains("model.yaml:5: list: expected a number or a formula"));
 }

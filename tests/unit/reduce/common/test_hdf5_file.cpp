@@ -228,7 +228,7 @@ TEST_CASE("HDF5 itself prints nothing") {
 TEST_CASE("A file is written in the earliest format") {
   const TemporaryFolder folder;
   Hdf5File::create(folder / "a.h5").write("/x", 1.0, "m");
-  CHECK(bytes_of(folder / "a.h5").at(8) == 0);  // version of the superblock, behind the signature of 8 bytes
+  CHECK(bytes_of(folder / "a.h5").at(8) == 0);  // version of the superblock, after the signature of 8 bytes
 }
 
 TEST_CASE("After kill -9 a file holds all that was flushed") {
@@ -284,6 +284,6 @@ TEST_CASE("An output takes its name only when it is complete") {
   }
   CHECK(bytes_of(path) == "whole");
   CHECK_FALSE(std::filesystem::exists(path + ".partial"));
-  AtomicOutput never_written(folder / "none.h5");
+  AtomicOutput never_written((std::filesystem::path(folder.path()) / "missing" / "none.h5").string());
   CHECK_THAT(message_of<ComputationError>([&] { never_written.commit(); }), Contains("cannot take its name"));
 }

@@ -48,7 +48,7 @@ const std::string groups_geo =
 
 TEST_CASE("an inverted element is named by its number in the file and its place") {
   CHECK_THAT(message_for(msh({"0 0 0", "1 0 0", "0 1 0", "0 0 1", "1 1 1"}, {"4 2 1 1 1 2 3 4", "4 2 1 1 2 3 5 4"})),
-             StartsWith("rod.yaml:2: geometry: 1 of 2 elements are inverted (negative volume); the first is element 2 "
+             StartsWith("rod.yaml:2: geometry: 1 of 2 elements is inverted (negative volume); the first is element 2 "
                         "at (0.5, 0.5, 0.5) m"));
 }
 
@@ -56,24 +56,24 @@ TEST_CASE("a mesh whose elements are all inverted is mirrored") {
   CHECK_THAT(
       message_for(msh(corners, {"4 2 1 1 2 1 3 4"})),
       Contains(
-          "all 1 elements are inverted (negative volume): the mesh is mirrored, or its nodes are ordered otherwise"));
+          "every element is inverted (negative volume): the mesh is mirrored, or its nodes are ordered otherwise"));
 }
 
 TEST_CASE("a flat element is named") {
   CHECK_THAT(
       message_for(msh({"0 0 0", "1 0 0", "0 1 0", "0 0 1", "0.2 0.2 0"}, {"4 2 1 1 1 2 3 4", "4 2 1 1 1 3 2 5"})),
-      Contains("1 of 2 elements are degenerate (no volume); the first is element 2 at"));
+      Contains("1 of 2 elements is degenerate (no volume); the first is element 2 at"));
 }
 
 TEST_CASE("a body in pieces is described, and whether the pieces touch") {
   const std::vector<std::string> apart = {"0 0 0", "1 0 0", "0 1 0", "0 0 1", "4 0 0", "6 0 0", "4 2 0", "4 0 2"};
   CHECK_THAT(
       message_for(msh(apart, {"4 2 1 1 1 2 3 4", "4 2 1 1 5 6 7 8"})),
-      Contains("the body is in 2 pieces that share no nodes: 1 elements with 1.33 m^3 from (4, 0, 0) m to (6, 2, 2) m; "
-               "1 elements with 0.167 m^3 from (0, 0, 0) m to (1, 1, 1) m; join them"));
+      Contains("the body is in 2 pieces that share no nodes: 1 element with 1.33 m^3 from (4, 0, 0) m to (6, 2, 2) m; "
+               "1 element with 0.167 m^3 from (0, 0, 0) m to (1, 1, 1) m; join them"));
   const std::vector<std::string> touching = {"0 0 0", "1 0 0", "0 1 0", "0 0 1", "1 0 0", "0 1 0", "0 0 1", "1 1 1"};
   CHECK_THAT(message_for(msh(touching, {"4 2 1 1 1 2 3 4", "4 2 1 1 5 6 7 8"})),
-             Contains("in 2 pieces") && Contains("3 pairs of nodes lie at the same place: merge them"));
+             Contains("in 2 pieces") && Contains("3 pairs of nodes at the same place: merge the nodes"));
 }
 
 TEST_CASE("coincident nodes within one piece are a crack") {
@@ -118,7 +118,7 @@ TEST_CASE("parts that hang together by an edge or a node only are doubted") {
   CHECK_NOTHROW(check_connected(mesh));
   CHECK_THAT(loose_joints(mesh, FaceTable(mesh)),
              StartsWith("2 parts of the body hang together by single nodes or edges only, about which they can turn: "
-                        "1 elements with 0.167 m^3 from"));
+                        "1 element with 0.167 m^3 from"));
   CHECK(
       loose_joints(box_mesh({{1, 1, 1}, {2, 2, 2}, true}), FaceTable(box_mesh({{1, 1, 1}, {2, 2, 2}, true}))).empty());
 }
@@ -131,13 +131,13 @@ TEST_CASE("cells that stand twice are refused") {
 TEST_CASE("cells that are no tetrahedra are named with what is supported") {
   const std::vector<std::string> cube = {"0 0 0", "1 0 0", "1 1 0", "0 1 0", "0 0 1", "1 0 1", "1 1 1", "0 1 1"};
   CHECK_THAT(message_for(msh(cube, {"5 2 1 1 1 2 3 4 5 6 7 8"})),
-             Contains("holds 1 cells of type 'Hexahedron 8'; supported are tetrahedra with 4 or 10 nodes"));
-  CHECK_THAT(message_for(msh(cube, {"6 2 1 1 1 2 4 5 6 8"})), Contains("cells of type 'Prism 6'"));
+             Contains("holds 1 cell of type 'Hexahedron 8'; supported are tetrahedra with 4 or 10 nodes"));
+  CHECK_THAT(message_for(msh(cube, {"6 2 1 1 1 2 4 5 6 8"})), Contains("1 cell of type 'Prism 6'"));
 }
 
 TEST_CASE("a surface mesh and a mesh without cells are no bodies") {
   CHECK_THAT(message_for(msh(corners, {"2 2 1 1 1 2 3"})),
-             Contains("holds a surface mesh only (1 cells); a body needs tetrahedra"));
+             Contains("holds a surface mesh only (1 cell); a body needs tetrahedra"));
   CHECK_THAT(message_for(msh(corners, {"15 2 1 1 1"})), Contains("holds no cells"));
 }
 
@@ -151,7 +151,7 @@ TEST_CASE("linear and quadratic tetrahedra do not mix") {
 TEST_CASE("surface cells that are no triangles, and triangles of two orders on one surface, are refused") {
   const std::vector<std::string> cube = {"0 0 0", "1 0 0", "1 1 0", "0 1 0", "0 0 1", "1 0 1", "1 1 1", "0 1 1"};
   CHECK_THAT(message_for(msh(cube, {"4 2 1 1 1 2 4 5", "3 2 9 1 1 2 3 4"})),
-             Contains("holds 1 surface cells of type 'Quadrilateral 4'; supported are triangles with 3 or 6 nodes"));
+             Contains("holds 1 surface cell of type 'Quadrilateral 4'; supported are triangles with 3 or 6 nodes"));
   const std::vector<std::string> points = {"0 0 0",   "1 0 0",  "0 1 0",  "0 0 1",   ".5 0 0",
                                            ".5 .5 0", "0 .5 0", "0 0 .5", "0 .5 .5", ".5 0 .5"};
   CHECK_THAT(message_for(msh(points, {"11 2 1 1 1 2 3 4 5 6 7 8 9 10", "2 2 9 1 1 2 3", "9 2 9 1 1 3 4 7 9 8"})),

@@ -28,6 +28,22 @@ inline reduce::ReductionOptions steel_body(reduce::Tie a, reduce::Tie b, int mod
   return options;
 }
 
+/// A point that follows the mean of a surface.
+inline reduce::PointRequest point_on(const std::string& name, const std::string& group) {
+  reduce::PointRequest request;
+  request.name = name;
+  request.group = group;
+  request.located = "body.yaml:9: points." + name;
+  return request;
+}
+
+/// A point at a place in the mesh.
+inline reduce::PointRequest point_at(const std::string& name, const Eigen::Vector3d& place) {
+  reduce::PointRequest request = point_on(name, "");
+  request.position = place;
+  return request;
+}
+
 /// A short twisted block: no symmetry hides an error, and the numbers are well conditioned.
 inline reduce::Mesh twisted_block() {
   return box_mesh({{0.4, 0.1, 0.15}, {5, 2, 2}}, [](const Eigen::Vector3d& x) {

@@ -12,16 +12,6 @@ using namespace bielle;
 using namespace bielle::reduce;
 using Catch::Contains;
 
-namespace {
-
-Eigen::MatrixXd rigid_coordinates(const Superelement& body, const Eigen::Vector3d& about) {
-  Eigen::MatrixXd u = Eigen::MatrixXd::Zero(body.size(), 6);
-  u.topRows(body.interface_directions()) = interface_rigid_motions(body.interfaces, about);
-  return u;
-}
-
-}  // namespace
-
 TEST_CASE("Reduced loads have the resultants of the loads, component by component") {
   const Mesh mesh = test::box_mesh({{0.4, 0.1, 0.2}, {4, 2, 2}});
   ReductionOptions options = test::steel_body(Tie::average, Tie::rigid, 2);
@@ -120,4 +110,35 @@ TEST_CASE("A bar pulled at its ends recovers the stress of the closed form") {
     CHECK(stress.segment<5>(6 * k + 1).norm() < 1e-9 * expected);
   }
   CHECK(body.stiffness(6, 6) == Approx(200e9 * 0.01 / 0.5).epsilon(1e-10));
+}
+
+TEST_CASE("At a boundary of materials a node has the material whose stress it has, and belongs to its volumes") {
+  Mesh mesh = test::box_mesh({{0.4, 0.1, 0.1}, {4, 2, 2}});
+  Group soft{3, {{CellType::tet10, {}}}, {}}, hard = soft;
+  for (Eigen::Index e = 0; e < mesh.blocks[0].nodes.cols(); ++e) {
+    Group& group = mesh.points(0, mesh.blocks[0].nodes.col(e)).maxCoeff() < 0.15 ? soft : hard;
+    group.parts[0].cells.push_back(static_cast<int>(e));
+  }
+  mesh.groups["soft"] = soft;
+  mesh.groups["hard"] = hard;
+  ReductionOptions options = test::steel_body(Tie::rigid, Tie::rigid);
+  options.materials["rubber"] = Material::isotropic(1e7, 0.45, 1000);
+  options.regions = {{"soft", "rubber"}, {"hard", "steel"}};
+  const StressOrigin origin = test::reduced(mesh, options).stress_origin;
+  const Superelement body = test::reduced(mesh, options);
+  REQUIRE(origin.materials.size() == 2);
+  CHECK(origin.materials[0].name == "rubber");
+  CHECK(origin.materials[0].elasticity == options.materials.at("rubber").elasticity);
+  std::vector<int> rubber, steel;
+  for (int row = 0; row < static_cast<int>(body.stress_nodes.size()); ++row) {
+    const double x = mesh.points(0, body.stress_nodes[static_cast<std::size_t>(row)]);
+    const int material = origin.material_of[static_cast<std::size_t>(row)];
+    if (std::abs(x - 0.1) > 1e-9) {
+      CHECK(material == (x < 0.1 ? 0 : 1));
+    }
+    (material == 0 ? rubber : steel).push_back(row);
+  }
+  CHECK(origin.groups.at("soft") == rubber);
+  CHECK(origin.groups.at("hard") == steel);
+  CHECK(origin.groups.count("x0") == 0);  // a surface
 }

@@ -199,8 +199,8 @@ TEST_CASE("Damping is modal on the free body, or Rayleigh's") {
   Eigen::MatrixXd u = Eigen::MatrixXd::Zero(15, 6);
   u.topRows(12) = interface_rigid_motions(body.interfaces, body.centre);
   CHECK(relative_force(body.damping, body.mass, u) < 1e-12);
-  // State matrix of M q.. + C q. + K q = 0, of (w q, q.): decay over frequency is the ratio, for every elastic mode. With
-  // w the size of the highest frequency both halves are of one size; otherwise eigenvalues are rounded by w^2.
+  // State matrix of M q.. + C q. + K q = 0, of (w q, q.): decay over frequency is the ratio, for every elastic mode.
+  // With w the size of the highest frequency both halves are of one size; otherwise eigenvalues are rounded by w^2.
   Eigen::MatrixXd state = Eigen::MatrixXd::Zero(30, 30);
   const Eigen::MatrixXd inverse = body.mass.inverse();
   const double w = std::sqrt((inverse * body.stiffness).norm());

@@ -40,7 +40,7 @@ TEST_CASE("Modal damping damps each elastic mode by its ratio and no rigid motio
   CHECK((damping * rigid).norm() < 1e-14);
   CHECK(modal_damping(modes, mass, {}).norm() == 0);
   CHECK_THROWS_WITH(modal_damping(modes, mass, {0.1, 0.2}),
-                    Catch::Contains("2 values for a reduced body with 1 elastic"));
+                    Catch::Contains("2 values for a reduced body with 1 elastic mode"));
 }
 
 TEST_CASE("A list of ratios goes to the modes in order, the last to all further ones") {

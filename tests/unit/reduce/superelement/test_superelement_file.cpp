@@ -3,6 +3,7 @@
 #include <fstream>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <string>
 
 #include <Eigen/Geometry>
@@ -10,6 +11,7 @@
 
 #include "reduce/common/error.hpp"
 #include "reduce/common/hdf5_file.hpp"
+#include "reduce/superelement/named_points.hpp"
 #include "reduce/superelement/superelement.hpp"
 #include "tests/support/messages.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -42,9 +44,10 @@ Superelement sample() {
   held.rotation = Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 2) / 3).toRotationMatrix();
   held.kept = {true, true, false, true, false, true};
   body.interfaces = {free, held};
-  body.frequencies = Eigen::Vector3d(10, 20, 30);
   body.stiffness = symmetric(n);
   body.mass = symmetric(n);
+  body.frequencies = (body.stiffness.diagonal().tail(m).array() / body.mass.diagonal().tail(m).array()).sqrt() /
+                     (2 * std::numbers::pi);
   body.damping = symmetric(n);
   for (std::size_t k = 0; k < 6; ++k) {
     body.inertia_components[k] = k < 3 ? symmetric(n) : MatrixXd(MatrixXd::Random(n, n));
@@ -56,6 +59,9 @@ Superelement sample() {
   body.centre = {0.1, 0.2, 0.3};
   body.inertia = symmetric(3);
   for (auto& force : body.loads["gas / crown 50%"].force) force = Eigen::Matrix3Xd::Random(3, n);
+  body.residual_vectors = 1;
+  body.points["pad. left"] = {{4, 5, 6}, MatrixXd::Random(6, n), {true, false, true, false, true, false}};
+  body.points["tip"] = {{7, 8, 9}, MatrixXd::Random(6, n), {}};
   body.mesh.points = Eigen::Matrix3Xd::Random(3, p);
   body.mesh.cells[4].resize(4, 2);
   body.mesh.cells[4] << 0, 1, 1, 2, 2, 3, 3, 4;
@@ -64,6 +70,9 @@ Superelement sample() {
   body.displacement_recovery = MatrixXd::Random(3 * p, n);
   body.stress_nodes = {1, 4};
   body.stress_recovery = MatrixXd::Random(12, n);
+  body.stress_origin.materials = {{"steel", symmetric(6)}, {"rubber", symmetric(6)}};
+  body.stress_origin.material_of = {1, 0};
+  body.stress_origin.groups = {{"web. thin", {0}}, {"hub", {0, 1}}};
   body.checks = {{"mass error", 1e-9}, {"rigid/energy", 3}};
   return body;
 }
@@ -131,12 +140,26 @@ TEST_CASE("A superelement is read as it was written") {
   CHECK(b.inertia == a.inertia);
   REQUIRE(b.loads.count("gas / crown 50%") == 1);
   CHECK(b.loads.at("gas / crown 50%").force == a.loads.at("gas / crown 50%").force);
+  CHECK(b.residual_vectors == 1);
+  REQUIRE(b.points.size() == 2);
+  for (const char* name : {"pad. left", "tip"}) {
+    CHECK(b.points.at(name).position == a.points.at(name).position);
+    CHECK(b.points.at(name).shapes == a.points.at(name).shapes);
+    CHECK(b.points.at(name).residual == a.points.at(name).residual);
+  }
   CHECK(b.mesh.points == a.mesh.points);
   CHECK(b.mesh.cells == a.mesh.cells);
   CHECK(b.mesh.groups == a.mesh.groups);
   CHECK(b.displacement_recovery == a.displacement_recovery);
   CHECK(b.stress_recovery == a.stress_recovery);
   CHECK(b.stress_nodes == a.stress_nodes);
+  REQUIRE(b.stress_origin.materials.size() == 2);
+  for (std::size_t k = 0; k < 2; ++k) {
+    CHECK(b.stress_origin.materials[k].name == a.stress_origin.materials[k].name);
+    CHECK(b.stress_origin.materials[k].elasticity == a.stress_origin.materials[k].elasticity);
+  }
+  CHECK(b.stress_origin.material_of == a.stress_origin.material_of);
+  CHECK(b.stress_origin.groups == a.stress_origin.groups);
   CHECK(b.checks == a.checks);
   CHECK(b.size() == 13);
   CHECK(b.interface_directions() == 10);
@@ -146,6 +169,8 @@ TEST_CASE("What a superelement does not have stays empty") {
   const TemporaryFolder folder;
   const Superelement b = read_superelement(written(folder, smallest()));
   CHECK(b.modes() == 0);
+  CHECK(b.residual_vectors == 0);
+  CHECK(b.points.empty());
   CHECK(b.spin_stiffness[0].size() == 0);
   CHECK(b.load_stiffness.empty());
   CHECK(b.displacement_recovery.size() == 0);
@@ -158,7 +183,7 @@ TEST_CASE("The file has the layout that its description promises") {
   const Superelement body = sample();
   const Hdf5File file = Hdf5File::open(written(folder, body));
   CHECK(file.read_text_attribute("/", "format") == "bielle superelement");
-  CHECK(file.read_integer_attribute("/", "version") == 1);
+  CHECK(file.read_integer_attribute("/", "version") == 2);
   CHECK(file.read_integer_attribute("/", "complete") == 1);
   CHECK(file.read_text("/input") == body.input);
   CHECK(file.shape("/interface/dofs") == Shape{2, 6});
@@ -169,7 +194,12 @@ TEST_CASE("The file has the layout that its description promises") {
   CHECK(file.shape("/reduced/geometric_stiffness/load") == Shape{10, 13, 13});
   CHECK(file.read_names("/reduced/coordinates")[8] == "small_end rx");
   CHECK(file.read_names("/reduced/coordinate_units")[8] == "rad");
-  CHECK(file.read_names("/reduced/coordinates")[12] == "mode 3");
+  CHECK(file.read_names("/reduced/coordinates")[11] == "mode 2");
+  CHECK(file.read_names("/reduced/coordinates")[12] == "residual vector 1");
+  CHECK(file.read_integer_attribute("/modes", "residual_vectors") == 1);
+  CHECK(file.shape("/points/pad%2E left/position") == Shape{3});
+  CHECK(file.shape("/points/pad%2E left/shapes") == Shape{6, 13});
+  CHECK(file.read_integers("/points/pad%2E left/residual") == std::vector<std::int64_t>{1, 0, 1, 0, 1, 0});
   CHECK(file.shape("/modes/effective_mass") == Shape{3, 6});
   CHECK(file.shape("/loads/gas %2F crown 50%25") == Shape{3, 3, 13});
   CHECK(file.shape("/mesh/points") == Shape{5, 3});
@@ -178,6 +208,23 @@ TEST_CASE("The file has the layout that its description promises") {
   CHECK(file.shape("/recovery/stress") == Shape{12, 13});
   for (const char* dataset : {"/reduced/stiffness", "/mesh/points", "/checks/mass error", "/recovery/stress_nodes"})
     CHECK_FALSE(file.units(dataset).empty());
+}
+
+TEST_CASE("The origin of stress is optional, and wrong ones are refused") {
+  const TemporaryFolder folder;
+  Superelement body = sample();
+  body.stress_origin = {};
+  CHECK(read_superelement(written(folder, body)).stress_origin.materials.empty());
+  CHECK_THAT(why_refused([](Hdf5File& file) {
+               file.remove("/recovery/stress_materials");
+               file.write("/recovery/stress_materials", std::vector<std::int64_t>{0, 2}, {2}, "-");
+             }),
+             Contains("/recovery/stress_materials: names materials that are not in /recovery/materials"));
+  CHECK_THAT(why_refused([](Hdf5File& file) {
+               file.remove("/recovery/stress_groups/hub");
+               file.write("/recovery/stress_groups/hub", std::vector<std::int64_t>{2}, {1}, "-");
+             }),
+             Contains("/recovery/stress_groups/hub: names places that are not in /recovery/stress_nodes"));
 }
 
 TEST_CASE("An earlier file is replaced by a complete one only") {
@@ -212,8 +259,8 @@ TEST_CASE("A file that is missing, damaged or something else is refused with the
 TEST_CASE("An incomplete file or one of another version is refused with what to do") {
   CHECK_THAT(why_refused([](Hdf5File& file) { file.write_attribute("/", "complete", std::int64_t{0}); }),
              Contains("was never completed; run bielle-reduce again"));
-  CHECK_THAT(why_refused([](Hdf5File& file) { file.write_attribute("/", "version", std::int64_t{2}); }),
-             Contains("has version 2 of the file format, but this program reads version 1"));
+  CHECK_THAT(why_refused([](Hdf5File& file) { file.write_attribute("/", "version", std::int64_t{1}); }),
+             Contains("has version 1 of the file format, but this program reads version 2"));
   CHECK_THAT(why_refused([](Hdf5File& file) { file.write_attribute("/", "format", std::string("bielle results")); }),
              Contains("is no superelement"));
 }
@@ -231,6 +278,38 @@ TEST_CASE("Datasets that are missing or have wrong shapes are named") {
              Contains("/recovery/displacement: expected 15 x 13"));
   CHECK_THAT(why_refused([](Hdf5File& file) { replace(file, "/mesh/points", MatrixXd::Zero(3, 3)); }),
              Contains("names nodes that are not in the mesh"));
+}
+
+TEST_CASE("Points are read without the rest of the file, and wrong ones are refused") {
+  const TemporaryFolder folder;
+  const auto points = read_points_of_file(written(folder, sample()));
+  REQUIRE(points.size() == 2);
+  CHECK(points.at("tip").group == "/");
+  CHECK(points.at("tip").point.shapes == sample().points.at("tip").shapes);
+  CHECK(read_points_of_file(written(folder, smallest())).empty());
+
+  const auto why_not = [](const std::string& dataset, const MatrixXd& values) {
+    return why_refused([&](Hdf5File& file) { replace(file, "/points/tip/" + dataset, values); });
+  };
+  CHECK_THAT(why_not("shapes", MatrixXd::Zero(6, 12)),
+             Contains("/points/tip/shapes: expected 6 x 13 numbers, found 6 x 12"));
+  CHECK_THAT(why_not("shapes", MatrixXd::Zero(5, 13)), Contains("/points/tip/shapes: expected six rows"));
+  CHECK_THAT(why_not("shapes", MatrixXd::Constant(6, 13, std::nan(""))),
+             Contains("/points/tip/shapes: holds numbers that are not finite"));
+  CHECK_THAT(why_refused([](Hdf5File& file) {
+               file.remove("/points/tip/position");
+               file.write("/points/tip/position", Eigen::VectorXd(Eigen::VectorXd::Zero(2)), "m");
+             }),
+             Contains("/points/tip/position: expected three numbers"));
+  CHECK_THAT(why_refused([](Hdf5File& file) {
+               file.remove("/points/tip/residual");
+               file.write("/points/tip/residual", std::vector<std::int64_t>{0, 0, 0, 0, 0, 2}, {6}, "-");
+             }),
+             Contains("/points/tip/residual: expected six times 0 or 1"));
+  CHECK_THAT(why_refused([](Hdf5File& file) { file.remove("/points/tip/residual"); }),
+             Contains("/points/tip/residual: is not in this file"));
+  CHECK_THAT(why_refused([](Hdf5File& file) { file.write_attribute("/modes", "residual_vectors", std::int64_t{4}); }),
+             Contains("of 3 modes, 4 cannot be residual vectors"));
 }
 
 TEST_CASE("Values that no body can have are refused") {

@@ -1,0 +1,109 @@
+#include "mechanism/elements/beam/beam.hpp"
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "mechanism/elements/beam/beam_element.hpp"
+#include "mechanism/elements/beam/beam_geometry.hpp"
+#include "mechanism/elements/beam/distributed_load.hpp"
+#include "mechanism/reading/names.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+/// Velocities of a frame between two nodes: each end alone would move it rigidly.
+void set_start_velocity(Node& inner, const Node& a, const Node& b, double s) {
+  const Vector3 omega_a = a.frame.R * a.angular_velocity, omega_b = b.frame.R * b.angular_velocity;
+  inner.velocity = (1 - s) * (a.velocity + omega_a.cross(inner.frame.x - a.frame.x)) +
+                   s * (b.velocity + omega_b.cross(inner.frame.x - b.frame.x));
+  inner.angular_velocity = inner.frame.R.transpose() * ((1 - s) * omega_a + s * omega_b);
+}
+
+/// Nodes of the beam from start to end, the inner ones made here.
+std::vector<int> make_nodes(const std::string& name, const YamlValue& entry, const std::vector<int>& ends,
+                            const std::vector<Frame>& sections, Model& model) {
+  std::vector<int> nodes{ends[0]};
+  const std::size_t count = sections.size() - 1;
+  for (std::size_t k = 1; k < count; ++k) {
+    Node inner;
+    inner.name = fmt::format("{}.{}", name, k);
+    if (model.find_node(inner.name)) entry.fail(fmt::format("there is already a node '{}'", inner.name));
+    inner.frame = sections[k];
+    inner.internal = true;
+    set_start_velocity(inner, model.node(ends[0]), model.node(ends[1]),
+                       static_cast<double>(k) / static_cast<double>(count));
+    nodes.push_back(model.add_node(std::move(inner)));
+  }
+  nodes.push_back(ends[1]);
+  return nodes;
+}
+
+}  // namespace
+
+void read_beam(const std::string& name, const YamlValue& entry, Model& model) {
+  entry.check_keys({"type", "nodes", "section", "elements", "orientation", "twist", "damping", "bending", "arc_centre",
+                    "arc_through", "distributed"},
+                   "a beam");
+  const std::vector<int> ends = nodes_named_by(entry.at("nodes"), 2, model);
+  if (ends[0] == ends[1]) entry.at("nodes").fail("a beam joins two different nodes");
+  const auto elements = entry.find("elements"), twist = entry.find("twist"), damping = entry.find("damping"),
+             bending = entry.find("bending");
+  const int count = elements ? elements->integer() : 8;
+  constexpr int most = 100000;
+  if (count < 1) elements->fail(fmt::format("expected at least one element; found {}", count));
+  if (count > most) elements->fail(fmt::format("a beam has at most {} elements; found {}", most, count));
+  const BeamBending law = bending && bending->word({"residual", "constant"}, "a kind of `bending`") == "constant"
+                              ? BeamBending::constant
+                              : BeamBending::residual;
+  const double damping_time = damping ? damping->non_negative_number() : 0;
+  const SectionLaw section(entry.at("section"));
+  const auto distributed = entry.find("distributed");
+  const std::vector<LineLoad> loads = distributed ? read_line_loads(*distributed, count) : std::vector<LineLoad>{};
+
+  const double total_twist = twist ? twist->number() : 0;
+  const BeamLine line = read_beam_line(entry, model.node(ends[0]).frame.x, model.node(ends[1]).frame.x);
+  const Matrix6 stiffness = section.at(0.5).stiffness;
+  if (const double thickness = 2 * std::sqrt(std::max(stiffness(4, 4), stiffness(5, 5)) / stiffness(0, 0));
+      thickness > line.length())
+    entry.at("section").doubt(fmt::format(
+        "is it meant? It is as stiff as one of some {:.2g} m in size, and the beam is {:.2g} m long; lengths are in metres",
+        thickness, line.length()));
+  const Matrix3 R_start = read_start_axes(entry, line.start_tangent());
+  std::vector<Frame> sections;
+  for (int k = 0; k <= count; ++k) sections.push_back(line.frame(static_cast<double>(k) / count, R_start, total_twist));
+  const double turn = std::hypot(line.angle(), total_twist) / count;
+  if (turn > BeamElement::largest_turn)
+    entry.fail(
+        fmt::format("with its arc and twist {} would turn by {:.0f} degrees, and none follows more than {:.0f}: give "
+                    "more `elements`",
+                    count == 1 ? "its one element" : fmt::format("each of {} elements", count), degrees(turn),
+                    degrees(BeamElement::largest_turn)));
+
+  const std::vector<int> nodes = make_nodes(name, entry, ends, sections, model);
+  const Entry own{Section::elements, name};
+  for (int k = 0; k < count; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const Vector6 d0 = log_se3(inverse(sections[i]) * sections[i + 1]);
+    const Matrix3 R_A = model.node(nodes[i]).frame.R.transpose() * sections[i].R;
+    const Matrix3 R_B = model.node(nodes[i + 1]).frame.R.transpose() * sections[i + 1].R;
+    const double s_A = static_cast<double>(k) / count, s_B = static_cast<double>(k + 1) / count;
+    BeamReference reference = d0;
+    if (line.angle() != 0 && total_twist != 0)  // else it is a helix
+      reference = {d0, line.length() / count, line.rate(s_A, R_start, total_twist) / count,
+                   line.rate(s_B, R_start, total_twist) / count, [&, back = inverse(sections[i + 1])](double z) {
+                     return back * line.frame((1 - z) * s_A + z * s_B, R_start, total_twist);
+                   }};
+    model.add(std::make_unique<BeamElement>(name, BeamPlace{k + 1, count}, nodes[i], nodes[i + 1], R_A, R_B, reference,
+                                            section.over(s_A, s_B), damping_time, law),
+              own, Recorded::stacked);
+    const BeamSpan span{nodes[i], nodes[i + 1], R_A, R_B, {line.length() / count, 0, 0}, s_A, s_B};
+    for (const LineLoad& load : loads)
+      model.add(std::make_unique<DistributedLoad>(name, span, load), own, Recorded::no);
+  }
+  model.add_chain(own, nodes);
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,269 @@
+#include "mechanism/elements/beam/beam_element.hpp"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <Eigen/Cholesky>
+#include <fmt/format.h>
+
+#include "mechanism/math/gauss.hpp"
+#include "mechanism/model/description.hpp"
+#include "reduce/common/counted.hpp"
+#include "reduce/common/error.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+using Vector12 = Eigen::Matrix<double, 12, 1>;
+using Matrix12 = Eigen::Matrix<double, 12, 12>;
+using Matrix6x12 = Eigen::Matrix<double, 6, 12>;
+using Matrix12x6 = Eigen::Matrix<double, 12, 6>;
+
+Matrix6 inverse(const Matrix6& A) {
+  const Matrix6 B = A.llt().solve(Matrix6::Identity());
+  return 0.5 * (B + B.transpose());
+}
+
+/// Resultants at a section of an element of relative motion d that is in equilibrium, of its f: the nodal wrench at B,
+/// T6^-T(d) f, carried there. @param section  in the axes of the section frame at B
+Matrix6 equilibrium(const Vector6& d, const Frame& section) {
+  return adjoint(section).transpose() * tangent_se3_inverse(d).transpose();
+}
+
+/// Flexibility at z: the parabola through those of the Gauss points (constant for a uniform section).
+Matrix6 flexibility_at(const std::array<Matrix6, 3>& S, double z) {
+  const std::array<double, 3>& p = Gauss3::place;
+  Matrix6 sum = Matrix6::Zero();
+  for (std::size_t g = 0; g < 3; ++g) {
+    const std::size_t i = (g + 1) % 3, j = (g + 2) % 3;
+    sum += (z - p[i]) * (z - p[j]) / ((p[g] - p[i]) * (p[g] - p[j])) * S[g];
+  }
+  return sum;
+}
+
+Matrix6 element_stiffness(const ElementSections& sections, const BeamReference& reference, BeamBending bending) {
+  constexpr int parts = 16;  // three Gauss points in each: 1e-10 for an element that turns by a right angle
+  std::array<Matrix6, 3> S;
+  Matrix6 mean = Matrix6::Zero(), sum = Matrix6::Zero();
+  for (std::size_t g = 0; g < 3; ++g) {
+    S[g] = inverse(sections.at[g].stiffness);
+    mean += Gauss3::weight[g] * sections.at[g].stiffness;
+  }
+  if (bending == BeamBending::constant) return mean;
+  for (int part = 0; part < parts; ++part)
+    for (std::size_t g = 0; g < 3; ++g) {
+      const double z = (part + Gauss3::place[g]) / parts;
+      const Matrix6 A = equilibrium(reference.d0, reference.seen_from_B(z));
+      sum += Gauss3::weight[g] / parts * A.transpose() * flexibility_at(S, z) * A;
+    }
+  return inverse(sum);
+}
+
+}  // namespace
+
+BeamElement::BeamElement(std::string name, BeamPlace place, int node_a, int node_b, const Matrix3& R_A,
+                         const Matrix3& R_B, const BeamReference& reference, const ElementSections& sections,
+                         double damping, BeamBending bending)
+    : Component("beam", std::move(name)),
+      place_(place),
+      node_a_(node_a),
+      node_b_(node_b),
+      R_A_(R_A),
+      R_B_(R_B),
+      d0_(reference.d0),
+      L_(reference.length),
+      bending_(bending),
+      stiffness_(element_stiffness(sections, reference, bending)),
+      section_(sections.middle().stiffness),
+      flexibility_(inverse(section_)),
+      mass_(L_ * sections.mean_mass()),
+      stress_(sections.middle().stress),
+      damping_(damping),
+      inertia_(sections, R_A, R_B, reference) {}
+
+void BeamElement::declare(Declaration& declaration) const {
+  declaration.nodes = {node_a_, node_b_};
+  declaration.stiffness = true;
+  declaration.mass = !inertia_.is_massless();
+  declaration.damping = declaration.mass || damping_ > 0;
+  const Vector3 psi = d0_.tail<3>();
+  declaration.memory.assign(psi.begin(), psi.end());
+}
+
+/// Section frames, relative frame, and what follows from them.
+struct BeamElement::Deformation {
+  Matrix3 R_A, R_B;  ///< section axes -> inertial
+  Vector6 d;
+  Matrix6x12 P;
+  Vector12 v;  ///< body velocities of the section frames
+  Vector6 eps, epsdot;
+  Vector6 f;  ///< resultants
+};
+
+Vector6 BeamElement::relative_motion(const LocalState& state, const Matrix3& R_A, const Matrix3& R_B) const {
+  const Vector6 d = log_se3({R_A.transpose() * (state.node(1).x - state.node(0).x), R_A.transpose() * R_B});
+  // Past 180 degrees the logarithm takes the other way round.
+  if ((d.tail<3>() - state.memory()).norm() > std::numbers::pi)
+    refuse(state, "its ends have turned past 180 degrees against each other", ", or take smaller steps");
+  return d;
+}
+
+void BeamElement::refuse(const LocalState& state, const std::string& why, const char* or_else) const {
+  const std::string when = state.environment().statics
+                               ? fmt::format("load factor {:.6g}", state.environment().load_factor)
+                               : fmt::format("t = {:.6g} s", state.time());
+  throw ComputationError(
+      fmt::format("{}: beam '{}', element {} of {}: {}, and one element follows up to {:.0f}: give "
+                  "the beam more `elements`{}",
+                  when, name(), place_.element, place_.elements, why, degrees(largest_turn), or_else));
+}
+
+void BeamElement::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {
+  const NodeState &A = state.node(0), &B = state.node(1);
+  const Vector3 psi = relative_motion(state, A.R * R_A_, B.R * R_B_).tail<3>();
+  if (psi.norm() > largest_turn)
+    refuse(state, fmt::format("its ends are turned by {:.0f} degrees against each other", degrees(psi.norm())), "");
+  memory = psi;
+}
+
+BeamElement::Deformation BeamElement::deformation(const LocalState& state) const {
+  const NodeState &A = state.node(0), &B = state.node(1);
+  Deformation D;
+  D.R_A = A.R * R_A_;
+  D.R_B = B.R * R_B_;
+  D.d = relative_motion(state, D.R_A, D.R_B);
+  const Matrix6 inverse = tangent_se3_inverse(D.d);
+  // T6^-1(-d) has the transposed blocks of T6^-1(d).
+  D.P << -inverse.topLeftCorner<3, 3>().transpose(), -inverse.topRightCorner<3, 3>().transpose(), inverse.topRows<3>(),
+      Matrix3::Zero(), -inverse.topLeftCorner<3, 3>().transpose(), inverse.bottomRows<3>();
+  D.v << D.R_A.transpose() * A.v, R_A_.transpose() * A.Omega, D.R_B.transpose() * B.v, R_B_.transpose() * B.Omega;
+  D.eps = (D.d - d0_) / L_;
+  D.epsdot = D.P * D.v / L_;
+  D.f = stiffness_ * (D.eps + damping_ * D.epsdot);
+  return D;
+}
+
+void BeamElement::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
+  const Deformation D = deformation(state);
+  const Vector12 F = D.P.transpose() * D.f;
+  r.segment<3>(0) += D.R_A * F.segment<3>(0);
+  r.segment<3>(3) += R_A_ * F.segment<3>(3);
+  r.segment<3>(6) += D.R_B * F.segment<3>(6);
+  r.segment<3>(9) += R_B_ * F.segment<3>(9);
+  if (!inertia_.is_massless()) inertia_.add_force(state, r);
+}
+
+namespace {
+
+/// target += Q^T A Q with Q = diag(U_0, U_1, U_2, U_3)^T.
+void add_rotated(const Matrix12& A, const std::array<Matrix3, 4>& U, Eigen::Ref<MatrixX> target) {
+  for (std::size_t j = 0; j < 4; ++j) {
+    const auto column = static_cast<Eigen::Index>(3 * j);
+    const Eigen::Matrix<double, 12, 3> AQ = A.middleCols<3>(column) * U[j].transpose();
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto row = static_cast<Eigen::Index>(3 * i);
+      target.block<3, 3>(row, column) += U[i] * AQ.middleRows<3>(row);
+    }
+  }
+}
+
+}  // namespace
+
+// In body increments of the section frames (12x12, F = P^T f):
+//   K_b = P^T C_e P/L + [G(-d,f); G(d,f)] P + P^T C_d depsdot/dh,     C_b = P^T C_d P/L
+//   L depsdot/dh = [D(d, v_B) + D(-d, v_A)] P + P [0 (R_k^T xdot_k)~; 0 0]_k,   D(d, w) = d(T6^-1(d) w)/dd
+// and for the nodes, with dh_k = [R_Sk^T dx; R_k^T dTheta] (R_Sk section axes, R_k their constant place in the node):
+//   K = Q^T K_b Q and in the blocks (x_k, Theta_k) the turning of the force with its node, -R_Sk F_u,k~ R_k^T.
+void BeamElement::add_stiffness(const Deformation& D, Eigen::Ref<MatrixX> K) const {
+  const Vector12 F = D.P.transpose() * D.f;
+  Matrix12x6 G;
+  G << inverse_transpose_gradient_se3(-D.d, D.f), inverse_transpose_gradient_se3(D.d, D.f);
+  Matrix6x12 f_gradient = stiffness_ * D.P / L_;
+  if (damping_ > 0) {
+    const Matrix6 along_d =
+        tangent_se3_inverse_gradient(D.d, D.v.tail<6>()) + tangent_se3_inverse_gradient(-D.d, D.v.head<6>());
+    Matrix6x12 rate_gradient = along_d * D.P;
+    for (Eigen::Index k : {0, 6}) rate_gradient.middleCols<3>(k + 3) += D.P.middleCols<3>(k) * skew(D.v.segment<3>(k));
+    f_gradient += damping_ / L_ * stiffness_ * rate_gradient;
+  }
+  const Matrix12 K_b = D.P.transpose() * f_gradient + G * D.P;
+  add_rotated(K_b, {D.R_A, R_A_, D.R_B, R_B_}, K);
+  K.block<3, 3>(0, 3) -= D.R_A * skew(F.segment<3>(0)) * R_A_.transpose();
+  K.block<3, 3>(6, 9) -= D.R_B * skew(F.segment<3>(6)) * R_B_.transpose();
+}
+
+void BeamElement::add_tangent(const LocalState& state, LocalTangent& tangent) const {
+  const bool wants_damping = tangent.wants_C && damping_ > 0;
+  if (tangent.wants_K || wants_damping) {
+    const Deformation D = deformation(state);
+    if (tangent.wants_K) add_stiffness(D, tangent.K.dense());
+    if (wants_damping) {
+      const Matrix6x12 f_gradient = damping_ / L_ * stiffness_ * D.P;
+      const Matrix12 C_b = D.P.transpose() * f_gradient;
+      add_rotated(C_b, {D.R_A, R_A_, D.R_B, R_B_}, tangent.C.dense());
+    }
+  }
+  if (!inertia_.is_massless()) inertia_.add_tangent(state, tangent);
+}
+
+void BeamElement::add_energy(const LocalState& state, Energy& energy) const {
+  const Deformation D = deformation(state);
+  energy.elastic += 0.5 * L_ * D.eps.dot(stiffness_ * D.eps);
+  energy.dissipation += L_ * damping_ * D.epsdot.dot(stiffness_ * D.epsdot);
+  if (!inertia_.is_massless()) inertia_.add_energy(state, energy);
+}
+
+void BeamElement::describe(const LocalState& /*state*/, Description& description) const {
+  description.add_sum("length", L_, "m");
+  description.add_sum("mass", mass_, "kg");
+  if (place_.element == 1) {
+    description.add(counted(place_.elements, "element"));
+    if (damping_ > 0) description.add(fmt::format("damping {:.6g} s", damping_));
+    if (bending_ == BeamBending::constant) description.add("bending constant along each element");
+  }
+  const Matrix6& C = section_;
+  const bool coupled = !C.isDiagonal(1e-12);
+  std::string text =
+      fmt::format("EA {:.6g}, GAy {:.6g}, GAz {:.6g} N, GJ {:.6g}, EIy {:.6g}, EIz {:.6g} N m^2{}", C(0, 0), C(1, 1),
+                  C(2, 2), C(3, 3), C(4, 4), C(5, 5), coupled ? " about the node line, and coupling terms" : "");
+  if (coupled) {
+    const Vector6 alone = flexibility_.diagonal().cwiseInverse();
+    text += fmt::format("\n      against one moment alone: GJ {:.6g}, EIy {:.6g}, EIz {:.6g} N m^2", alone[3], alone[4],
+                        alone[5]);
+  }
+  description.add_each("section in the middle of", "element", text);
+}
+
+std::vector<OutputField> BeamElement::output_fields() const {
+  std::vector<OutputField> fields{
+      {"strain", {6}, "1, 1/m", "stretch and shears [1], twist and curvatures [1/m] in the middle, section frame"},
+      {"resultants", {6}, "N, N m", "forces [N] and moments [N m] in the middle, section frame"}};
+  if (!stress_.empty()) {
+    fields.push_back(
+        {"stress", {stress_.size(), 3}, "Pa", "sigma xx, tau xy, tau xz at the stress points, in the middle"});
+    fields.push_back(
+        {"von_mises", {stress_.size()}, "Pa", "sqrt(sigma^2 + 3 tau^2) at the stress points, in the middle"});
+  }
+  return fields;
+}
+
+void BeamElement::write_output(const LocalState& state, double* values) const {
+  const Deformation D = deformation(state);
+  // Physical resultants in the middle; constant strain has but one set.
+  Matrix6 middle = Matrix6::Identity();
+  if (bending_ == BeamBending::residual) middle = equilibrium(D.d, exp_se3(-0.5 * D.d));
+  const Vector6 f = middle * D.f;
+  Eigen::Map<Vector12> out(values);
+  out << flexibility_ * middle * stiffness_ * D.eps, f;
+  double* stress = values + 12;
+  double* von_mises = stress + 3 * stress_.size();
+  for (std::size_t p = 0; p < stress_.size(); ++p) {
+    Eigen::Map<Vector3> sigma(stress + 3 * p);
+    sigma = stress_[p] * f;
+    von_mises[p] = std::sqrt(sigma[0] * sigma[0] + 3 * sigma.tail<2>().squaredNorm());
+  }
+}
+
+}  // namespace bielle::mechanism

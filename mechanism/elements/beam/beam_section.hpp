@@ -1,0 +1,84 @@
+// Cross sections of beams: stiffness and mass per length in the section frame, x along the beam, y and z across.
+//
+// Resultants (n, m) = stiffness (Gamma, Kappa), in the order forces x y z, moments x y z; the origin of the section is
+// the node line. A homogeneous shape (section_shape.hpp) with its centroid at o and its shear centre at o + s has
+//     N = E A Gamma_c,   V = G K_s gamma_s,   T_s = G J kappa_x,
+//     (M_y, M_z)_c = E [I_y -I_yz; -I_yz I_z] (kappa_y, kappa_z)
+// with the strains Gamma + Kappa x o at the centroid and Gamma + Kappa x (o + s) at the shear centre, which couples all
+// six. Its mass is at the centroid.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mechanism/elements/beam/wall_taper.hpp"
+#include "mechanism/math/types.hpp"
+#include "reduce/common/yaml_file.hpp"
+
+namespace bielle::mechanism {
+
+/// What one beam element needs to know of its section.
+struct BeamSection {
+  Matrix6 stiffness = Matrix6::Zero();    ///< [N, N m, N m^2], symmetric positive definite
+  double mass = 0;                        ///< per length [kg/m]; zero: the beam has no inertia
+  Vector3 mass_offset = Vector3::Zero();  ///< centre of mass from the node line [m], section frame
+  Matrix3 inertia = Matrix3::Zero();      ///< about the centre of mass, per length [kg m]
+  /// At each stress point: sigma_xx, tau_xy, tau_xz [Pa] (rows) of unit resultants (columns).
+  std::vector<Eigen::Matrix<double, 3, 6>> stress;
+
+  /// A homogeneous section. @param young,shear  moduli [Pa] @param density [kg/m^3]
+  /// @param offset  of the centroid from the node line [m]
+  static BeamSection homogeneous(const SectionConstants& constants, double young, double shear, double density,
+                                 const Vector2& offset = Vector2::Zero());
+  /// Mass, offset and inertia of [[m I, -m c~], [m c~, J]], J about the node line. @param M  per length
+  void set_mass(const Matrix6& M);
+  /// The same section with its origin at `offset` from the node line [m].
+  BeamSection shifted(const Vector2& offset) const;
+};
+
+/// The sections of one element: at the three Gauss points (gauss.hpp) of its length. One section: the same everywhere.
+struct ElementSections {
+  std::array<BeamSection, 3> at;
+
+  ElementSections(const BeamSection& uniform) : at{uniform, uniform, uniform} {}  // NOLINT: a section is one
+  explicit ElementSections(std::array<BeamSection, 3> sections) : at(std::move(sections)) {}
+  const BeamSection& middle() const { return at[1]; }
+  double mean_mass() const;  ///< per length [kg/m]
+};
+
+/// Section along a beam: s in [0, 1] from start to end. A pair [start, end] tapers linearly in its dimensions and
+/// constants.
+class SectionLaw {
+ public:
+  /// @throws InputError naming the key that is missing, unknown or out of range
+  explicit SectionLaw(const YamlValue& value);
+  BeamSection at(double s) const;
+  ElementSections over(double s_A, double s_B) const;  ///< of the element from s_A to s_B
+  std::size_t stress_points() const { return static_cast<std::size_t>(start_.points.size() / 2); }
+
+ private:
+  /// One section as lists of numbers that may be interpolated.
+  struct Definition {
+    std::string kind;  ///< the key that names it: "rectangle", ..., "EA", "stiffness"
+    VectorX numbers;   ///< dimensions of a shape, constants, or matrices
+    VectorX material;  ///< of a shape: Young's modulus, shear modulus, density
+    VectorX offset;    ///< (2) of the centroid, or of the origin of given constants, from the node line
+    bool has_density = false, has_offset = false;  ///< given
+    VectorX shear_factors;                         ///< (2), or empty: those of the shape
+    VectorX points;                                ///< y and z of each stress point, from the centroid
+  };
+  static Definition read(const YamlValue& value);
+  static Definition read_shape(const std::string& kind, const YamlValue& value);
+  static void check_taper(const YamlValue& value, const Definition& start, const Definition& end);
+  Definition between(double s) const;
+  void check_points(const Definition& definition) const;
+  BeamSection evaluate(double s) const;
+  YamlValue value_;  ///< for messages
+  Definition start_, end_;
+  std::optional<BeamSection> uniform_;  ///< without taper
+  std::optional<WallTaper> walls_;      ///< with taper, of shapes that take finite elements
+};
+
+}  // namespace bielle::mechanism

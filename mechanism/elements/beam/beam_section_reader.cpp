@@ -1,0 +1,184 @@
+// Cross sections in the mechanism file.
+#include <algorithm>
+#include <array>
+
+#include <Eigen/Cholesky>
+#include <fmt/format.h>
+
+#include "mechanism/elements/beam/beam_section.hpp"
+#include "mechanism/math/gauss.hpp"
+#include "mechanism/math/so3.hpp"
+#include "reduce/common/plausible.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+constexpr std::array constants_keys{"EA", "GAy", "GAz", "GJ", "EIy", "EIz"};
+constexpr std::array mass_keys{"mass_per_length", "Jx", "Jy", "Jz"};
+
+/// In addition to the shape itself.
+const std::vector<std::string> shape_keys{"young",         "poisson", "shear",        "density",
+                                          "shear_factors", "offset",  "stress_points"};
+
+double shear_modulus(const YamlValue& value, double young_modulus) {
+  const auto modulus = value.find("shear"), poisson = value.find("poisson");
+  if (modulus && poisson) modulus->fail("give either `shear` or `poisson`");
+  if (modulus) return modulus->positive_number();
+  if (!poisson) value.fail("a section of a shape needs `poisson` or `shear`");
+  const double nu = poisson->number();
+  if (!(nu > -1 && nu <= 0.5)) poisson->fail(fmt::format("Poisson's ratio lies in (-1, 0.5]; found {:.6g}", nu));
+  return young_modulus / (2 * (1 + nu));
+}
+
+/// (2), zero when absent.
+Vector2 read_offset(const YamlValue& value, const std::string& what) {
+  const auto offset = value.find("offset");
+  if (!offset) return Vector2::Zero();
+  const VectorX numbers = offset->vector();
+  if (numbers.size() != 2) offset->fail("expected " + what + " [y, z] from the node line");
+  return numbers;
+}
+
+VectorX read_constants(const YamlValue& value) {
+  std::vector<std::string> keys(constants_keys.begin(), constants_keys.end());
+  keys.insert(keys.end(), mass_keys.begin(), mass_keys.end());
+  keys.emplace_back("offset");
+  value.check_keys(keys, "a section by constants");
+  VectorX numbers = VectorX::Zero(10);
+  for (int k = 0; k < 6; ++k) numbers[k] = value.at(constants_keys[static_cast<std::size_t>(k)]).positive_number();
+  const bool has_mass =
+      std::any_of(mass_keys.begin(), mass_keys.end(), [&](const char* key) { return value.has(key); });
+  if (!has_mass) return numbers;
+  for (int k = 0; k < 4; ++k) {
+    const YamlValue item = value.at(mass_keys[static_cast<std::size_t>(k)]);
+    numbers[6 + k] = item.non_negative_number();
+    // Without rotary inertia the section's rotation would have no mass at all.
+    if (numbers[6] > 0 && numbers[6 + k] == 0) item.fail("a section with mass has mass moments > 0 about all its axes");
+    if (numbers[6] == 0 && numbers[6 + k] > 0) item.fail("a section without mass has no mass moments");
+  }
+  return numbers;
+}
+
+void check_positive_definite(const YamlValue& value, const MatrixX& A, const std::string& what) {
+  const double largest = A.cwiseAbs().maxCoeff();
+  if (!(A - A.transpose()).isZero(1e-9 * largest)) value.fail(what + " must be symmetric");
+  // Scaled to a unit diagonal: translations and rotations have different units.
+  const VectorX scale = A.diagonal().cwiseMax(0).cwiseSqrt();
+  const bool positive =
+      scale.minCoeff() > 0 &&
+      Eigen::LLT<MatrixX>(scale.cwiseInverse().asDiagonal() * A * scale.cwiseInverse().asDiagonal()).info() ==
+          Eigen::Success;
+  if (!positive) value.fail(what + " must be positive definite");
+}
+
+void check_mass(const YamlValue& value, const Matrix6& M) {
+  BeamSection section;
+  section.set_mass(M);
+  if (!(section.mass > 0)) value.fail("the mass per length must be > 0");
+  Matrix6 rigid = Matrix6::Zero();
+  const Matrix3 mc = section.mass * skew(section.mass_offset);
+  rigid << section.mass * Matrix3::Identity(), -mc, mc, M.bottomRightCorner<3, 3>();
+  if (!(rigid - M).isZero(1e-9 * M.cwiseAbs().maxCoeff()))
+    value.fail(
+        "no section has this mass matrix: expected [[m I, -m c~], [m c~, J]] with the mass m per length and the offset "
+        "c of the centre of mass");
+  check_positive_definite(value, section.inertia, "the section's inertia about its centre of mass");
+}
+
+VectorX read_matrices(const YamlValue& value) {
+  value.check_keys({"stiffness", "mass", "offset"}, "a section by matrices");
+  const YamlValue stiffness = value.at("stiffness");
+  const Matrix6 C = stiffness.matrix(6, 6);
+  check_positive_definite(stiffness, C, "a section's stiffness");
+  VectorX numbers = VectorX::Zero(72);
+  numbers.head<36>() = C.reshaped();
+  if (const auto mass = value.find("mass")) {
+    const Matrix6 M = mass->matrix(6, 6);
+    check_mass(*mass, M);
+    numbers.tail<36>() = M.reshaped();
+  }
+  return numbers;
+}
+
+/// The one key that says what the section is.
+std::string kind_of(const YamlValue& value) {
+  std::vector<std::string> kinds = section_shape_names(), given;
+  kinds.insert(kinds.end(), {"EA", "stiffness"});
+  std::copy_if(kinds.begin(), kinds.end(), std::back_inserter(given),
+               [&](const std::string& k) { return value.has(k); });
+  if (given.size() == 1) return given.front();
+  if (given.size() > 1)
+    value.at(given[1]).fail(fmt::format("a section is given by one of `{}` and `{}`, not by both", given[0], given[1]));
+  std::vector<std::string> others = shape_keys;
+  others.insert(others.end(), constants_keys.begin(), constants_keys.end());
+  others.insert(others.end(), mass_keys.begin(), mass_keys.end());
+  others.emplace_back("mass");
+  for (const auto& [key, item] : value.entries())
+    if (std::find(others.begin(), others.end(), key) == others.end())
+      item.fail(fmt::format("'{}' is no kind of section{}", key, did_you_mean(key, kinds)));
+  value.fail(
+      "expected exactly one of `rectangle`, `circle`, `tube`, `i`, `t`, `l`, `box`, the constants `EA`, `GAy`, ..., or "
+      "a 6x6 `stiffness`");
+}
+
+}  // namespace
+
+SectionLaw::Definition SectionLaw::read_shape(const std::string& kind, const YamlValue& value) {
+  std::vector<std::string> keys = shape_keys;
+  keys.push_back(kind);
+  value.check_keys(keys, "a section '" + kind + "'");
+  Definition d;
+  d.kind = kind;
+  d.numbers = read_shape_dimensions(kind, value.at(kind));
+  const double young = value.at("young").positive_number();
+  const auto density = value.find("density");
+  doubt_outside(value.at("young"), young, plausible_modulus);
+  if (density && density->non_negative_number() > 0)
+    doubt_outside(*density, density->number(), plausible_density);
+  d.material = Vector3(young, shear_modulus(value, young), density ? density->non_negative_number() : 0);
+  d.offset = read_offset(value, "the centroid");
+  d.has_density = density.has_value();
+  d.has_offset = value.has("offset");
+  if (const auto factors = value.find("shear_factors")) d.shear_factors = factors->positive_numbers(2, "[k_y, k_z]");
+  if (const auto points = value.find("stress_points")) {
+    if (points->items().empty()) points->fail("expected at least one point [y, z]; leave the key out for none");
+    d.points.resize(static_cast<Eigen::Index>(2 * points->items().size()));
+    Eigen::Index k = 0;
+    for (const YamlValue& item : points->items()) {
+      const Eigen::VectorXd point = item.vector();
+      if (point.size() != 2) item.fail("expected a point [y, z] of the section, from its centroid");
+      if (!shape_contains(kind, d.numbers, point))
+        item.fail("the point lies outside of the section; y and z count from its centroid");
+      d.points.segment<2>(k) = point;
+      k += 2;
+    }
+  }
+  return d;
+}
+
+SectionLaw::Definition SectionLaw::read(const YamlValue& value) {
+  if (!value.is_map()) value.fail("expected a section: a map, or a pair [start, end] of maps");
+  const std::string kind = kind_of(value);
+  if (kind != "EA" && kind != "stiffness") return read_shape(kind, value);
+  Definition d;
+  d.kind = kind;
+  d.numbers = kind == "EA" ? read_constants(value) : read_matrices(value);
+  d.offset = read_offset(value, "the section's origin");
+  d.has_density = value.has("mass_per_length") || value.has("mass");
+  d.has_offset = value.has("offset");
+  return d;
+}
+
+void SectionLaw::check_taper(const YamlValue& value, const Definition& start, const Definition& end) {
+  if (start.kind != end.kind)
+    value.fail(
+        fmt::format("a beam cannot taper from '{}' to '{}': both ends must be of one kind", start.kind, end.kind));
+  if (start.shear_factors.size() != end.shear_factors.size())
+    value.fail("give `shear_factors` at both ends, or at none");
+  if (start.points.size() != end.points.size()) value.fail("give as many `stress_points` at the end as at the start");
+  // What is left out counts as zero: a taper to nothing would be a slip.
+  if (start.has_density != end.has_density) value.fail("give the density or mass at both ends, or at none");
+  if (start.has_offset != end.has_offset) value.fail("give `offset` at both ends, or at none");
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,262 @@
+#include "mechanism/elements/beam/distributed_load.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "mechanism/math/gauss.hpp"
+#include "mechanism/math/so3.hpp"
+#include "mechanism/model/description.hpp"
+#include "reduce/common/counted.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+constexpr std::size_t along_beam = 0, in_time = 1;  // arguments of the formulas
+
+Vector3 evaluate(const FormulaVector& vector, double s, double t) {
+  const std::array<double, 2> values{s, t};
+  return {vector[0](values), vector[1](values), vector[2](values)};
+}
+
+/// Places inside an element, 0 < z < 1, where a formula of s jumps or has a kink, with 0 and 1.
+std::vector<double> pieces(const LineLoad& load, double s_A, double s_B) {
+  std::vector<double> ends{0, 1};
+  std::vector<double> places;
+  for (const FormulaVector* vector : {&load.force, &load.moment}) add_break_points(*vector, along_beam, places);
+  for (const double s : places) {
+    const double z = (s - s_A) / (s_B - s_A);
+    if (z > 1e-9 && z < 1 - 1e-9) ends.push_back(z);
+  }
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  return ends;
+}
+
+/// Integral over the beam of a formula, or of its magnitude, by three Gauss points in each of `parts` equal parts of
+/// the pieces between kinks of each element.
+template <class Value>
+double integral(const std::vector<double>& ends, int parts, const Value& value) {
+  double sum = 0;
+  for (std::size_t k = 0; k + 1 < ends.size(); ++k)
+    for (int part = 0; part < parts; ++part)
+      for (std::size_t g = 0; g < 3; ++g) {
+        const double length = (ends[k + 1] - ends[k]) / parts;
+        sum += length * Gauss3::weight[g] * value(ends[k] + length * (part + Gauss3::place[g]));
+      }
+  return sum;
+}
+
+/// W_B: what a small rotation of end B turns the section at z by.
+Matrix3 end_share(double z, const Vector3& psi) { return z * tangent(z * psi) * tangent_inverse(psi); }
+
+/// d(W_B^T n)/dpsi with n fixed:  W_B^T n = z T^-T(psi) p,   p = T(z psi)^T n.
+Matrix3 end_share_gradient(double z, const Vector3& psi, const Vector3& n) {
+  const Matrix3 T = tangent(z * psi);
+  Matrix3 p_gradient;
+  for (int j = 0; j < 3; ++j) p_gradient.col(j) = z * tangent_derivative(z * psi, Vector3::Unit(j)).transpose() * n;
+  return z * (inverse_transpose_gradient(psi, T.transpose() * n) + tangent_inverse(psi).transpose() * p_gradient);
+}
+
+}  // namespace
+
+DistributedLoad::DistributedLoad(std::string name, const BeamSpan& span, LineLoad load)
+    : Component("beam", std::move(name)), span_(span), load_(std::move(load)) {
+  const double L = span.chord.norm();
+  const std::vector<double> ends = pieces(load_, span.s_A, span.s_B);
+  for (std::size_t k = 0; k + 1 < ends.size(); ++k)
+    for (std::size_t g = 0; g < 3; ++g) {
+      const double part = ends[k + 1] - ends[k], z = ends[k] + part * Gauss3::place[g];
+      const Vector3 bubble = 0.5 * z * (1 - z) * span.chord;
+      points_.push_back({L * part * Gauss3::weight[g], z, {1 - z, z}, {span.R_A * bubble, -(span.R_B * bubble)}});
+    }
+}
+
+void DistributedLoad::declare(Declaration& declaration) const {
+  declaration.nodes = {span_.node_a, span_.node_b};
+  declaration.stiffness = true;
+}
+
+/// The section at a point: its axes and load.
+struct DistributedLoad::Section {
+  Vector3 psi;
+  Matrix3 S;                 ///< section axes -> inertial
+  std::array<Matrix3, 2> W;  ///< dTheta of the section from those of the section frames at the ends
+  Vector3 F, M;              ///< as given, with the load factor
+  Vector3 f, n;              ///< force (inertial) and moment about the line (section axes), per length
+};
+
+DistributedLoad::Section DistributedLoad::section(const LocalState& state, const Point& p) const {
+  Section at;
+  const Matrix3 S_A = state.node(0).R * span_.R_A, S_B = state.node(1).R * span_.R_B;
+  at.psi = log_so3(S_A.transpose() * S_B);
+  at.S = S_A * exp_so3(p.z * at.psi);
+  at.W = {end_share(1 - p.z, -at.psi), end_share(p.z, at.psi)};
+  const double s = span_.s_A + p.z * (span_.s_B - span_.s_A), factor = state.environment().load_factor;
+  at.F = factor * evaluate(load_.force, s, state.time());
+  at.M = factor * evaluate(load_.moment, s, state.time());
+  at.f = load_.follower ? Vector3(at.S * at.F) : at.F;
+  at.n = (load_.follower ? at.M : Vector3(at.S.transpose() * at.M)) + load_.at.cross(at.S.transpose() * at.f);
+  return at;
+}
+
+void DistributedLoad::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
+  const std::array<Matrix3, 2> R_S{span_.R_A, span_.R_B};
+  for (const Point& p : points_) {
+    const Section at = section(state, p);
+    for (std::size_t k = 0; k < 2; ++k) {
+      const auto x = static_cast<Eigen::Index>(6 * k);
+      r.segment<3>(x) -= p.w * p.N[k] * at.f;
+      r.segment<3>(x + 3) -= p.w * (p.a[k].cross(state.node(static_cast<int>(k)).R.transpose() * at.f) +
+                                    R_S[k] * at.W[k].transpose() * at.n);
+    }
+  }
+}
+
+// clang-format off
+// Columns dTheta_j, with  dTheta(z) = W_j R_Sj^T dTheta_j  and  dpsi = -T^-T R_SA^T dTheta_A + T^-1 R_SB^T dTheta_B:
+//   row x_i       -w N_i df                                            df = -S F~ dTheta(z)  for followers, else 0
+//   row Theta_i   -w [ a_i~ (R_i^T f)~ dTheta_i + a_i~ R_i^T df + R_Si (W_i^T dn + d(W_i^T n)/dpsi dpsi) ]
+//                                            dn = ((S^T M)~ + c~ (S^T F)~) dTheta(z)  for dead loads, else 0
+// clang-format on
+void DistributedLoad::add_tangent(const LocalState& state, LocalTangent& tangent) const {
+  if (!tangent.wants_K) return;
+  auto K = tangent.K.dense();
+  const std::array<Matrix3, 2> R_S{span_.R_A, span_.R_B};
+  for (const Point& p : points_) {
+    const Section at = section(state, p);
+    Matrix3 f_gradient = Matrix3::Zero(), n_gradient = Matrix3::Zero();
+    if (load_.follower)
+      f_gradient = -at.S * skew(at.F);
+    else
+      n_gradient = skew(at.S.transpose() * at.M) + skew(load_.at) * skew(at.S.transpose() * at.F);
+    const Matrix3 T_inverse = tangent_inverse(at.psi);
+    const std::array<Matrix3, 2> psi_gradient{-T_inverse.transpose(), T_inverse};
+    const std::array<Matrix3, 2> W_gradient{-end_share_gradient(1 - p.z, -at.psi, at.n),
+                                            end_share_gradient(p.z, at.psi, at.n)};
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto x_i = static_cast<Eigen::Index>(6 * i), Theta_i = x_i + 3;
+      const Matrix3& R_i = state.node(static_cast<int>(i)).R;
+      const Matrix3 a_i = skew(p.a[i]);
+      for (std::size_t j = 0; j < 2; ++j) {
+        const auto Theta_j = static_cast<Eigen::Index>(6 * j + 3);
+        const Matrix3 section_turn = at.W[j] * R_S[j].transpose();
+        K.block<3, 3>(x_i, Theta_j) -= p.w * p.N[i] * f_gradient * section_turn;
+        K.block<3, 3>(Theta_i, Theta_j) -=
+            p.w * (a_i * R_i.transpose() * f_gradient * section_turn +
+                   R_S[i] * (at.W[i].transpose() * n_gradient * at.W[j] + W_gradient[i] * psi_gradient[j]) *
+                       R_S[j].transpose());
+      }
+      K.block<3, 3>(Theta_i, Theta_i) -= p.w * a_i * skew(R_i.transpose() * at.f);
+    }
+  }
+}
+
+void DistributedLoad::add_energy(const LocalState& state, Energy& energy) const {
+  const std::array<Matrix3, 2> R_S{span_.R_A, span_.R_B};
+  for (const Point& p : points_) {
+    const Section at = section(state, p);
+    Vector3 v = Vector3::Zero(), Omega = Vector3::Zero();
+    for (std::size_t k = 0; k < 2; ++k) {
+      const NodeState& node = state.node(static_cast<int>(k));
+      v += p.N[k] * node.v + node.R * node.Omega.cross(p.a[k]);
+      Omega += at.W[k] * R_S[k].transpose() * node.Omega;
+    }
+    energy.input += p.w * (at.f.dot(v) + at.n.dot(Omega));
+  }
+}
+
+void DistributedLoad::add_break_points(std::vector<double>& times) const {
+  for (const FormulaVector* vector : {&load_.force, &load_.moment})
+    mechanism::add_break_points(*vector, in_time, times);
+}
+
+void DistributedLoad::describe(const LocalState& /*state*/, Description& description) const {
+  if (span_.s_A > 0) return;  // the same on every element
+  std::string text;
+  if (load_.has_force) text += fmt::format("force {} N/m", format_vector(load_.force));
+  if (load_.has_force && !load_.at.isZero(0))
+    text += fmt::format(" at y {:.6g} m, z {:.6g} m of the section", load_.at.y(), load_.at.z());
+  if (load_.has_moment) text += fmt::format("{}moment {} N m/m", text.empty() ? "" : ", ", format_vector(load_.moment));
+  description.add_line(
+      fmt::format("load per length: {}, {}", text, load_.follower ? "turning with the section" : "fixed in space"));
+}
+
+namespace {
+
+FormulaVector vector_along(const YamlValue& value) {
+  return read_formula_vector(value, {"s", "t"},
+                             "three components per length, numbers or expressions of s (0 to 1 along the beam) and t");
+}
+
+LineLoad read_line_load(const YamlValue& value) {
+  value.check_keys({"force", "moment", "at", "follower"}, "a distributed load");
+  const auto force = value.find("force"), moment = value.find("moment"), at = value.find("at"),
+             follower = value.find("follower");
+  if (!force && !moment) value.fail("a distributed load needs `force` or `moment`, per length");
+  LineLoad load;
+  load.has_force = force.has_value();
+  load.has_moment = moment.has_value();
+  if (force) load.force = vector_along(*force);
+  if (moment) load.moment = vector_along(*moment);
+  if (at) {
+    if (!force) at->fail("`at` is the point of the section where a `force` acts, and there is none");
+    const Eigen::VectorXd point = at->vector();
+    if (point.size() != 2) at->fail("expected the point [y, z] of the section, from the node line");
+    load.at = {0, point[0], point[1]};
+  }
+  load.follower = follower && follower->boolean();
+  return load;
+}
+
+/// Refuses a formula that the points of the elements do not integrate: a part of it would be lost silently.
+void check_integrals(const YamlValue& value, const LineLoad& load, const Expression& formula, int elements) {
+  if (formula.is_constant()) return;
+  std::vector<double> times = formula.break_points(in_time);
+  times.push_back(0);
+  times.push_back(1);
+  for (const double t : times) {
+    const auto value_at = [&](double s) { return formula(std::array<double, 2>{s, t}); };
+    double coarse = 0, fine = 0, size = 0;
+    try {
+      for (int k = 0; k < elements; ++k) {
+        const double s_A = static_cast<double>(k) / elements, s_B = static_cast<double>(k + 1) / elements;
+        std::vector<double> ends = pieces(load, s_A, s_B);
+        for (double& z : ends) z = s_A + z * (s_B - s_A);
+        constexpr int many = 32;
+        coarse += integral(ends, 1, value_at);
+        fine += integral(ends, many, value_at);
+        size += integral(ends, many, [&](double s) { return std::abs(value_at(s)); });
+      }
+    } catch (const ComputationError& error) {
+      value.fail(error.what());
+    }
+    constexpr double allowed = 1e-2;
+    if (std::abs(coarse - fine) > allowed * size)
+      value.fail(
+          fmt::format("with {} the beam gets {:.4g} of the load's integral, which is {:.4g} (at t = {:.4g} s): write "
+                      "jumps as comparisons of `s` with numbers, or give more elements",
+                      counted(elements, "element"), coarse, fine, t));
+  }
+}
+
+}  // namespace
+
+std::vector<LineLoad> read_line_loads(const YamlValue& value, int elements) {
+  const std::vector<YamlValue> items = value.is_sequence() ? value.items() : std::vector<YamlValue>{value};
+  if (items.empty()) value.fail("expected at least one load");
+  std::vector<LineLoad> loads;
+  for (const YamlValue& item : items) {
+    loads.push_back(read_line_load(item));
+    const LineLoad& load = loads.back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (item.has("force")) check_integrals(item.at("force").at(k), load, load.force[k], elements);
+      if (item.has("moment")) check_integrals(item.at("moment").at(k), load, load.moment[k], elements);
+    }
+  }
+  return loads;
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,78 @@
+// Force and moment per length along a beam: weight, wind, pressure of a stream, thrust.
+//
+// At z in [0, 1] of an element between nodes A and B (S_k = R_k R_Sk section axes, psi = log(S_A^T S_B), L the length
+// of the reference) the load acts on the line and on the section
+//     x(z) = (1-z) x_A + z x_B + z (1-z) L (S_A e_x - S_B e_x)/2,     S(z) = S_A exp(z psi)
+//     dx = sum_k (N_k dx_k - R_k a_k~ dTheta_k),    dTheta(z) = sum_k W_k R_Sk^T dTheta_k
+//     W_B = z T(z psi) T^-1(psi),   W_A the same of 1-z and -psi.
+// The line is that of the element's inertia (beam_inertia.hpp): a force m g per length is the weight of the beam, to
+// rounding. With the force f, and the moment n about the line in section axes, per length,
+//     dead (default)  F, M inertial:      f = F,       n = S^T M + c~ S^T F
+//     follower        F, M section axes:  f = S F,     n = M + c~ F           (c the point (0, y, z) of the section)
+// the residual is  -L int [ N_k f ;  a_k~ R_k^T f + R_Sk W_k^T n ]_k dz,  by three Gauss points between the places
+// where the load jumps along the beam. A uniform force on a straight beam with the residual bending flexibility gives
+// the exact linear displacements of the nodes; moments, varying and follower loads converge with the second power of L
+// or better. Loads are multiplied by the environment's load factor; their power is counted as input. A dead force on
+// the line has a potential (symmetric tangent but for the moments at nodes); followers in general have none.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "mechanism/elements/beam/formula_vector.hpp"
+#include "mechanism/math/se3.hpp"
+#include "mechanism/model/component.hpp"
+#include "reduce/common/yaml_file.hpp"
+
+namespace bielle::mechanism {
+
+/// A load per length as functions of s (0 at the start of the beam, 1 at its end) and t [s].
+struct LineLoad {
+  FormulaVector force, moment;  ///< [N/m], [N m/m]; inertial, or along the section's axes if follower
+  bool has_force = false, has_moment = false;
+  Vector3 at = Vector3::Zero();  ///< (0, y, z): where the force acts in the section [m], from the node line
+  bool follower = false;
+};
+
+/// `{force, moment, at: [y, z], follower}`, or a list of such loads.
+/// @param elements  of the beam: three points on each, and between its kinks, have to integrate the load to 1 %
+/// @throws InputError
+std::vector<LineLoad> read_line_loads(const YamlValue& value, int elements);
+
+/// Where one element of a beam lies.
+struct BeamSpan {
+  int node_a = 0, node_b = 0;
+  Matrix3 R_A = Matrix3::Identity(), R_B = Matrix3::Identity();  ///< section frames in the axes of the nodes
+  Vector3 chord = Vector3::UnitX();                              ///< its length [m] along x of the section axes
+  double s_A = 0, s_B = 1;                                       ///< its ends along the beam, 0 .. 1
+};
+
+/// One line load on one element. See the head of this file.
+class DistributedLoad : public Component {
+ public:
+  /// @param name  of the beam
+  DistributedLoad(std::string name, const BeamSpan& span, LineLoad load);
+
+  void declare(Declaration& declaration) const override;
+  void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
+  void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
+  void add_energy(const LocalState& state, Energy& energy) const override;
+  void add_break_points(std::vector<double>& times) const override;
+  void describe(const LocalState& state, Description& description) const override;
+
+ private:
+  struct Point {
+    double w, z;               ///< part of the length [m], place in the element
+    std::array<double, 2> N;   ///< shape functions
+    std::array<Vector3, 2> a;  ///< [m], node axes
+  };
+  struct Section;
+  Section section(const LocalState& state, const Point& point) const;
+
+  BeamSpan span_;
+  LineLoad load_;
+  std::vector<Point> points_;
+};
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,26 @@
+// Three components of a load, each a formula.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "reduce/common/expression.hpp"
+#include "reduce/common/yaml_file.hpp"
+
+namespace bielle::mechanism {
+
+/// Components along three axes; zero as constructed.
+using FormulaVector = std::array<Expression, 3>;
+
+/// @param variables  that the formulas may use, e.g. {"s", "t"} @param expected  what they are, for the message
+FormulaVector read_formula_vector(const YamlValue& value, const std::vector<std::string>& variables,
+                                  const std::string& expected);
+
+/// "(0, sin(t), 2)", as the user wrote it.
+std::string format_vector(const FormulaVector& vector);
+
+/// Adds the values of an argument at which any component jumps or has a kink.
+void add_break_points(const FormulaVector& vector, std::size_t argument, std::vector<double>& points);
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,53 @@
+// Force and moment on a node.
+//
+//   dead (default)  F, m inertial:    residual  -[ F ;  c~ R^T F + R^T m ]
+//   follower        F, m node axes:   residual  -[ R F ;  c~ F + m ]
+// c is the point of application in the node's axes. A dead moment of constant direction is no potential load: its
+// tangent is unsymmetric. Loads are multiplied by the environment's load factor.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "mechanism/measures/state_formula.hpp"
+#include "mechanism/model/model.hpp"
+#include "reduce/common/yaml_file.hpp"
+
+namespace bielle::mechanism {
+
+/// A force [N] and a moment [N m], formulas of time and measures, at a point of a node, fixed in space or turning with
+/// the node. Its power is counted as input.
+class Load : public Component {
+ public:
+  /// @param at        point of application [m], node axes
+  /// @param follower  components are along the node's axes, not along the inertial ones
+  Load(std::string name, int node, const Vector3& at, bool follower);
+  /// Takes the components, once the model is read: three formulas each. @param moment  of the moment, not of the force
+  void read(const YamlValue& components, bool moment, Model& model);
+
+  void declare(Declaration& declaration) const override;
+  void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
+  void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
+  void add_energy(const LocalState& state, Energy& energy) const override;
+  void add_break_points(std::vector<double>& times) const override;
+  void describe(const LocalState& state, Description& description) const override;
+
+ private:
+  /// Force and moment along the axes in which they are given, with the load factor.
+  void evaluate(const LocalState& state, Vector3& F, Vector3& m) const;
+
+  /// Generalised direction of a component of the force or moment: its contribution to the residual per unit.
+  Vector6 direction(const LocalState& state, std::size_t component) const;
+
+  int node_;
+  std::array<StateFormula, 6> components_;  ///< of the force, of the moment
+  bool has_force_ = false, has_moment_ = false;
+  References references_;
+  Vector3 c_;
+  bool follower_;
+};
+
+/// `{node, force, moment, at, follower}`
+void read_load(const std::string& name, const YamlValue& entry, Model& model);
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,133 @@
+// Rigid bodies and point masses in the mechanism file.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "mechanism/elements/rigid_body/rigid_body.hpp"
+#include "mechanism/elements/rigid_body/solid_reader.hpp"
+#include "mechanism/reading/names.hpp"
+#include "mechanism/reading/read_frame.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+Matrix3 symmetric(double xx, double yy, double zz, double xy, double xz, double yz) {
+  Matrix3 J;
+  J << xx, xy, xz, xy, yy, yz, xz, yz, zz;
+  return J;
+}
+
+/// Three principal values, six entries of the symmetric tensor, or 3x3.
+Matrix3 inertia_entries(const YamlValue& value) {
+  const std::string expected =
+      "expected the inertia tensor as [xx, yy, zz], [xx, yy, zz, xy, xz, yz] or three rows of "
+      "three";
+  if (!value.is_sequence()) value.fail(expected);
+  if (value.size() == 6) {
+    const Eigen::VectorXd e = value.vector();
+    return symmetric(e[0], e[1], e[2], e[3], e[4], e[5]);
+  }
+  if (value.size() != 3) value.fail(expected);
+  if (!value.at(std::size_t{0}).is_sequence()) {
+    const Vector3 e = value.vector3();
+    return symmetric(e[0], e[1], e[2], 0, 0, 0);
+  }
+  const Matrix3 J = value.matrix(3, 3);
+  if (!(J - J.transpose()).isZero(1e-9 * J.cwiseAbs().maxCoeff())) value.fail("an inertia tensor is symmetric");
+  return 0.5 * (J + J.transpose());
+}
+
+/// `inertia`, about the centre of mass or, with `inertia_about: node`, about the node; in the node's axes or, with
+/// `inertia_axes: {orientation}`, in axes turned against them.
+Matrix3 read_inertia(const YamlValue& entry, double mass, const Vector3& centre) {
+  const YamlValue value = entry.at("inertia");
+  Matrix3 J = inertia_entries(value);
+  if (const auto axes = entry.find("inertia_axes")) {
+    axes->check_keys(orientation_keys(), "`inertia_axes`");
+    const Matrix3 R = read_orientation(*axes);
+    J = R * J * R.transpose();
+  }
+  const bool about_node = entry.has("inertia_about") &&
+                          entry.at("inertia_about").word({"centre", "node"}, "a point for the inertia") == "node";
+  if (about_node) J += mass * skew(centre) * skew(centre);
+  const std::string fault = inertia_fault(J);
+  if (!fault.empty())
+    value.fail(fault + (about_node
+                            ? ". Is the tensor about the node? (`inertia_about: centre` is the default)"
+                            : ". Is the tensor about the centre of mass (else: `inertia_about: node`), and are the "
+                              "products of inertia entries of the tensor?"));
+  return J;
+}
+
+/// Sizes that are far off make masses and moments that no number holds.
+void check_representable(const YamlValue& entry, const MassProperties& p) {
+  if (!(p.mass > 0 && std::isfinite(p.mass) && p.inertia_about_origin().allFinite()))
+    entry.fail("the mass or the inertia is too large or too small for a number; lengths are in m, masses in kg");
+}
+
+/// Further nodes that the body carries: they follow its node and must not be held or carried otherwise.
+void carry(const YamlValue& also, int carrier, const std::string& body, Model& model) {
+  for (const YamlValue& item : also.items()) {
+    const int index = node_named_by(item, model);
+    Node& node = model.node(index);
+    if (node.carrier == carrier)
+      item.fail(fmt::format("node '{}' is carried by node '{}' already: does it stand here twice?", node.name,
+                            model.node(carrier).name));
+    if (index == carrier) item.fail(fmt::format("'{}' is the body's own node; `also` lists further nodes", node.name));
+    if (node.carrier)
+      item.fail(fmt::format("node '{}' is carried by node '{}' already", node.name, model.node(*node.carrier).name));
+    const bool held =
+        std::any_of(node.freedom.begin(), node.freedom.end(), [](Freedom f) { return f != Freedom::free; });
+    if (held) item.fail(fmt::format("node '{}' is fixed or moved, so '{}' cannot carry it", node.name, body));
+    if (!node.velocity.isZero() || !node.angular_velocity.isZero())
+      item.fail(fmt::format("node '{}' is given a velocity, but moves with node '{}': give that one the velocity",
+                            node.name, model.node(carrier).name));
+    for (std::optional<int> above = model.node(carrier).carrier; above; above = model.node(*above).carrier)
+      if (*above == index)
+        item.fail(fmt::format("node '{}' carries '{}' already: bodies cannot carry each other in a circle", node.name,
+                              model.node(carrier).name));
+    node.carrier = carrier;
+  }
+}
+
+}  // namespace
+
+void read_rigid_body(const std::string& name, const YamlValue& entry, Model& model) {
+  entry.check_keys({"type", "node", "mass", "centre", "inertia", "inertia_about", "inertia_axes", "solid", "also"},
+                   "a rigid_body");
+  const int node = node_named_by(entry.at("node"), model);
+  MassProperties p;
+  if (const auto solid = entry.find("solid")) {
+    for (const char* key : {"mass", "inertia", "inertia_about", "inertia_axes"})
+      if (const auto other = entry.find(key)) other->fail("give either `solid` or `mass` and `inertia`");
+    p = read_solids(*solid);
+    if (const auto centre = entry.find("centre")) {
+      if (solids_are_placed(*solid)) centre->fail("the solids have positions of their own; leave `centre` out");
+      p.centre = centre->vector3();
+    }
+  } else {
+    p.mass = entry.at("mass").positive_number();
+    if (const auto centre = entry.find("centre")) p.centre = centre->vector3();
+    p.inertia = read_inertia(entry, p.mass, p.centre);
+  }
+  check_representable(entry, p);
+  if (const auto also = entry.find("also")) carry(*also, node, name, model);
+  model.add(std::make_unique<RigidBody>("rigid_body", name, node, p, model.node(node).name),
+            Entry{Section::elements, name});
+}
+
+void read_point_mass(const std::string& name, const YamlValue& entry, Model& model) {
+  entry.check_keys({"type", "node", "mass", "centre"}, "a point_mass");
+  MassProperties p;
+  p.mass = entry.at("mass").positive_number();
+  if (const auto centre = entry.find("centre")) p.centre = centre->vector3();
+  check_representable(entry, p);
+  const int node = node_named_by(entry.at("node"), model);
+  model.add(std::make_unique<RigidBody>("point_mass", name, node, p, model.node(node).name),
+            Entry{Section::elements, name});
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,135 @@
+#include "mechanism/elements/rigid_body/solid_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "mechanism/reading/read_frame.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+MassProperties read_tube(const YamlValue& value) {
+  const VectorX e = value.positive_numbers(3, "[outer radius, inner radius, length]");
+  if (e[1] >= e[0]) value.fail("the inner radius must be smaller than the outer one");
+  return tube(e[0], e[1], e[2]);
+}
+
+MassProperties read_cone(const YamlValue& value) {
+  if (!value.is_sequence() || value.size() != 3) value.fail("expected [radius below, radius above, length]");
+  const double below = value.at(std::size_t{0}).non_negative_number();
+  const double above = value.at(std::size_t{1}).non_negative_number();
+  if (below == 0 && above == 0) value.fail("one of the two radii must be greater than 0");
+  return cone(below, above, value.at(std::size_t{2}).positive_number());
+}
+
+MassProperties read_ring(const YamlValue& value) {
+  const VectorX e = value.positive_numbers(2, "[radius of the centre line, radius of the section]");
+  if (e[1] > e[0]) value.fail("the radius of the section must not exceed that of the centre line");
+  return ring(e[0], e[1]);
+}
+
+struct Shape {
+  const char* name;
+  std::function<MassProperties(const YamlValue&)> read;  ///< of density 1
+};
+
+const std::vector<Shape>& shapes() {
+  static const std::vector<Shape> all = {
+      {"box", [](const YamlValue& v) { return box(v.positive_numbers(3, "three edges [a, b, c]")); }},
+      {"sphere", [](const YamlValue& v) { return sphere(v.positive_number()); }},
+      {"cylinder",
+       [](const YamlValue& v) {
+         const VectorX e = v.positive_numbers(2, "[radius, length]");
+         return cylinder(e[0], e[1]);
+       }},
+      {"tube", read_tube},
+      {"cone", read_cone},
+      {"ring", read_ring},
+  };
+  return all;
+}
+
+struct Solid {
+  MassProperties properties;  ///< of negative mass where it is cut out
+  double density = 0;         ///< [kg/m^3]
+};
+
+Solid read_solid(const YamlValue& solid) {
+  std::vector<std::string> keys = {"density", "mass", "position", "cut"};
+  keys.insert(keys.end(), orientation_keys().begin(), orientation_keys().end());
+  std::vector<std::string> names;
+  const Shape* given = nullptr;
+  int count = 0;
+  for (const Shape& shape : shapes()) {
+    names.emplace_back(shape.name);
+    if (!solid.has(shape.name)) continue;
+    given = &shape;
+    ++count;
+  }
+  if (count == 0)
+    for (const auto& [key, item] : solid.entries())
+      if (std::find(keys.begin(), keys.end(), key) == keys.end())
+        item.fail(fmt::format("'{}' is no solid{}", key, did_you_mean(key, names)));
+  if (count != 1) solid.fail(fmt::format("expected exactly one of '{}'", fmt::join(names, "', '")));
+  keys.insert(keys.end(), names.begin(), names.end());
+  solid.check_keys(keys, "a solid");
+  const MassProperties unit = given->read(solid.at(given->name));
+  if (!solid.has("mass") && !solid.has("density")) solid.fail("a solid needs `density` or `mass`");
+  if (solid.has("mass") && solid.has("density")) solid.at("mass").fail("give either `density` or `mass` of a solid");
+  if (!(unit.mass > 0 && std::isfinite(unit.mass)))
+    solid.at(given->name).fail("the volume is too large or too small for a number; lengths are in m");
+  const double density =
+      solid.has("mass") ? solid.at("mass").positive_number() / unit.mass : solid.at("density").positive_number();
+  const bool cut = solid.has("cut") && solid.at("cut").boolean();
+  return {placed(read_frame(solid), (cut ? -density : density) * unit), density};
+}
+
+/// What is taken out had the density of something that is there.
+void check_cut(const YamlValue& cut, double density, const std::vector<double>& densities) {
+  const auto same = [&](double other) { return std::abs(other - density) <= 1e-9 * density; };
+  if (std::none_of(densities.begin(), densities.end(), same))
+    cut.fail(fmt::format("what is cut out has the density {:.6g} kg/m^3, and none of the solids has it", density));
+}
+
+}  // namespace
+
+MassProperties read_solids(const YamlValue& value) {
+  if (!value.is_sequence()) {
+    const MassProperties solid = read_solid(value).properties;
+    if (solid.mass < 0) value.at("cut").fail("there is nothing that this solid is cut out of");
+    return solid;
+  }
+  if (value.size() == 0) value.fail("expected at least one solid");
+  std::vector<MassProperties> solids;
+  std::vector<double> densities;  ///< of what has mass
+  double mass = 0, solid_mass = 0;
+  for (const YamlValue& item : value.items()) {
+    const auto [properties, density] = read_solid(item);
+    if (properties.mass > 0) densities.push_back(density);
+    solids.push_back(properties);
+    mass += properties.mass;
+    solid_mass += std::max(0.0, properties.mass);
+  }
+  if (!(mass > 1e-9 * solid_mass))
+    value.fail(fmt::format("what is cut out leaves no mass: {:.6g} of {:.6g} kg", mass, solid_mass));
+  for (std::size_t k = 0; k < solids.size(); ++k)
+    if (solids[k].mass < 0) check_cut(value.at(k), read_solid(value.at(k)).density, densities);
+  // Those with mass first: no partial sum is without mass.
+  std::stable_partition(solids.begin(), solids.end(), [](const MassProperties& p) { return p.mass > 0; });
+  MassProperties sum = solids.front();
+  for (std::size_t k = 1; k < solids.size(); ++k) sum = sum + solids[k];
+  const std::string fault = inertia_fault(sum.inertia);
+  if (!fault.empty()) value.fail(fault + ". Is all that is cut out inside of the other solids?");
+  return sum;
+}
+
+bool solids_are_placed(const YamlValue& value) {
+  if (value.is_sequence()) return true;
+  return value.has("position");
+}
+
+}  // namespace bielle::mechanism

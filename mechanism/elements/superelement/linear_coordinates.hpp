@@ -1,0 +1,49 @@
+// Linear coordinates eps of a deformed body: what its linear elasticity is written in.
+//
+// The coordinates q of corotated_frame.hpp say where the interfaces are. A body that bends also moves its interfaces to
+// second order (a bent rod is shorter than its length): the coordinates of the linear theory are larger by what that
+// takes,
+//     q = eps - g(eps),   g_r = eps^T K_r eps / 2 for each interface row r,   0 for the modes,
+// with K_r the geometric stiffness of the free body under a unit load along row r. The elastic energy
+//     V = eps^T K~ eps / 2
+// is a function of the present positions alone, complete to third order in the deformation: its forces phi = dV/dq fulfil
+// K~ eps + phi_r K_r eps = phi, the theory of second order under the present forces, and nothing needs to be remembered.
+// With G(x): rows r (K_r x)^T, zero for the modes,
+//     deps = J dq,   J = (I - G(eps))^-1,   phi = J^T K~ eps,   dphi = J^T (K~ + phi_r K_r) J dq,
+//     epsdot = J qdot,   eps'' = J (qddot + G(epsdot) epsdot).
+#pragma once
+
+#include <Eigen/LU>
+
+#include "mechanism/elements/superelement/superelement_body_matrices.hpp"
+
+namespace bielle::mechanism {
+
+class LinearCoordinates {
+ public:
+  /// Solves q = eps - g(eps) by Newton's method from eps = q. Only the first call allocates.
+  /// @throws ComputationError when there is no solution near q: the body is deformed beyond the theory of second order
+  void solve(const SuperelementMatrices& body, const VectorX& q);
+
+  const VectorX& eps() const { return eps_; }
+  /// The rows of interfaces; 0 for a body without geometric stiffness, whose eps is q.
+  Eigen::Index rows() const { return J_.rows(); }
+  /// The rows of J - I that are not zero (rows, n). Valid after set_excess.
+  const MatrixX& excess() const { return excess_; }
+  void set_excess();
+  /// The rows of J G(x) that are not zero. @param gradient  G(x)^T (n, rows); @param product  (rows, n)
+  void multiply_gradient(const MatrixX& gradient, MatrixX& product) const;
+  /// v <- J v
+  void multiply(VectorX& v);
+  /// v <- J^T v
+  void multiply_transposed(VectorX& v);
+
+ private:
+  VectorX eps_, step_, residual_;
+  MatrixX gradient_;  ///< G(eps)^T (n, rows)
+  Eigen::PartialPivLU<MatrixX> factors_;
+  MatrixX J_;  ///< its block of the interfaces
+  MatrixX excess_;
+};
+
+}  // namespace bielle::mechanism

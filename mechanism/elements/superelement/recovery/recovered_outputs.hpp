@@ -1,0 +1,54 @@
+// All that a superelement records of its mesh: whole fields, and stress or strain at chosen points.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mechanism/elements/superelement/recovery/recovered_field.hpp"
+
+namespace bielle::mechanism {
+
+class RecoveredOutputs {
+ public:
+  /// Each throws InputError when the superelement holds nothing to recover it from, saying how it would.
+  void add_field(const std::string& field, const Superelement& body);
+  /// A field of stress at the node nearest to a place, recorded as "<field>_at_<name>".
+  void add_point(const std::string& field, const std::string& name, const MeshPlace& place, const Superelement& body);
+  /// Reads the stress of all nodes, which everything that is made of it shares.
+  void load_stress(const Superelement& body);
+  std::shared_ptr<const StressRecovery> stress() const { return stress_; }
+
+  const std::vector<OutputField>& descriptions() const { return descriptions_; }
+  /// Facts about the points: {"stress_at_root", "node 12 at [..] m"}.
+  const std::vector<std::pair<std::string, std::string>>& facts() const { return facts_; }
+  bool large() const { return !of_displacement_.empty() || !of_stress_.empty(); }  ///< whole fields are recorded
+  /// @param coordinates  of the frames, in the order of the file
+  /// @param values       of each frame; those described begin at `begin`
+  void write(const FrameBlock& coordinates, std::span<double* const> values, std::size_t begin) const;
+
+ private:
+  struct Field {
+    RecoveredField field;
+    std::size_t offset;  ///< of its first number among those described
+  };
+  struct Point {
+    RecoveredField field;
+    std::size_t offset;
+    StressRecovery stress;
+  };
+  std::size_t take(const OutputField& description);
+  void write_displacement(const FrameBlock& coordinates, std::span<double* const> values, std::size_t begin) const;
+
+  RecoveryMatrix displacement_;  ///< (3 p, n)
+  std::shared_ptr<const StressRecovery> stress_;
+  std::vector<Field> of_displacement_, of_stress_;
+  std::vector<Point> points_;
+  std::vector<OutputField> descriptions_;
+  std::vector<std::pair<std::string, std::string>> facts_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace bielle::mechanism

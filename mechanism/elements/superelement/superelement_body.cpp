@@ -1,0 +1,370 @@
+#include "mechanism/elements/superelement/superelement_body.hpp"
+
+#include <algorithm>
+#include <mutex>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "mechanism/elements/superelement/frame_conditions.hpp"
+#include "mechanism/elements/superelement/recovery/stress_peaks.hpp"
+#include "mechanism/elements/superelement/superelement_body_tangent.hpp"
+#include "mechanism/elements/superelement/validity.hpp"
+#include "mechanism/model/description.hpp"
+#include "mechanism/model/gatherer_list.hpp"
+#include "reduce/common/counted.hpp"
+#include "reduce/common/error.hpp"
+
+namespace bielle::mechanism {
+
+struct SuperelementBody::Workspace {
+  SuperelementMotion motion;
+  SuperelementTangent tangent;
+  std::vector<AttachedPoint> points;
+  FrameBlock frames;
+};
+
+/// One for each thread that has evaluated the body at the same time; kept, so that only first evaluations allocate.
+class SuperelementBody::Workspaces {
+ public:
+  std::unique_ptr<Workspace> take() {
+    const std::lock_guard lock(mutex_);
+    if (idle_.empty()) return std::make_unique<Workspace>();
+    auto workspace = std::move(idle_.back());
+    idle_.pop_back();
+    return workspace;
+  }
+  void give_back(std::unique_ptr<Workspace> workspace) {
+    const std::lock_guard lock(mutex_);
+    idle_.push_back(std::move(workspace));
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Workspace>> idle_;
+};
+
+class SuperelementBody::Loan {
+ public:
+  explicit Loan(Workspaces& workspaces) : workspaces_(workspaces), workspace_(workspaces.take()) {}
+  Loan(Loan&&) = default;
+  ~Loan() {
+    if (workspace_) workspaces_.give_back(std::move(workspace_));
+  }
+  Workspace* operator->() const { return workspace_.get(); }
+
+ private:
+  Workspaces& workspaces_;
+  std::unique_ptr<Workspace> workspace_;
+};
+
+namespace {
+
+/// The interfaces with their nodes of the mechanism.
+std::vector<BodyPoint> placed_points(const SuperelementMatrices& matrices, const SuperelementPlacement& placement) {
+  std::vector<BodyPoint> points = matrices.points;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    points[k].X = placement.reference_positions[k];
+    points[k].R_ref = placement.reference_rotations[k];
+  }
+  return points;
+}
+
+MatrixX6 frame_conditions(const SuperelementMatrices& matrices, const SuperelementPlacement& placement) {
+  switch (placement.frame) {
+    case BodyFrame::mean_axes:
+      return mean_axes_conditions(matrices);
+    case BodyFrame::carried:
+      return carried_conditions(matrices, placement.frame_interface);
+    case BodyFrame::mean:
+      break;
+  }
+  return mean_conditions(matrices);
+}
+
+}  // namespace
+
+SuperelementBody::~SuperelementBody() = default;
+
+SuperelementBody::SuperelementBody(std::string name, const Superelement& superelement, SuperelementPlacement placement)
+    : Component("superelement", std::move(name)),
+      matrices_(placement.matrices ? std::move(placement.matrices)
+                                   : std::make_shared<const SuperelementMatrices>(superelement)),
+      frame_(placed_points(*matrices_, placement), frame_conditions(*matrices_, placement), matrices_->gyration),
+      nodes_(std::move(placement.nodes)),
+      workspaces_(std::make_unique<Workspaces>()) {
+  for (SuperelementPlacement::Load& load : placement.loads) {
+    const auto& names = matrices_->pattern_names;
+    const auto found = std::find(names.begin(), names.end(), load.pattern);
+    if (found == names.end())
+      throw InputError(
+          fmt::format("superelement '{}' has no load '{}'{}", superelement.name, load.pattern,
+                      names.empty() ? std::string("; it has none at all") : did_you_mean(load.pattern, names)));
+    loads_.push_back({static_cast<std::size_t>(found - names.begin()), std::move(load.factor), load.follows});
+  }
+  if (placement.damping.size() > 0) damping_ = matrices_->in_rows(placement.damping);
+  file_ = placement.file;
+  largest_error_ = placement.largest_error;
+  attributes_ = {{"file", file_.path}, {"superelement", superelement.name}};
+  if (file_.group != "/") attributes_.emplace_back("group", file_.group);
+  for (const Interface& interface : superelement.interfaces) interfaces_.push_back(interface.name);
+  frequencies_ = superelement.frequencies.head(superelement.fixed_boundary_modes());
+  residual_vectors_ = superelement.residual_vectors;
+  for (std::size_t k = 0; k < placement.node_names.size(); ++k)
+    attributes_.emplace_back("interface " + superelement.interfaces[k].name, placement.node_names[k]);
+}
+
+void SuperelementBody::declare(Declaration& declaration) const {
+  declaration.nodes = nodes_;
+  for (const Point& point : points_) {
+    declaration.nodes.push_back(point.node);
+    for (int k = 0; k < 6; ++k)
+      declaration.multipliers.push_back({fmt::format("{} {} at point '{}'", k < 3 ? "force" : "moment",
+                                                     "xyz"[k % 3], point.name),
+                                         k < 3 ? "N" : "N m"});
+  }
+  for (int k = 1; k <= matrices_->modes; ++k) declaration.amplitudes.push_back({fmt::format("mode {}", k), "m kg^0.5"});
+  declaration.stiffness = declaration.damping = declaration.mass = true;
+}
+
+SuperelementBody::Loan SuperelementBody::evaluate_motion(const LocalState& state) const {
+  Loan work(*workspaces_);
+  try {
+    work->motion.set_motion(*matrices_, frame_, state);
+  } catch (const ComputationError& error) {
+    throw ComputationError(fmt::format(
+        "t = {:.6g} s: superelement '{}': {}. What drives them there is the cause: a step too long, nodes that "
+        "no joint holds, or a body far too soft for its loads (young in Pa?)",
+        state.time(), name(), error.what()));
+  }
+  work->points.clear();
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    work->points.emplace_back(points_[i].place, work->motion, state.node(static_cast<int>(nodes_.size() + i)),
+                              state.multiplier().segment<6>(6 * static_cast<Eigen::Index>(i)),
+                              state.environment().gravity);
+  return work;
+}
+
+SuperelementBody::Loan SuperelementBody::evaluate(const LocalState& state) const {
+  Loan work = evaluate_motion(state);
+  SuperelementMotion& motion = work->motion;
+  if (!work->points.empty()) {
+    motion.attached_force.setZero(matrices_->size());
+    motion.attached_wrench.setZero();
+  }
+  for (const AttachedPoint& point : work->points) {
+    motion.attached_force += point.body_force();
+    motion.attached_wrench += point.wrench();
+  }
+  motion.loads.clear();
+  for (const Load& load : loads_)
+    motion.loads.push_back({&matrices_->patterns[load.pattern],
+                            state.environment().load_factor * load.factor(state.time()), load.follows});
+  motion.set_forces(*matrices_, damping());
+  return work;
+}
+
+void SuperelementBody::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
+  const Loan work = evaluate(state);
+  const SuperelementMotion& motion = work->motion;
+  const Matrix3& R_0 = motion.geometry.frame.R;
+  for (std::size_t k = 0; k < matrices_->points.size(); ++k) {
+    const BodyPoint& point = matrices_->points[k];
+    const auto row = static_cast<Eigen::Index>(6 * k);
+    r.segment<3>(row) += R_0 * motion.node_force.segment<3>(point.u);
+    if (point.theta >= 0)
+      r.segment<3>(row + 3) +=
+          state.node(static_cast<int>(k)).R.transpose() * (R_0 * motion.node_force.segment<3>(point.theta));
+  }
+  r.segment(state.slots().amplitude_row(), matrices_->modes) += motion.node_force.tail(matrices_->modes);
+  for (std::size_t i = 0; i < work->points.size(); ++i) {
+    const AttachedPoint& point = work->points[i];
+    const auto node = static_cast<int>(nodes_.size() + i);
+    r.segment<3>(6 * node) += R_0 * point.node_force().head<3>();
+    r.segment<3>(6 * node + 3) += state.node(node).R.transpose() * (R_0 * point.node_force().tail<3>());
+    r.segment<6>(state.slots().multiplier_row() + 6 * static_cast<Eigen::Index>(i)) += point.gap();
+  }
+}
+
+void SuperelementBody::add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
+                                            Eigen::Ref<VectorX> acceleration) const {
+  const Loan work = evaluate_motion(state);
+  for (std::size_t i = 0; i < work->points.size(); ++i) {
+    velocity.segment<6>(6 * static_cast<Eigen::Index>(i)) += work->points[i].gap_rate();
+    acceleration.segment<6>(6 * static_cast<Eigen::Index>(i)) += work->points[i].gap_acceleration();
+  }
+}
+
+void SuperelementBody::add_tangent(const LocalState& state, LocalTangent& tangent) const {
+  const Loan work = evaluate(state);
+  work->tangent.add(*matrices_, damping(), work->motion, state, work->points, tangent);
+}
+
+void SuperelementBody::add_energy(const LocalState& state, Energy& energy) const {
+  const Loan work = evaluate(state);
+  const SuperelementMotion& motion = work->motion;
+  const Frame& frame = motion.geometry.frame;
+  const VectorX& eps = motion.coordinates.eps();
+  energy.kinetic += motion.kinetic_energy(*matrices_);
+  energy.elastic += 0.5 * eps.dot(motion.elastic_force);
+  const Vector3 moment = matrices_->mass * matrices_->centre + matrices_->MU.leftCols<3>().transpose() * eps;
+  energy.gravity -= state.environment().gravity.dot(matrices_->mass * frame.x + frame.R * moment);
+  energy.dissipation += motion.eps_rate.dot(damping() * motion.eps_rate);
+  energy.input += motion.rigid_load.dot(motion.nu) + motion.load.dot(motion.eps_rate);
+}
+
+Eigen::Index SuperelementBody::coordinates() const {
+  return static_cast<Eigen::Index>(matrices_->directions.size()) + matrices_->modes;
+}
+
+std::vector<OutputField> SuperelementBody::output_fields() const {
+  std::vector<OutputField> outputs = {
+      {"frame", {7}, "m, -", "body frame: position of the mesh's origin, unit quaternion w x y z (body -> inertial)"},
+      {"coordinates",
+       {static_cast<std::size_t>(coordinates())},
+       "m, rad, m kg^0.5",
+       "linear coordinates of the deformation, in the order of the superelement file"},
+      {"interface_force",
+       {matrices_->points.size(), 6},
+       "N, N m",
+       "force and moment that the mechanism exerts at each interface, body axes"}};
+  const std::vector<OutputField>& recovered = recovered_.descriptions();
+  outputs.insert(outputs.end(), recovered.begin(), recovered.end());
+  return outputs;
+}
+
+const double* SuperelementBody::write_small_outputs(const LocalState& state, double* values) const {
+  const Loan work = evaluate(state);
+  const SuperelementMotion& motion = work->motion;
+  const Frame& frame = motion.geometry.frame;
+  Eigen::Map<VectorX>(values, 3) = frame.x;
+  Eigen::Map<VectorX>(values + 3, 4) = quaternion_of(frame.R);
+  values += 7;
+  const double* q = values;
+  matrices_->to_file(motion.coordinates.eps(), Eigen::Map<VectorX>(values, coordinates()));
+  values += coordinates();
+  for (const BodyPoint& point : matrices_->points) {
+    Eigen::Map<Vector6> force(values);
+    force.setZero();
+    force.head<3>() = motion.node_force.segment<3>(point.u);
+    if (point.theta >= 0) force.tail<3>() = motion.node_force.segment<3>(point.theta);
+    values += 6;
+  }
+  return q;
+}
+
+void SuperelementBody::write_output(const LocalState& state, double* values) const {
+  write_outputs({&state, 1}, {&values, 1});
+}
+
+void SuperelementBody::write_outputs(std::span<const LocalState> states, std::span<double* const> values) const {
+  Loan work(*workspaces_);
+  work->frames.reset(coordinates(), static_cast<int>(states.size()));
+  for (std::size_t k = 0; k < states.size(); ++k)
+    work->frames.set(static_cast<int>(k), write_small_outputs(states[k], values[k]));
+  const std::size_t small = static_cast<std::size_t>(7 + coordinates()) + 6 * matrices_->points.size();
+  recovered_.write(work->frames, values, small);
+}
+
+std::vector<std::string> SuperelementBody::optional_fields() const { return RecoveredField::names(); }
+
+void SuperelementBody::record_field(const std::string& field) { recovered_.add_field(field, read_superelement(file_)); }
+
+std::vector<std::string> SuperelementBody::point_fields() const { return {"stress", "strain"}; }
+
+void SuperelementBody::record_at(const std::string& field, const std::string& name, const MeshPlace& place) {
+  recovered_.add_point(field, name, place, read_superelement(file_));
+}
+
+std::vector<std::string> SuperelementBody::peaks() const { return StressPeaks::names(); }
+
+void SuperelementBody::gather_peaks(const std::vector<std::string>& quantities) {
+  recovered_.load_stress(read_superelement(file_));
+  peaks_ = quantities;
+}
+
+std::unique_ptr<Gatherer> SuperelementBody::make_gatherer() const {
+  std::vector<std::unique_ptr<Gatherer>> all;
+  all.push_back(std::make_unique<Validity>(name(), frame_.points(), largest_error_));
+  if (!peaks_.empty())
+    all.push_back(
+        std::make_unique<StressPeaks>(name(), recovered_.stress(), peaks_, [this](const LocalState& state, double* q) {
+          matrices_->to_file(evaluate_motion(state)->motion.coordinates.eps(), Eigen::Map<VectorX>(q, coordinates()));
+        }));
+  return std::make_unique<GathererList>(std::move(all));
+}
+
+std::vector<std::pair<std::string, std::string>> SuperelementBody::attributes() const {
+  std::vector<std::pair<std::string, std::string>> all = attributes_;
+  all.insert(all.end(), recovered_.facts().begin(), recovered_.facts().end());
+  return all;
+}
+
+namespace {
+
+std::string compliance_at(const std::array<bool, 6>& residual) {
+  constexpr std::array<const char*, 6> names = {"x", "y", "z", "rx", "ry", "rz"};
+  std::vector<std::string> exact;
+  for (std::size_t k = 0; k < 6; ++k)
+    if (residual[k]) exact.emplace_back(names[k]);
+  if (exact.empty()) return "its compliance is that of interfaces and modes";
+  if (exact.size() == 6) return "its static compliance is exact, by residual vectors";
+  return fmt::format("its static compliance is exact in {}, by residual vectors", fmt::join(exact, ", "));
+}
+
+}  // namespace
+
+std::string SuperelementBody::describe_modes() const {
+  std::string modes = counted(frequencies_.size(), "mode");
+  if (frequencies_.size() > 0)
+    modes +=
+        fmt::format(" ({:.4g} to {:.4g} Hz with fixed interfaces)", frequencies_.minCoeff(), frequencies_.maxCoeff());
+  if (residual_vectors_ > 0) modes += " and " + counted(residual_vectors_, "residual vector");
+  return modes;
+}
+
+void SuperelementBody::describe_piece(Description& description) const {
+  description.add_sum("mass", matrices_->mass, "kg");
+  description.add_each("file of", "piece", file_.path);
+  description.add_line(fmt::format("piece '{}': mass {:.6g} kg, {}", name(), matrices_->mass, describe_modes()));
+  describe_attachments(description);
+}
+
+void SuperelementBody::describe(const LocalState& /*state*/, Description& description) const {
+  if (file_.group != "/") return describe_piece(description);
+  description.add("file " + file_.path);
+  description.add(fmt::format("mass {:.6g} kg", matrices_->mass));
+  description.add(fmt::format("centre {} m in the mesh's axes", format_vector(matrices_->centre)));
+  description.add(counted(interfaces_.size(), "interface"));
+  description.add(describe_modes());
+  describe_attachments(description);
+}
+
+void SuperelementBody::describe_attachments(Description& description) const {
+  if (matrices_->prestress_rows() == 0)
+    description.add_line(
+        "no geometric stiffness of interface loads in the file: no stiffening under tension, no buckling");
+  else
+    description.add_line(
+        "its own strains are small: errors below 0.1 % up to 0.2 rad between interfaces; cut into pieces what bends more");
+  constexpr std::size_t most = 12;  // free ties have one for each node of a surface
+  for (std::size_t k = 0; k < std::min(interfaces_.size(), most); ++k)
+    description.add_line(fmt::format("interface '{}' on node {}", interfaces_[k], description.node(nodes_[k])));
+  if (interfaces_.size() > most) description.add_line(fmt::format("and {} more", interfaces_.size() - most));
+  for (const Point& point : points_)
+    description.add_line(
+        fmt::format("point '{}' at {} m: {}", point.name, format_vector(point.place.X), compliance_at(point.residual)));
+  for (const Load& load : loads_)
+    description.add_line(fmt::format("load '{}' times {}, {}; it bends the body, and does not stiffen it",
+                                     matrices_->pattern_names[load.pattern], load.factor.text(),
+                                     load.follows ? "turning with the body" : "fixed in space"));
+  for (const auto& [what, where] : recovered_.facts()) description.add_line(what + ": " + where);
+  if (!peaks_.empty()) description.add_line(fmt::format("peaks over all steps: {}", fmt::join(peaks_, ", ")));
+}
+
+void SuperelementBody::add_break_points(std::vector<double>& times) const {
+  for (const Load& load : loads_)
+    for (double time : load.factor.break_points()) times.push_back(time);
+}
+
+}  // namespace bielle::mechanism

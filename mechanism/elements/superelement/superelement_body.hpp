@@ -1,0 +1,149 @@
+// A reduced elastic body in a mechanism: interface nodes and modal amplitudes, small local displacements in a corotated
+// frame, large motions.
+//
+//   T = s^T M~ s / 2 + s^T G(Om_0) eps + eps^T H(Om_0) eps / 2
+//   V = eps^T K~ eps / 2,      dissipation epsdot^T C~ epsdot
+//
+// The kinetic energy is exact for the displacement field of the reduction; the equations are Lagrange's, so that energy
+// and momenta are conserved and forces are objective. Residual and all three tangents K, C, M are exact. Frame:
+// corotated_frame.hpp; coordinates: linear_coordinates.hpp; matrices: superelement_body_matrices.hpp; forces:
+// superelement_body_motion.hpp.
+//
+// Prestress. Linear elasticity lacks the stiffening of a body under tension and the shortening of one that bends. The
+// file's geometric stiffness brings both back: that of the centrifugal field inside H, that of interface loads in the
+// relation of eps to the positions of the interfaces, which makes V a potential of third order with no memory.
+//
+// Limits: strains and rotations within the body are small (to about 0.2 rad from the mean of its interfaces; what bends
+// more wants several superelements); load patterns do not prestress it; the membrane forces of a plate that bends by more
+// than its thickness are missing; damping acts on eps alone.
+//
+// Reference: A. Cardona, M. Geradin, Modelling of superelements in mechanism analysis, IJNME 32 (1991) 1565, for the
+// place of a superelement among nodes; the inertia is not theirs (their nodal velocities are not Galilean invariant).
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mechanism/elements/superelement/attached_point.hpp"
+#include "mechanism/elements/superelement/recovery/recovered_outputs.hpp"
+#include "mechanism/elements/superelement/superelement_body_motion.hpp"
+#include "mechanism/model/model.hpp"
+#include "reduce/common/expression.hpp"
+#include "reduce/common/yaml_file.hpp"
+
+namespace bielle::mechanism {
+
+/// What a body's frame is tied to, see frame_conditions.hpp.
+enum class BodyFrame { mean, mean_axes, carried };
+
+/// How a superelement stands in a mechanism.
+struct SuperelementPlacement {
+  std::vector<int> nodes;                    ///< model's node of each interface
+  std::vector<Vector3> reference_positions;  ///< of these nodes in the undeformed body [m], body axes
+  std::vector<Matrix3> reference_rotations;  ///< node axes -> body axes of the undeformed body
+
+  struct Load {
+    std::string pattern;  ///< name in the file
+    Expression factor;    ///< of t
+    bool follows = true;  ///< turns with the body (a pressure); else its directions stay fixed in space
+  };
+  std::vector<Load> loads;
+  std::vector<std::string> node_names;  ///< for the results file
+  BodyFrame frame = BodyFrame::mean;
+  std::size_t frame_interface = 0;                       ///< of BodyFrame::carried
+  MatrixX damping;                                       ///< in the file's coordinates, in place of its own; or empty
+  std::shared_ptr<const SuperelementMatrices> matrices;  ///< shared by bodies of one file; made here when null
+  SuperelementPlace file;                                ///< where the superelement was read from
+  std::optional<double> largest_error;  ///< of its deformation, relative: a run fails beyond (validity.hpp)
+};
+
+class SuperelementBody : public Component {
+ public:
+  /// A point inside that carries a node of its own.
+  struct Point {
+    std::string name;
+    int node = 0;  ///< the model's
+    PointPlace place;
+    std::array<bool, 6> residual{};  ///< forces and moments on it, body axes, whose static answer the basis has exactly
+  };
+  /// @throws InputError when arrays of the superelement do not fit each other or a pattern does not exist
+  SuperelementBody(std::string name, const Superelement& superelement, SuperelementPlacement placement);
+
+  ~SuperelementBody() override;
+
+  /// Carries one more node. Called while the model is read.
+  void attach(Point point) { points_.push_back(std::move(point)); }
+
+  void declare(Declaration& declaration) const override;
+  void add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
+                            Eigen::Ref<VectorX> acceleration) const override;
+  void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
+  void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
+  void add_energy(const LocalState& state, Energy& energy) const override;
+  std::vector<OutputField> output_fields() const override;
+  void write_output(const LocalState& state, double* values) const override;
+  bool outputs_together() const override { return recovered_.large(); }
+  void write_outputs(std::span<const LocalState> states, std::span<double* const> values) const override;
+  std::vector<std::pair<std::string, std::string>> attributes() const override;
+  void add_break_points(std::vector<double>& times) const override;
+  std::vector<std::string> optional_fields() const override;
+  void record_field(const std::string& field) override;
+  std::vector<std::string> point_fields() const override;
+  void record_at(const std::string& field, const std::string& name, const MeshPlace& place) override;
+  std::vector<std::string> peaks() const override;
+  void gather_peaks(const std::vector<std::string>& quantities) override;
+  std::unique_ptr<Gatherer> make_gatherer() const override;
+  /// File, mass, modes with the range of their frequencies, interfaces with their nodes, loads.
+  void describe(const LocalState& state, Description& description) const override;
+
+  const SuperelementMatrices& matrices() const { return *matrices_; }
+  const MatrixX& damping() const { return damping_.size() > 0 ? damping_ : matrices_->C; }  ///< C~ of this body
+  const CorotatedFrame& frame() const { return frame_; }
+  const SuperelementPlace& file() const { return file_; }
+  const std::vector<int>& nodes() const { return nodes_; }  ///< the model's, of the interfaces
+
+ private:
+  struct Workspace;
+  class Workspaces;
+  class Loan;
+  /// Working memory with the motion, or with motion and forces, at a state.
+  Loan evaluate_motion(const LocalState& state) const;
+  Loan evaluate(const LocalState& state) const;
+  Eigen::Index coordinates() const;  ///< number of local coordinates in the file's order
+  /// What is recorded without the mesh. @returns the local coordinates among the values
+  const double* write_small_outputs(const LocalState& state, double* values) const;
+
+  /// What `describe` says of one piece of a cut body, which stands among others in its entry.
+  void describe_piece(Description& description) const;
+  void describe_attachments(Description& description) const;  ///< interfaces with their nodes, loads
+  std::string describe_modes() const;
+
+  struct Load {
+    std::size_t pattern;
+    Expression factor;
+    bool follows;
+  };
+  std::shared_ptr<const SuperelementMatrices> matrices_;
+  MatrixX damping_;  ///< C~ of this body; empty: that of the matrices
+  CorotatedFrame frame_;
+  std::vector<int> nodes_;
+  std::vector<Load> loads_;
+  std::vector<Point> points_;
+  std::vector<std::pair<std::string, std::string>> attributes_;
+  SuperelementPlace file_;
+  std::optional<double> largest_error_;
+  std::vector<std::string> interfaces_;  ///< names, in the order of the nodes
+  VectorX frequencies_;                  ///< of the fixed-boundary modes [Hz]
+  Eigen::Index residual_vectors_ = 0;    ///< so many modes more
+  RecoveredOutputs recovered_;
+  std::vector<std::string> peaks_;  ///< that are wanted
+  std::unique_ptr<Workspaces> workspaces_;
+};
+
+/// Reads `name: {type: superelement, ...}` of the elements; see superelement_body_reader.cpp.
+void read_superelement_body(const std::string& name, const YamlValue& entry, Model& model);
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,494 @@
+#include "mechanism/elements/superelement/superelement_body_tangent.hpp"
+
+#include <array>
+
+#include "reduce/spectral/dense_products.hpp"
+
+namespace bielle::mechanism {
+
+struct SuperelementTangent::View {
+  const SuperelementMatrices& body;
+  const MatrixX& damping;
+  const SuperelementMotion& motion;
+  const VectorX& eps;
+  const MatrixX& excess;  // the rows of J - I that are not zero
+  const CorotatedGeometry& geometry;
+  const LocalState& state;
+  Eigen::Index n;
+  Vector3 v_0, Om, Om_rate;
+  Matrix6 ad;  // e = pi' + ad pi
+};
+
+void SuperelementTangent::add(const SuperelementMatrices& body, const MatrixX& damping, SuperelementMotion& motion,
+                              const LocalState& state, const std::vector<AttachedPoint>& points,
+                              LocalTangent& tangent) {
+  motion.coordinates.set_excess();
+  View v{body,
+         damping,
+         motion,
+         motion.coordinates.eps(),
+         motion.coordinates.excess(),
+         motion.geometry,
+         state,
+         body.size(),
+         motion.nu.head<3>(),
+         motion.nu.tail<3>(),
+         motion.nu_rate.tail<3>(),
+         Matrix6::Zero()};
+  v.ad << skew(v.Om), Matrix3::Zero(), skew(v.v_0), skew(v.Om);
+
+  set_rate_blocks(v);
+  set_mass_form(v);
+  if (tangent.wants_M) {
+    multiply_by_D(v, MQ_);
+    multiply_by_D_transposed(v);
+    add_to(v, tangent.M.dense());
+  }
+  if (!tangent.wants_C && !tangent.wants_K) return;
+  set_coordinate_changes(v);
+  set_rate_form(v);
+  six_.setZero(v.n, 6);
+  add_product(six_, MQ_, H_0_);
+  if (tangent.wants_C) {
+    multiply_by_D(v, CQ_);
+    add_blocks(v, MQ_, H_w_u_, &RotationBlocks::H_w);
+    add_product(result_, six_, Sigma_D_);
+    multiply_by_D_transposed(v);
+    add_to(v, tangent.C.dense());
+  }
+  if (!tangent.wants_K) return;
+  set_position_form(v);
+  multiply_by_D(v, KQ_);
+  add_blocks(v, CQ_, A_v_u_, &RotationBlocks::A_v);
+  add_blocks(v, MQ_, A_a_u_, &RotationBlocks::A_a);
+  add_product(result_, six_, Sigma_A_v_);
+  const Matrix6 Sigma_B_v = v.geometry.Sigma * B_v_;
+  left_.setZero(v.n, 6);
+  add_product(left_, six_, Sigma_B_v);
+  add_product(left_, CQ_, B_v_);
+  add_product(left_, MQ_, B_a_);
+  add_product(left_, KQ_, v.geometry.V, -1);
+  add_load_turning(v);
+  add_product(result_, left_, Sigma_D_);
+  multiply_by_D_transposed(v);
+  add_map_change(v);
+  add_to(v, tangent.K.dense());
+  if (!points.empty()) add_points(v, points, tangent.K.dense());
+}
+
+/// Columns of the body's triads and modes as columns of the local unknowns.
+void SuperelementTangent::set_local_columns(const View& v, const Matrix6X& X, Matrix6X& local) {
+  const auto& points = v.body.points;
+  const Matrix3 R_0t = v.geometry.frame.R.transpose();
+  local.setZero(6, v.state.slots().size());
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const auto column = static_cast<Eigen::Index>(6 * k);
+    local.middleCols<3>(column).noalias() = X.middleCols<3>(points[k].u) * R_0t;
+    if (points[k].theta >= 0)
+      local.middleCols<3>(column + 3).noalias() =
+          X.middleCols<3>(points[k].theta) * (R_0t * v.state.node(static_cast<int>(k)).R);
+  }
+  local.middleCols(v.state.slots().amplitude_row(), v.body.modes) = X.rightCols(v.body.modes);
+}
+
+void SuperelementTangent::add_points(const View& v, const std::vector<AttachedPoint>& points,
+                                     Eigen::Ref<MatrixX> target) {
+  const Matrix3 R_0t = v.geometry.frame.R.transpose();
+  set_local_columns(v, Sigma_D_, frame_motion_);
+  const int first_node = static_cast<int>(v.body.points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const int node = first_node + static_cast<int>(i);
+    node_motion_.setZero(6, v.state.slots().size());
+    node_motion_.block<3, 3>(0, 6 * node) = R_0t;
+    node_motion_.block<3, 3>(3, 6 * node + 3) = R_0t * v.state.node(node).R;
+    // T_P deps = T_P J D (dz^ - U_c dnu_0)
+    rows_ = points[i].shapes();
+    multiply_by_J(v, rows_);
+    point_rows_ = rows_;
+    for (std::size_t k = 0; k < v.body.points.size(); ++k)
+      if (const int theta = v.body.points[k].theta; theta >= 0)
+        point_rows_.middleCols<3>(theta).noalias() = rows_.middleCols<3>(theta) * v.geometry.D[k];
+    const Matrix6 carried = rows_ * v.geometry.V;
+    point_rows_.noalias() -= carried * Sigma_D_;
+    set_local_columns(v, point_rows_, shape_motion_);
+    points[i].add_tangent(v.state.slots().multiplier_row() + 6 * static_cast<int>(i), frame_motion_, node_motion_,
+                          shape_motion_, target);
+  }
+}
+
+void SuperelementTangent::set_rate_blocks(const View& v) {
+  const auto& points = v.body.points;
+  const SuperelementMotion& m = v.motion;
+  rotation_.resize(points.size());
+  B_v_.setZero(v.n, 6);
+  B_a_.setZero(v.n, 6);
+  H_0_.setZero(v.n, 6);
+  Sigma_D_ = v.geometry.Sigma;
+  Sigma_A_v_.setZero(6, v.n);
+
+  const Matrix3 Om = skew(v.Om), squared = skew(v.Om_rate) - Om * Om;
+  A_v_u_ = -Om;
+  A_a_u_ = -squared;
+  H_w_u_ = -2 * Om;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const int u = points[k].u, theta = points[k].theta;
+    const Matrix3 y = skew(v.geometry.y[k]);
+    const Matrix3 w = skew(m.w.segment<3>(u)), w_rel = skew(m.w_rel.segment<3>(u)), a = skew(m.a.segment<3>(u));
+    B_v_.block<3, 3>(u, 0) = Om;
+    B_v_.block<3, 3>(u, 3) = w - Om * y;
+    B_a_.block<3, 3>(u, 0) = squared;
+    B_a_.block<3, 3>(u, 3) = a - 2 * Om * w - squared * y;
+    H_0_.block<3, 3>(u, 0) = Om;
+    H_0_.block<3, 3>(u, 3) = w + w_rel - Om * y;
+    Sigma_A_v_.middleCols<3>(u).noalias() = v.geometry.Sigma.middleCols<3>(u) * A_v_u_;
+    if (theta < 0) continue;
+
+    const InterfaceRotation& rotation = points[k].rotation;
+    const Matrix3& E = v.geometry.E[k];
+    const Vector3 r = m.w_rel.segment<3>(theta);
+    RotationBlocks& block = rotation_[k];
+    block.D = v.geometry.D[k];
+    block.Z = rotation.transpose_gradient(E, m.force.segment<3>(theta));
+    // D' r depends on r through K_r and on E through the rate gradient.
+    const Matrix3 D_gradient = rotation.gradient(E, r);
+    const Matrix3 K_r = D_gradient + rotation.differential_rate(E, r);
+    const Matrix3 turning = skew(m.w.segment<3>(theta)), a_turning = skew(m.a.segment<3>(theta));
+    block.A_v = D_gradient - block.D * turning;
+    block.A_a = rotation.gradient(E, m.a_rel.segment<3>(theta)) + rotation.rate_gradient(E, r) - K_r * turning -
+                block.D * (a_turning - Om * turning);
+    block.H_w = K_r - block.D * Om;
+    B_v_.block<3, 3>(theta, 3) = -block.A_v;
+    B_a_.block<3, 3>(theta, 3) = -block.A_a;
+    H_0_.block<3, 3>(theta, 3) = block.D * turning - K_r;
+    const auto Sigma = v.geometry.Sigma.middleCols<3>(theta);
+    Sigma_D_.middleCols<3>(theta).noalias() = Sigma * block.D;
+    Sigma_A_v_.middleCols<3>(theta).noalias() = Sigma * block.A_v;
+  }
+}
+
+/// X <- X J
+void SuperelementTangent::multiply_by_J(const View& v, Matrix6X& X) {
+  six_left_ = X.leftCols(v.excess.rows());
+  add_product(X, six_left_, v.excess);
+}
+
+/// X <- J^T X
+void SuperelementTangent::multiply_by_J_transposed(const View& v, MatrixX6& X) {
+  six_top_ = X.topRows(v.excess.rows());
+  add_transposed_product(X, v.excess, six_top_);
+}
+
+/// X <- J^T X J
+void SuperelementTangent::multiply_by_J_both_sides(const View& v, MatrixX& X) {
+  const Eigen::Index b = v.excess.rows();
+  if (b == 0) return;
+  interface_columns_ = X.leftCols(b);
+  add_product(X, interface_columns_, v.excess);
+  interface_rows_ = X.topRows(b);
+  add_transposed_product(X, v.excess, interface_rows_);
+}
+
+/// X_qq <- L^T [X_nn, X_nq J; J^T X_qn, J^T X_qq J] L
+void SuperelementTangent::reduce_both_sides(const View& v, const Matrix6& X_nn, const Matrix6X& X_nq,
+                                            const MatrixX6& X_qn, MatrixX& X_qq) {
+  const MatrixX6& V = v.geometry.V;
+  const Matrix6X& Sigma = v.geometry.Sigma;
+  multiply_by_J_both_sides(v, X_qq);
+  left_ = X_qn;
+  multiply_by_J_transposed(v, left_);
+  add_product(left_, X_qq, V, -1);
+  rows_ = X_nq;
+  multiply_by_J(v, rows_);
+  Matrix6 corner = X_nn;
+  add_product(corner, rows_, V, -1);
+  add_transposed_product(corner, V, left_, -1);
+  add_transposed_product(rows_, V, X_qq, -1);
+  rows_.noalias() += corner * Sigma;
+  add_product(X_qq, left_, Sigma);
+  add_transposed_product(X_qq, Sigma, rows_);
+}
+
+// What K_sigma adds to the forms. All of it depends on nu_0 through s, and Lambda U = [0, I].
+
+/// M~ <- M~ - Lambda^T kappa Lambda
+void SuperelementTangent::add_spin_to_mass_form(const View& v) {
+  turning_.noalias() = v.motion.kappa * v.body.mean_turning;
+  add_transposed_product(MQ_, v.body.mean_turning, turning_, -1);
+  M_nq_.bottomRows<3>() -= turning_;
+  M_nn_.bottomRightCorner<3, 3>() -= v.motion.kappa;
+}
+
+void SuperelementTangent::add_spin_to_rate_form(const View& v, Matrix6& X_nn) {
+  const auto& Lambda = v.body.mean_turning;
+  const MatrixX3& Phi = v.motion.spin_force;
+  // dp' = -Lambda^T (kappa' Lambda ds + 2 Phi^T depsdot), d(K_sigma(Om_m) eps) = 2 Phi Lambda ds
+  turning_.noalias() = -v.motion.kappa_rate * Lambda;
+  X_nn.bottomRightCorner<3, 3>() -= v.motion.kappa_rate;
+  six_.rightCols<3>() += turning_.transpose() + 2 * Phi;
+  turning_.noalias() -= 2 * Phi.transpose();
+  more_rows_.bottomRows<3>() += turning_;
+  add_transposed_product(CQ_, Lambda, turning_);
+  add_product(CQ_, Phi, Lambda, 2);
+}
+
+/// To KQ_ and K_nq_, and to d pi / d eps in rows_.
+void SuperelementTangent::add_spin_to_position_form(const View& v) {
+  const SuperelementMotion& m = v.motion;
+  turning_.setZero(3, v.n);  // Om_m,l K_sigma,kl epsdot + Om_m,l' K_sigma,kl eps
+  for (int k = 0; k < 3; ++k)
+    for (int l = 0; l < 3; ++l) {
+      const int i = pair_index(k, l);
+      turning_.row(k).noalias() += m.Om_mean[l] * (v.body.spin[static_cast<std::size_t>(i)] * m.eps_rate).transpose();
+      turning_.row(k) += m.Om_mean_rate[l] * m.spin_eps.col(i).transpose();
+    }
+  rows_.bottomRows<3>() -= 2 * m.spin_force.transpose();
+  K_nq_.bottomRows<3>() -= 2 * turning_;
+  add_transposed_product(KQ_, v.body.mean_turning, turning_, -2);
+}
+
+void SuperelementTangent::set_mass_form(const View& v) {
+  const SuperelementMotion& m = v.motion;
+  Eigen::Matrix<double, 6, 3> UG = Eigen::Matrix<double, 6, 3>::Zero();
+  add_transposed_product(UG, v.body.U, m.Geps);
+  M_nn_.setZero();
+  add_transposed_product(M_nn_, v.body.U, v.body.MU);
+  M_nn_.rightCols<3>() += UG;
+  M_nn_.bottomRows<3>() += UG.transpose();
+  for (int k = 0; k < 3; ++k)
+    for (int l = 0; l < 3; ++l) M_nn_(3 + k, 3 + l) += v.eps.dot(m.Heps.col(pair_index(k, l)));
+  M_nq_ = v.body.MU.transpose();
+  M_nq_.bottomRows<3>() += m.Geps.transpose();
+  MQ_ = v.body.M;
+  if (v.body.stiffened_by_spin()) add_spin_to_mass_form(v);
+  M_qq_ = MQ_;
+  six_ = M_nq_.transpose();
+  reduce_both_sides(v, M_nn_, M_nq_, six_, MQ_);
+}
+
+/// J G(epsdot) and J G(eps'').
+void SuperelementTangent::set_coordinate_changes(const View& v) {
+  const Eigen::Index b = v.excess.rows();
+  rate_change_.resize(b, v.n);
+  acceleration_change_.resize(b, v.n);
+  if (b == 0) return;
+  v.motion.coordinates.multiply_gradient(v.motion.rate_gradient, rate_change_);
+  acceleration_gradient_.resize(v.n, b);
+  v.body.multiply_load_stiffness(v.motion.eps_acceleration, acceleration_gradient_);
+  v.motion.coordinates.multiply_gradient(acceleration_gradient_, acceleration_change_);
+}
+
+/// What the change of J adds to the forms of the rates (CQ_, more_rows_) and, with it, of the coordinates (KQ_, K_nq_).
+void SuperelementTangent::add_rate_changes(const View& v) {
+  const Eigen::Index b = v.excess.rows();
+  KQ_.setZero(v.n, v.n);
+  K_nq_.setZero(6, v.n);
+  if (b == 0) return;
+  const auto M = M_qq_.leftCols(b);
+  add_product(CQ_, M, rate_change_, 2);
+  add_product(more_rows_, M_nq_.leftCols(b), rate_change_, 2);
+  add_product(KQ_, CQ_.leftCols(b), rate_change_);
+  add_product(KQ_, M, acceleration_change_);
+  add_product(K_nq_, more_rows_.leftCols(b), rate_change_);
+  add_product(K_nq_, M_nq_.leftCols(b), acceleration_change_);
+}
+
+void SuperelementTangent::set_rate_form(const View& v) {
+  const SuperelementMotion& m = v.motion;
+  CQ_ = v.damping;
+  std::array<WeightedMatrix, 3> gyroscopic;
+  for (std::size_t k = 0; k < 3; ++k) gyroscopic[k] = {&v.body.G[k], 2 * v.Om[static_cast<int>(k)]};
+  add_weighted(CQ_, gyroscopic);
+  six_.setZero(v.n, 6);
+  more_rows_.noalias() = v.ad * M_nq_;
+  Matrix6 X_nn = v.ad * M_nn_;
+  for (int k = 0; k < 3; ++k) {
+    const auto index = static_cast<std::size_t>(k);
+    six_ += v.Om[k] * v.body.GU[index];
+    six_.col(3 + k) += m.Geps_rate.col(k) + m.Gs.col(k);
+    more_rows_ -= v.Om[k] * v.body.GU[index].transpose();
+    more_rows_.row(3 + k) += (m.Geps_rate.col(k) - m.Gs.col(k)).transpose();
+    const Vector6 UG_rate = v.body.U.transpose() * m.Geps_rate.col(k);
+    X_nn.col(3 + k) += UG_rate;
+    X_nn.row(3 + k) += UG_rate.transpose();
+    for (int l = 0; l < 3; ++l) {
+      const auto Heps = m.Heps.col(pair_index(k, l));
+      six_.col(3 + k) -= (2 * v.Om[l]) * Heps;
+      more_rows_.row(3 + k) += (2 * v.Om[l]) * Heps.transpose();
+      X_nn(3 + k, 3 + l) += 2 * m.eps_rate.dot(Heps);
+    }
+  }
+  const Matrix3 pi_v = skew(m.pi.head<3>()), pi_O = skew(m.pi.tail<3>());
+  X_nn.topRightCorner<3, 3>() -= pi_v;
+  X_nn.bottomLeftCorner<3, 3>() -= pi_v;
+  X_nn.bottomRightCorner<3, 3>() -= pi_O;
+  if (v.body.stiffened_by_spin()) add_spin_to_rate_form(v, X_nn);
+  add_rate_changes(v);
+  reduce_both_sides(v, X_nn, more_rows_, six_, CQ_);
+}
+
+void SuperelementTangent::set_position_form(const View& v) {
+  const SuperelementMotion& m = v.motion;
+  if (v.excess.rows() > 0) v.body.add_load_stiffness(m.phi.head(v.excess.rows()), KQ_);
+  add_stiffnesses(v);
+  add_momentum_changes(v);
+  for (const ActingLoad& load : m.loads)
+    for (int k = 0; k < 3; ++k) {
+      const Matrix3 direction = skew(load.factor * load_direction(load, v.geometry.frame.R, k));
+      K_nq_.bottomRows<3>().noalias() += direction * load.pattern->middleCols<3>(3 * k).transpose();
+    }
+  multiply_by_J_both_sides(v, KQ_);
+  multiply_by_J(v, K_nq_);
+  add_transposed_product(K_nq_, v.geometry.V, KQ_, -1);
+  add_transposed_product(KQ_, v.geometry.Sigma, K_nq_);
+}
+
+/// KQ_ += what of it does not depend on the rest of the state
+void SuperelementTangent::add_stiffnesses(const View& v) {
+  const Vector3& Om_mean = v.motion.Om_mean;
+  std::array<WeightedMatrix, 16> terms;
+  std::size_t count = 0;
+  terms[count++] = {&v.body.K, 1};
+  for (int k = 0; k < 3; ++k) {
+    terms[count++] = {&v.body.G[static_cast<std::size_t>(k)], v.Om_rate[k]};
+    for (int l = k; l < 3; ++l) {
+      const auto i = static_cast<std::size_t>(pair_index(k, l));
+      const double twice = k == l ? 1 : 2;
+      terms[count++] = {&v.body.H[i], -twice * v.Om[k] * v.Om[l]};
+      if (v.body.stiffened_by_spin()) terms[count++] = {&v.body.spin[i], twice * Om_mean[k] * Om_mean[l]};
+    }
+  }
+  add_weighted(KQ_, {terms.data(), count});
+}
+
+/// K_nq_ += d(pi' + ad pi)/d eps
+void SuperelementTangent::add_momentum_changes(const View& v) {
+  const SuperelementMotion& m = v.motion;
+  Gs_rate_.resize(v.n, 3);
+  Heps_rate_.resize(v.n, 6);
+  for (int k = 0; k < 3; ++k) Gs_rate_.col(k).noalias() = v.body.G[static_cast<std::size_t>(k)] * m.s_rate;
+  for (int i = 0; i < 6; ++i) Heps_rate_.col(i).noalias() = v.body.H[static_cast<std::size_t>(i)] * m.eps_rate;
+  rows_.setZero(6, v.n);  // d pi / d eps
+  for (int k = 0; k < 3; ++k) {
+    const MatrixX6& GU = v.body.GU[static_cast<std::size_t>(k)];
+    rows_ -= v.Om[k] * GU.transpose();
+    K_nq_ -= v.Om_rate[k] * GU.transpose();
+  }
+  for (int k = 0; k < 3; ++k) {
+    rows_.row(3 + k) -= m.Gs.col(k).transpose();
+    K_nq_.row(3 + k) -= Gs_rate_.col(k).transpose();
+    for (int l = 0; l < 3; ++l) {
+      const int i = pair_index(k, l);
+      rows_.row(3 + k) += (2 * v.Om[l]) * m.Heps.col(i).transpose();
+      K_nq_.row(3 + k) += 2 * (v.Om_rate[l] * m.Heps.col(i) + v.Om[l] * Heps_rate_.col(i)).transpose();
+    }
+  }
+  if (v.body.stiffened_by_spin()) add_spin_to_position_form(v);
+  K_nq_.noalias() += v.ad * rows_;
+}
+
+/// Loads fixed in space turn relative to the body with its frame: columns dphi_0 of L^T d(e; r).
+void SuperelementTangent::add_load_turning(const View& v) {
+  for (const ActingLoad& load : v.motion.loads) {
+    if (load.follows) continue;
+    three_.setZero(v.n, 3);
+    Eigen::Matrix<double, 6, 3> rigid = Eigen::Matrix<double, 6, 3>::Zero();
+    for (int k = 0; k < 3; ++k) {
+      const auto component = load.pattern->middleCols<3>(3 * k);
+      const Matrix3 turned = skew(load.factor * load_direction(load, v.geometry.frame.R, k));
+      three_.noalias() -= component * turned;
+      const Vector3 displaced = component.transpose() * v.eps;
+      rigid.bottomRows<3>() -= skew(displaced) * turned;
+    }
+    add_transposed_product(rigid, v.body.U, three_);
+    three_top_ = three_.topRows(v.excess.rows());
+    add_transposed_product(three_, v.excess, three_top_);
+    add_transposed_product(rigid, v.geometry.V, three_, -1);
+    left_.rightCols<3>() += three_;
+    add_transposed_product(left_.rightCols<3>(), v.geometry.Sigma, rigid);
+  }
+}
+
+/// result += K^
+void SuperelementTangent::add_map_change(const View& v) {
+  const VectorX& F = v.motion.node_force;
+  three_.setZero(v.n, 3);
+  Y_.setZero(3, v.n);
+  Matrix6 Y_U = Matrix6::Zero();
+  for (std::size_t k = 0; k < v.body.points.size(); ++k) {
+    const int u = v.body.points[k].u, theta = v.body.points[k].theta;
+    const Matrix3 F_u = skew(F.segment<3>(u));
+    three_.middleRows<3>(u) = F_u;
+    Y_.middleCols<3>(u) = -F_u;
+    Y_U.topLeftCorner<3, 3>() -= F_u;
+    Y_U.topRightCorner<3, 3>() += F_u * skew(v.geometry.y[k]);
+    if (theta < 0) continue;
+    const Matrix3& Z = rotation_[k].Z;
+    const Matrix3 own = skew(F.segment<3>(theta)) + Z;
+    result_.block<3, 3>(theta, theta) += own;
+    three_.middleRows<3>(theta) = own;
+    Y_.middleCols<3>(theta) = Z;
+    Y_U.topRightCorner<3, 3>() += Z;
+  }
+  Y_.noalias() -= Y_U.topRows<3>() * Sigma_D_;
+  const auto B_0 = Sigma_D_.bottomRows<3>();
+  add_product(result_, three_, B_0, -1);
+  add_transposed_product(result_, B_0, Y_, -1);
+}
+
+/// result = X D
+void SuperelementTangent::multiply_by_D(const View& v, const MatrixX& X) {
+  result_ = X;
+  for (std::size_t k = 0; k < v.body.points.size(); ++k)
+    if (const int theta = v.body.points[k].theta; theta >= 0)
+      result_.middleCols<3>(theta).noalias() = X.middleCols<3>(theta) * rotation_[k].D;
+}
+
+/// result += X blockdiag(u_block, theta_block, 0)
+void SuperelementTangent::add_blocks(const View& v, const MatrixX& X, const Matrix3& u_block,
+                                     Matrix3 RotationBlocks::*theta_block) {
+  for (std::size_t k = 0; k < v.body.points.size(); ++k) {
+    const int u = v.body.points[k].u, theta = v.body.points[k].theta;
+    result_.middleCols<3>(u).noalias() += X.middleCols<3>(u) * u_block;
+    if (theta >= 0) result_.middleCols<3>(theta).noalias() += X.middleCols<3>(theta) * (rotation_[k].*theta_block);
+  }
+}
+
+/// result = D^T result
+void SuperelementTangent::multiply_by_D_transposed(const View& v) {
+  for (std::size_t k = 0; k < v.body.points.size(); ++k)
+    if (const int theta = v.body.points[k].theta; theta >= 0) {
+      const Matrix3 Dt = rotation_[k].D.transpose();
+      for (Eigen::Index j = 0; j < v.n; ++j) {
+        const Vector3 column = result_.block<3, 1>(theta, j);
+        result_.block<3, 1>(theta, j) = Dt * column;
+      }
+    }
+}
+
+/// target += Q^T result Q, with the component's rows and columns.
+void SuperelementTangent::add_to(const View& v, Eigen::Ref<MatrixX> target) {
+  const auto& points = v.body.points;
+  const Eigen::Index modes = v.body.modes, amplitudes = v.state.slots().amplitude_row();
+  const Matrix3 R_0t = v.geometry.frame.R.transpose();
+  const auto for_each_triad = [&](const auto& act) {
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const auto local = static_cast<Eigen::Index>(6 * k);
+      act(points[k].u, local, R_0t);
+      if (points[k].theta >= 0) act(points[k].theta, local + 3, Matrix3(R_0t * v.state.node(static_cast<int>(k)).R));
+    }
+  };
+  for_each_triad([&](int column, Eigen::Index local_column, const Matrix3& Q) {
+    three_.noalias() = result_.middleCols<3>(column) * Q;
+    for_each_triad([&](int row, Eigen::Index local_row, const Matrix3& Q_row) {
+      target.block<3, 3>(local_row, local_column).noalias() += Q_row.transpose() * three_.middleRows<3>(row);
+    });
+    target.block(amplitudes, local_column, modes, 3) += three_.bottomRows(modes);
+  });
+  for_each_triad([&](int row, Eigen::Index local_row, const Matrix3& Q) {
+    target.block(local_row, amplitudes, 3, modes).noalias() +=
+        Q.transpose() * result_.block(row, v.n - modes, 3, modes);
+  });
+  target.block(amplitudes, amplitudes, modes, modes) += result_.bottomRightCorner(modes, modes);
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,203 @@
+#include "mechanism/elements/superelement/superelement_reading.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "mechanism/reading/names.hpp"
+#include "mechanism/reading/read_frame.hpp"
+#include "reduce/common/plausible.hpp"
+#include "reduce/superelement/modal_damping.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+/// How far a node may be from its interface, relative to the body's size: positions are typed with a few digits. What
+/// is left becomes part of the undeformed body, so that it starts without stress.
+constexpr double position_tolerance = 1e-5;
+
+std::string text_of(const Vector3& x) { return fmt::format("[{:.9g}, {:.9g}, {:.9g}]", x.x(), x.y(), x.z()); }
+
+double size_of(const Superelement& body) {
+  double size = std::sqrt(body.inertia.trace() / body.total_mass);
+  for (const Interface& interface : body.interfaces) size = std::max(size, (interface.position - body.centre).norm());
+  return size;
+}
+
+int kept_rotations(const Interface& interface) {
+  return static_cast<int>(std::count(interface.kept.begin() + 3, interface.kept.end(), true));
+}
+
+/// Named nodes must lie where their interfaces are.
+void check_position(const YamlValue& value, const Node& node, const Interface& interface, const Superelement& body,
+                    const Vector3& expected, bool placed) {
+  const double distance = (node.frame.x - expected).norm();
+  if (distance <= position_tolerance * size_of(body)) return;
+  std::string message =
+      fmt::format("node '{}' stands at {}, but interface '{}' of '{}' at {}, {:.3g} m away", node.name,
+                  text_of(node.frame.x), interface.name, body.name, text_of(expected), distance);
+  if (!placed)
+    message += "; the body stands as meshed: `position` and an orientation (such as `rotation_vector`) place it";
+  value.fail(message);
+}
+
+/// A node for an interface that the file names none for.
+int create_node(const std::string& name, const YamlValue& entry, const Interface& interface, const Frame& placement,
+                const Vector6& motion, Model& model) {
+  const auto kept = std::count(interface.kept.begin(), interface.kept.begin() + 3, true);
+  const int rotations = kept_rotations(interface);
+  if (kept != 3 || (rotations != 0 && rotations != 3))
+    entry.fail(
+        fmt::format("interface '{}' leaves some directions of its node free: name a node for it under `nodes` and "
+                    "hold or use those directions there",
+                    interface.name));
+  Node node;
+  node.name = name + "." + interface.name;
+  if (model.find_node(node.name)) entry.fail(fmt::format("there is already a node '{}'", node.name));
+  node.frame = placement * Frame{interface.position, interface.rotation};
+  const Vector3 omega = motion.tail<3>();
+  node.velocity = motion.head<3>() + omega.cross(node.frame.x - placement.x);
+  node.angular_velocity = node.frame.R.transpose() * omega;
+  // Nothing turns a node that carries forces alone.
+  if (rotations == 0) {
+    std::fill(node.freedom.begin() + 3, node.freedom.end(), Freedom::fixed);
+    node.angular_velocity.setZero();
+  }
+  return model.add_node(std::move(node));
+}
+
+}  // namespace
+
+Vector6 rigid_start_motion(const Model& model, const std::vector<int>& nodes, const Vector3& origin, double size) {
+  Matrix6 normal = Matrix6::Zero();
+  Vector6 right = Vector6::Zero();
+  for (const int index : nodes) {
+    if (index < 0) continue;
+    const Node& node = model.node(index);
+    Eigen::Matrix<double, 3, 6> rows;
+    rows << Matrix3::Identity(), -skew(node.frame.x - origin);
+    normal += rows.transpose() * rows;
+    right += rows.transpose() * node.velocity;
+    normal.bottomRightCorner<3, 3>() += size * size * Matrix3::Identity();
+    right.tail<3>() += size * size * (node.frame.R * node.angular_velocity);
+  }
+  if (normal.isZero()) return Vector6::Zero();
+  return normal.ldlt().solve(right);
+}
+
+void check_superelement_keys(const YamlValue& entry) {
+  std::vector<std::string> keys = {"type", "file", "nodes", "position", "damping", "loads", "frame",
+                                   "largest_error"};
+  keys.insert(keys.end(), orientation_keys().begin(), orientation_keys().end());
+  entry.check_keys(keys, "a superelement");
+}
+
+MatrixX read_superelement_damping(const YamlValue& entry, const Superelement& body) {
+  entry.check_keys({"ratio", "rayleigh"}, "the damping");
+  if (entry.has("ratio") == entry.has("rayleigh")) entry.fail("expected either `ratio` or `rayleigh`");
+  if (const auto rayleigh = entry.find("rayleigh")) {
+    if (!rayleigh->is_sequence() || rayleigh->size() != 2)
+      rayleigh->fail("expected [alpha, beta]: alpha [1/s] times the mass plus beta [s] times the stiffness");
+    return rayleigh_damping(body, rayleigh->at(std::size_t{0}).non_negative_number(),
+                            rayleigh->at(std::size_t{1}).non_negative_number());
+  }
+  const YamlValue ratio = entry.at("ratio");
+  std::vector<double> ratios;
+  if (ratio.is_sequence())
+    for (const YamlValue& item : ratio.items()) ratios.push_back(item.non_negative_number());
+  else
+    ratios.push_back(ratio.non_negative_number());
+  for (const double each : ratios) doubt_outside(ratio, each, plausible_damping_ratio);
+  try {
+    return modal_damping(body, ratios);
+  } catch (const InputError& error) {
+    ratio.fail(error.what());
+  }
+}
+
+void read_body_frame(const YamlValue& entry, const Superelement& body, SuperelementPlacement& setup) {
+  if (!entry.is_map()) {
+    const std::string frame = entry.text();
+    const std::vector<std::string> frames = {"mean", "mean_axes"};
+    if (frame != "mean" && frame != "mean_axes")
+      entry.fail(fmt::format("'{}' is no frame of a superelement{}; or {{interface: name}}", frame,
+                             did_you_mean(frame, frames)));
+    setup.frame = frame == "mean" ? BodyFrame::mean : BodyFrame::mean_axes;
+    return;
+  }
+  entry.check_keys({"interface"}, "the frame of a superelement");
+  const YamlValue value = entry.at("interface");
+  const std::string name = value.text();
+  std::vector<std::string> interfaces;
+  for (const Interface& interface : body.interfaces) interfaces.push_back(interface.name);
+  const auto found = std::find(interfaces.begin(), interfaces.end(), name);
+  if (found == interfaces.end())
+    value.fail(fmt::format("'{}' is no interface of '{}'{}", name, body.name, did_you_mean(name, interfaces)));
+  setup.frame = BodyFrame::carried;
+  setup.frame_interface = static_cast<std::size_t>(found - interfaces.begin());
+}
+
+std::vector<SuperelementPlacement::Load> read_superelement_loads(const YamlValue& entry, const Superelement& body) {
+  std::vector<std::string> names;
+  for (const auto& [name, pattern] : body.loads) names.push_back(name);
+  std::vector<SuperelementPlacement::Load> loads;
+  for (const auto& [name, value] : entry.entries()) {
+    if (!body.loads.count(name))
+      value.fail(names.empty()
+                     ? fmt::format("'{}' has no load patterns", body.name)
+                     : fmt::format("'{}' is no load pattern of '{}'{}", name, body.name, did_you_mean(name, names)));
+    SuperelementPlacement::Load load;
+    load.pattern = name;
+    if (value.is_map()) {
+      value.check_keys({"factor", "follower"}, "a load of a superelement");
+      load.factor = value.at("factor").expression({"t"});
+      if (value.has("follower")) load.follows = value.at("follower").boolean();
+    } else {
+      load.factor = value.expression({"t"});
+    }
+    loads.push_back(std::move(load));
+  }
+  return loads;
+}
+
+std::vector<int> read_interface_nodes(const std::string& name, const YamlValue& entry, const Superelement& body,
+                                      const Frame& placement, Model& model) {
+  const bool placed = entry.has("position") || std::any_of(orientation_keys().begin(), orientation_keys().end(),
+                                                           [&](const std::string& key) { return entry.has(key); });
+  std::vector<std::string> interfaces;
+  for (const Interface& interface : body.interfaces) interfaces.push_back(interface.name);
+  std::vector<int> nodes(interfaces.size(), -1);
+  if (const auto named = entry.find("nodes"))
+    for (const auto& [interface, value] : named->entries()) {
+      const auto found = std::find(interfaces.begin(), interfaces.end(), interface);
+      if (found == interfaces.end())
+        value.fail(
+            fmt::format("'{}' is no interface of '{}'{}", interface, body.name, did_you_mean(interface, interfaces)));
+      const auto k = static_cast<std::size_t>(found - interfaces.begin());
+      nodes[k] = node_named_by(value, model);
+      check_position(value, model.node(nodes[k]), body.interfaces[k], body,
+                     (placement * Frame{body.interfaces[k].position, Matrix3::Identity()}).x, placed);
+    }
+  const Vector6 motion = rigid_start_motion(model, nodes, placement.x, size_of(body));
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    if (nodes[k] < 0) nodes[k] = create_node(name, entry, body.interfaces[k], placement, motion, model);
+  return nodes;
+}
+
+SuperelementPlacement place_superelement(std::vector<int> nodes, const Frame& placement, const Model& model) {
+  SuperelementPlacement setup;
+  for (const int index : nodes) {
+    const Node& node = model.node(index);
+    const Frame in_body = inverse(placement) * node.frame;
+    setup.reference_positions.push_back(in_body.x);
+    setup.reference_rotations.push_back(in_body.R);
+    setup.node_names.push_back(node.name);
+  }
+  setup.nodes = std::move(nodes);
+  return setup;
+}
+
+}  // namespace bielle::mechanism

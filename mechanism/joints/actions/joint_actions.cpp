@@ -1,0 +1,122 @@
+#include "mechanism/joints/actions/joint_actions.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "mechanism/joints/actions/joint_lock.hpp"
+#include "mechanism/joints/actions/joint_spring.hpp"
+#include "mechanism/joints/actions/joint_stop.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+const std::vector<std::string> keys = {"stiffness", "damping", "rest", "preload", "stops", "locked"};
+
+/// Of each coordinate, what the keys say: the value itself in a joint with one coordinate, else a map by their names.
+using ByKey = std::map<std::string, YamlValue>;
+
+/// Whether a map names coordinates, rather than being the value of the only one.
+bool names_coordinates(const YamlValue& value, const std::vector<std::string>& names) {
+  if (!value.is_map()) return false;
+  const auto is_name = [&](const auto& item) {
+    return std::find(names.begin(), names.end(), item.first) != names.end();
+  };
+  const auto entries = value.entries();
+  return std::any_of(entries.begin(), entries.end(), is_name);
+}
+
+std::vector<ByKey> sort_by_coordinate(const YamlValue& entry, const Joint& joint) {
+  std::vector<std::string> names;
+  for (const JointCoordinate& each : joint.coordinates()) names.push_back(each.name);
+  std::vector<ByKey> sorted(names.size());
+  for (const std::string& key : keys) {
+    const auto value = entry.find(key);
+    if (!value) continue;
+    if (names.empty()) value->fail(fmt::format("a {} joint has no coordinate on which it could act", joint.type()));
+    if (names.size() == 1 && !names_coordinates(*value, names)) {
+      sorted.front().emplace(key, *value);
+      continue;
+    }
+    if (!value->is_map())
+      value->fail(fmt::format("a {} joint has several coordinates: give {{{}: ...}}", joint.type(), names.front()) +
+                  did_you_mean("", names));
+    value->check_keys(names, fmt::format("`{}`, which names coordinates", key));
+    for (const auto& [name, of_coordinate] : value->entries())
+      sorted[joint.coordinate_index(name)].emplace(key, of_coordinate);
+  }
+  return sorted;
+}
+
+std::optional<YamlValue> find(const ByKey& values, const std::string& key) {
+  const auto found = values.find(key);
+  return found == values.end() ? std::nullopt : std::optional(found->second);
+}
+
+void read_spring(const ByKey& values, const Joint& joint, std::size_t coordinate, Model& model) {
+  const auto stiffness = find(values, "stiffness"), damping = find(values, "damping"), rest = find(values, "rest"),
+             preload = find(values, "preload");
+  if (rest && !stiffness) rest->fail("is where a spring is free: give its `stiffness`, too");
+  if (!stiffness && !damping && !preload) return;
+  auto spring = std::make_unique<JointSpring>(joint.name(), joint, coordinate, rest ? rest->number() : 0,
+                                              preload ? preload->number() : 0);
+  model.when_read(Model::Stage::formulas, [spring = spring.get(), stiffness, damping, &model] {
+    if (stiffness) spring->read(*stiffness, false, model);
+    if (damping) spring->read(*damping, true, model);
+  });
+  model.add(std::move(spring), Entry{Section::joints, joint.name()});
+}
+
+StopRange read_stop_range(const YamlValue& entry) {
+  entry.check_keys({"range", "stiffness", "damping"}, "`stops`");
+  const YamlValue range = entry.at("range");
+  if (!range.is_sequence() || range.size() != 2) range.fail("expected [lower, upper]");
+  // One end may be left open: `~`.
+  const auto end = [&](std::size_t k, double open) { return range.at(k).is_null() ? open : range.at(k).number(); };
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  StopRange stops{end(0, -infinity), end(1, infinity), entry.at("stiffness").positive_number(), 0};
+  if (!(stops.lower < stops.upper)) range.fail("expected the lower end first, and a range between the two");
+  if (stops.lower == -infinity && stops.upper == infinity) range.fail("both ends are open: these are no stops");
+  if (const auto damping = entry.find("damping")) stops.damping = damping->non_negative_number();
+  return stops;
+}
+
+LockTimes read_lock_times(const YamlValue& entry) {
+  if (entry.is_scalar() && !entry.is_null() && entry.boolean()) return {};  // all the time
+  if (!entry.is_map()) entry.fail("expected `true`, or times: {from, to, release}");
+  entry.check_keys({"from", "to", "release"}, "`locked`");
+  LockTimes times;
+  if (const auto from = entry.find("from")) times.from = from->non_negative_number();
+  if (const auto to = entry.find("to")) {
+    times.to = to->number();
+    if (times.to <= times.from) to->fail("expected a time after `from`");
+  }
+  if (const auto release = entry.find("release")) times.release = release->positive_number();
+  return times;
+}
+
+}  // namespace
+
+std::vector<std::string> joint_action_keys() { return keys; }
+
+void read_joint_actions(const YamlValue& entry, Joint& joint, Model& model) {
+  const Entry of_joint{Section::joints, joint.name()};
+  const std::vector<ByKey> sorted = sort_by_coordinate(entry, joint);
+  for (std::size_t k = 0; k < sorted.size(); ++k) {
+    read_spring(sorted[k], joint, k, model);
+    if (const auto stops = find(sorted[k], "stops")) {
+      if (joint.coordinates()[k].kind == JointCoordinate::Kind::rotation)
+        stops->fail("a component of a rotation vector has no stops; take a joint with angles");
+      model.add(std::make_unique<JointStop>(joint.name(), joint, k, read_stop_range(*stops)), of_joint);
+    }
+    if (const auto locked = find(sorted[k], "locked")) {
+      model.add(std::make_unique<JointLock>(joint.name(), joint, k, read_lock_times(*locked)), of_joint);
+      joint.use(k).locked = true;
+    }
+  }
+}
+
+}  // namespace bielle::mechanism

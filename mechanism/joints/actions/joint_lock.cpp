@@ -1,0 +1,88 @@
+#include "mechanism/joints/actions/joint_lock.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "mechanism/model/description.hpp"
+
+namespace bielle::mechanism {
+
+void JointLock::declare(Declaration& declaration) const {
+  declare_references(declaration);
+  Declaration::Scalar row{coordinate().name + " locked", coordinate().force_units()};
+  row.switched = true;
+  declaration.multipliers.push_back(row);
+  declaration.memory = {open, 0};  // status, and the value of the coordinate that is kept
+  if (!std::isfinite(times_.release)) return;
+  Crossing release{coordinate().name + " is released", Crossing::Direction::rising};
+  release.begins_on = -1;
+  declaration.crossings = {release};
+}
+
+double JointLock::distance(const LocalState& state, double value) const {
+  const double away = value - state.memory()[1];
+  return coordinate().kind == JointCoordinate::Kind::angle ? std::remainder(away, 2 * M_PI) : away;
+}
+
+void JointLock::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
+  CoordinateJet& jet = calc(state);
+  add_kept(state, jet, distance(state, jet.principal), r);
+}
+
+void JointLock::add_tangent(const LocalState& state, LocalTangent& tangent) const {
+  if (tangent.wants_K) add_kept_tangent(state, calc(state), tangent);
+}
+
+void JointLock::add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
+                                     Eigen::Ref<VectorX> acceleration) const {
+  const auto [first, second] = calc_kept_rates(state);
+  velocity[0] += first;
+  acceleration[0] += second;
+}
+
+void JointLock::describe(const LocalState& /*state*/, Description& description) const {
+  std::string text = coordinate().name + " locked";
+  if (times_.from > 0) text += fmt::format(" from {:.6g} s", times_.from);
+  if (std::isfinite(times_.to)) text += fmt::format(" to {:.6g} s", times_.to);
+  if (std::isfinite(times_.release))
+    text += fmt::format(", released at {:.6g} {}", times_.release, coordinate().force_units());
+  description.add_line(text);
+}
+
+std::vector<OutputField> JointLock::output_fields() const {
+  return {force_field("lock_force", "force or torque of the lock along the joint's coordinates")};
+}
+
+void JointLock::write_output(const LocalState& state, double* values) const {
+  write_force(-state.multiplier()[0], values);
+}
+
+void JointLock::add_break_points(std::vector<double>& times) const {
+  for (const double time : {times_.from, times_.to})
+    if (std::isfinite(time)) times.push_back(time);
+}
+
+void JointLock::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const {
+  if (values.size() > 0) values[0] = std::abs(state.multiplier()[0]) - times_.release;
+}
+
+bool JointLock::is_due(double time) const { return time >= times_.from && time < times_.to; }
+
+/// Only where steps do not end on break points.
+bool JointLock::leaves_branch(const LocalState& state) const {
+  const double status = state.memory()[0];
+  return status != released && is_due(state.time()) != (status == locked);
+}
+
+void JointLock::begin_branch(const LocalState& state, std::span<const int> crossed, Eigen::Ref<VectorX> memory) const {
+  if (!crossed.empty()) memory[0] = released;
+  if (memory[0] == released) return;
+  const bool now = is_due(state.time());
+  if (now && memory[0] == open) memory[1] = value(state).value;
+  memory[0] = now ? locked : open;
+}
+
+bool JointLock::is_on(const LocalState& state, int /*row*/) const { return state.memory()[0] == locked; }
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,46 @@
+// A coordinate that is locked for a time, at the value that it then has.
+//
+// A constraint q - q_lock = 0 that is switched on and off (Component::is_on). Relative motion at the moment of locking
+// is stopped by an inelastic impulse; the lost energy is dissipated. With `release` the lock opens at a force, even
+// if the force jumps beyond it.
+#pragma once
+
+#include <limits>
+
+#include "mechanism/joints/actions/coordinate_action.hpp"
+
+namespace bielle::mechanism {
+
+struct LockTimes {
+  double from = 0;                                           ///< [s]
+  double to = std::numeric_limits<double>::infinity();       ///< [s]
+  double release = std::numeric_limits<double>::infinity();  ///< force or torque at which it opens for good [N], [N m]
+};
+
+class JointLock final : public CoordinateAction {
+ public:
+  JointLock(std::string name, const Joint& joint, std::size_t coordinate, const LockTimes& times)
+      : CoordinateAction("lock", std::move(name), joint, coordinate), times_(times) {}
+
+  void declare(Declaration& declaration) const override;
+  void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
+  void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
+  void add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
+                            Eigen::Ref<VectorX> acceleration) const override;
+  std::vector<OutputField> output_fields() const override;
+  void write_output(const LocalState& state, double* values) const override;
+  void describe(const LocalState& state, Description& description) const override;
+  void add_break_points(std::vector<double>& times) const override;
+  void calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const override;
+  void begin_branch(const LocalState& state, std::span<const int> crossed, Eigen::Ref<VectorX> memory) const override;
+  bool leaves_branch(const LocalState& state) const override;
+  bool is_on(const LocalState& state, int row) const override;
+
+ private:
+  static constexpr double open = 0, locked = 1, released = 2;  ///< status, in the memory
+  bool is_due(double time) const;
+  double distance(const LocalState& state, double value) const;
+  LockTimes times_;
+};
+
+}  // namespace bielle::mechanism

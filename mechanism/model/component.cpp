@@ -1,0 +1,45 @@
+#include "mechanism/model/component.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "mechanism/model/gatherer.hpp"
+#include "mechanism/model/measure.hpp"
+
+namespace bielle::mechanism {
+
+void Component::add_tangent(const LocalState& /*state*/, LocalTangent& /*tangent*/) const {
+  throw std::logic_error("component type '" + type_ + "' gives no derivatives");
+}
+
+void Component::add_reaction_norm(const LocalState& /*state*/, double arm, Eigen::Ref<MatrixX> H) const {
+  Declaration declaration;
+  declare(declaration);
+  for (Eigen::Index k = 0; k < H.rows(); ++k)
+    H(k, k) += declaration.multipliers[static_cast<std::size_t>(k)].units == "N m" ? 1 / (arm * arm) : 1;
+}
+
+double Component::turning_rate(const LocalState& state) const {
+  double squared = 0;
+  for (std::size_t k = 0; k < state.slots().nodes.size(); ++k)
+    squared = std::max(squared, state.node(static_cast<int>(k)).Omega.squaredNorm());
+  return std::sqrt(squared);
+}
+
+void Component::write_outputs(std::span<const LocalState> states, std::span<double* const> values) const {
+  for (std::size_t k = 0; k < states.size(); ++k) write_output(states[k], values[k]);
+}
+
+std::unique_ptr<Gatherer> Component::make_gatherer() const { return nullptr; }
+
+std::unique_ptr<Measure> Component::make_measure(const std::string& /*name*/, const std::string& measure) const {
+  throw std::logic_error("component type '" + type_ + "' has no measure '" + measure + "'");
+}
+
+void Component::add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX>, Eigen::Ref<VectorX>) const {
+  if (state.slots().multipliers > 0)
+    throw std::logic_error("component type '" + type_ + "' has constraints but gives no rates of them");
+}
+
+}  // namespace bielle::mechanism

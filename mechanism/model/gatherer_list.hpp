@@ -1,0 +1,45 @@
+// Several gatherers of one component as one.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "mechanism/model/gatherer.hpp"
+
+namespace bielle::mechanism {
+
+class GathererList final : public Gatherer {
+ public:
+  explicit GathererList(std::vector<std::unique_ptr<Gatherer>> all) : all_(std::move(all)) {}
+
+  void begin() override {
+    for (const auto& each : all_) each->begin();
+  }
+  void add(const LocalState& state) override {
+    for (const auto& each : all_) each->add(state);
+  }
+  void exchange(Archive& archive) override {
+    for (const auto& each : all_) each->exchange(archive);
+  }
+  std::vector<ResultArray> results() override {
+    std::vector<ResultArray> all;
+    for (const auto& each : all_)
+      for (ResultArray& array : each->results()) all.push_back(std::move(array));
+    return all;
+  }
+  std::string summary() override {
+    std::string text;
+    for (const auto& each : all_) text += each->summary();
+    return text;
+  }
+  std::string what() const override {
+    std::string text;
+    for (const auto& each : all_) text += (text.empty() ? "" : ", ") + each->what();
+    return text;
+  }
+
+ private:
+  std::vector<std::unique_ptr<Gatherer>> all_;
+};
+
+}  // namespace bielle::mechanism

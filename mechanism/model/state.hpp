@@ -1,0 +1,130 @@
+// The state of a mechanism: nodes on R^3 x SO(3), and scalar unknowns.
+#pragma once
+
+#include <vector>
+
+#include "mechanism/math/types.hpp"
+
+namespace bielle::mechanism {
+
+/// A node: position and translational rates are inertial components, rotational rates are body components
+/// (dR/dt = R Omega~).
+struct NodeState {
+  Vector3 x = Vector3::Zero();         ///< position [m]
+  Matrix3 R = Matrix3::Identity();     ///< node axes -> inertial axes
+  Vector3 v = Vector3::Zero();         ///< [m/s]
+  Vector3 Omega = Vector3::Zero();     ///< [rad/s], node axes
+  Vector3 a = Vector3::Zero();         ///< [m/s^2]
+  Vector3 Omegadot = Vector3::Zero();  ///< [rad/s^2], node axes
+};
+
+/// Everything that moves. Restart, results and components read it; only system/ and solvers/ write it.
+struct State {
+  double time = 0;  ///< [s]
+  /// Fraction of the prescribed motions (of nodes, and of joints by drives) that is applied: 1 except within a static
+  /// analysis.
+  double motion_factor = 1;
+  std::vector<NodeState> nodes;
+  VectorX amplitude, amplitude_rate, amplitude_acceleration;  ///< second-order scalars (modes of superelements)
+  VectorX first_order, first_order_rate;                      ///< first-order unknowns y (pressures)
+  VectorX multiplier;                                         ///< lambda: physical reactions
+  VectorX memory;  ///< what components keep from the last accepted step (turns of an angle, bristles)
+  /// Whether each constraint is out of the equations (redundant, or switched off), by multiplier. Its multiplier is
+  /// zero. Empty: none is.
+  std::vector<char> idle;
+  /// Where redundancy leaves multipliers undetermined: those of the reactions of smallest norm
+  /// (solvers/constraints/reaction_norm.hpp). Empty: `multiplier` itself.
+  VectorX reaction;
+};
+
+/// What acts everywhere, as seen by components.
+struct Environment {
+  Vector3 gravity = Vector3::Zero();  ///< [m/s^2], inertial, already multiplied by the load factor
+  double load_factor = 1;             ///< on loads and forces of drives: 1 except in a static analysis
+  bool statics = false;               ///< the load factor takes the place of time, in messages as well
+};
+
+/// Where a component's unknowns stand in the State. Nodes may repeat; the scalars are contiguous.
+///
+/// A component that refers to others sees their unknowns as well: its local vectors are
+///     [ 6 per own node (dx, dTheta) | own amplitudes | own first-order | own multipliers | the whole local vector of
+///       the first component that it refers to | of the second | ... ]
+struct Slots {
+  std::vector<int> nodes;
+  int amplitude_begin = 0, amplitudes = 0;
+  int first_order_begin = 0, first_orders = 0;
+  int multiplier_begin = 0, multipliers = 0;
+  int memory_begin = 0, memories = 0;
+  /// Whether constraint rows must hold along axes that ride on the component's nodes. Rows that may be set aside as
+  /// redundant have to: what a planar linkage repeats is normal to its plane, wherever that plane turns. Otherwise a
+  /// component may choose axes (its forces are the same).
+  bool carried_axes = true;
+  std::vector<const Slots*> references;  ///< of the components that this one refers to, in the order of its declaration
+  std::vector<int> reference_rows;       ///< first local row of each
+  int referenced = 0;                    ///< local rows of all of them together
+  /// Size of the component's local vector.
+  int size() const { return own_size() + referenced; }
+  int own_size() const { return multiplier_row() + multipliers; }
+  int amplitude_row() const { return 6 * static_cast<int>(nodes.size()); }
+  int first_order_row() const { return amplitude_row() + amplitudes; }
+  int multiplier_row() const { return first_order_row() + first_orders; }
+  int reference_row(int k) const { return reference_rows[static_cast<std::size_t>(k)]; }
+  /// Appends the component's view of another. The other's slots must be complete and stay where they are.
+  void refer_to(const Slots& other) {
+    references.push_back(&other);
+    reference_rows.push_back(size());
+    referenced += other.size();
+  }
+};
+
+/// The part of a state that one component sees. A view: cheap, made on the spot, outlived by the state.
+class LocalState {
+ public:
+  using Segment = Eigen::Map<const VectorX>;
+  LocalState(const State& state, const Slots& slots, const Environment& environment)
+      : state_(state), slots_(slots), environment_(environment) {}
+  const State& global() const { return state_; }
+  double time() const { return state_.time; }
+  double motion_factor() const { return state_.motion_factor; }
+  const Environment& environment() const { return environment_; }
+  const Slots& slots() const { return slots_; }
+  const NodeState& node(int k) const {
+    return state_.nodes[static_cast<std::size_t>(slots_.nodes[static_cast<std::size_t>(k)])];
+  }
+  Segment amplitude() const { return {state_.amplitude.data() + slots_.amplitude_begin, slots_.amplitudes}; }
+  Segment amplitude_rate() const { return {state_.amplitude_rate.data() + slots_.amplitude_begin, slots_.amplitudes}; }
+  Segment amplitude_acceleration() const {
+    return {state_.amplitude_acceleration.data() + slots_.amplitude_begin, slots_.amplitudes};
+  }
+  Segment first_order() const { return {state_.first_order.data() + slots_.first_order_begin, slots_.first_orders}; }
+  Segment first_order_rate() const {
+    return {state_.first_order_rate.data() + slots_.first_order_begin, slots_.first_orders};
+  }
+  Segment multiplier() const { return {state_.multiplier.data() + slots_.multiplier_begin, slots_.multipliers}; }
+  /// The multipliers as reported and as forces read them: where redundancy leaves them undetermined, those of the
+  /// reactions of smallest norm.
+  Segment reaction() const {
+    const VectorX& reported = state_.reaction.size() > 0 ? state_.reaction : state_.multiplier;
+    return {reported.data() + slots_.multiplier_begin, slots_.multipliers};
+  }
+  /// Whether the k-th own constraint is out of the equations.
+  bool idle(int k) const {
+    return !state_.idle.empty() && state_.idle[static_cast<std::size_t>(slots_.multiplier_begin + k)] != 0;
+  }
+  /// What the k-th component that this one refers to sees.
+  LocalState of(int k) const { return {state_, *slots_.references[static_cast<std::size_t>(k)], environment_}; }
+  Segment memory() const { return {state_.memory.data() + slots_.memory_begin, slots_.memories}; }
+
+ private:
+  const State& state_;
+  const Slots& slots_;
+  const Environment& environment_;
+};
+
+/// Velocities of all unknowns of a local state, in its layout: zero for first-order unknowns and multipliers.
+/// @param v  (slots().size())
+void get_local_velocities(const LocalState& state, Eigen::Ref<VectorX> v);
+/// The same of accelerations.
+void get_local_accelerations(const LocalState& state, Eigen::Ref<VectorX> a);
+
+}  // namespace bielle::mechanism

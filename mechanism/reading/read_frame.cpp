@@ -1,0 +1,95 @@
+#include "mechanism/reading/read_frame.hpp"
+
+#include <cmath>
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <fmt/format.h>
+
+#include "mechanism/math/rotation_parameters.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+Matrix3 read_quaternion(const YamlValue& value) {
+  const VectorX q = value.vector();
+  if (q.size() != 4) value.fail(fmt::format("expected the four numbers w x y z of a quaternion, found {}", q.size()));
+  const double largest = q.cwiseAbs().maxCoeff();
+  if (largest == 0) value.fail("a quaternion of length zero is no rotation");
+  return rotation_of_quaternion(q / largest);
+}
+
+/// Two of the axes: the first as given, the second made orthogonal to it.
+Matrix3 read_axes(const YamlValue& value) {
+  value.check_keys({"x", "y", "z"}, "`axes`");
+  const std::vector<std::pair<std::string, YamlValue>> entries = value.entries();
+  if (entries.size() != 2)
+    value.fail("expected two of the axes x, y, z: the first as given, the second made orthogonal to it");
+  Matrix3 R = Matrix3::Zero();
+  const auto index = [](const std::string& name) { return name[0] - 'x'; };
+  const int first = index(entries[0].first), second = index(entries[1].first), third = 3 - first - second;
+  R.col(first) = entries[0].second.direction();
+  Vector3 other = entries[1].second.direction();
+  other -= R.col(first) * R.col(first).dot(other);
+  if (other.norm() < 1e-9)
+    value.fail(fmt::format("axis {} is parallel to axis {}", entries[1].first, entries[0].first));
+  R.col(second) = other.normalized();
+  const Vector3 cross = R.col(first).cross(R.col(second));
+  R.col(third) = (second - first + 3) % 3 == 1 ? cross : Vector3(-cross);
+  return R;
+}
+
+/// Files give a few digits: the rotation nearest to the matrix is taken, unless it is farther than rounding explains.
+Matrix3 read_matrix(const YamlValue& value) {
+  constexpr double margin = 1e-3;
+  const Matrix3 given = value.matrix(3, 3);
+  const std::string expected =
+      "expected a rotation matrix, whose columns are the node's axes in inertial components: of length one, orthogonal "
+      "and right-handed";
+  const double fault = (given.transpose() * given - Matrix3::Identity()).cwiseAbs().maxCoeff();
+  if (!(fault <= margin))
+    value.fail(fmt::format("{}; lengths and angles of these are off by up to {:.2g}", expected, fault));
+  if (given.determinant() < 0) value.fail(expected + "; these are left-handed");
+  const Eigen::JacobiSVD<Matrix3> svd(given, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return svd.matrixU() * svd.matrixV().transpose();
+}
+
+}  // namespace
+
+const std::vector<std::string>& orientation_keys() {
+  static const std::vector<std::string> keys = {"rotation_vector", "quaternion", "bryant",   "euler", "axes",
+                                                "matrix",          "rodrigues",  "conformal"};
+  return keys;
+}
+
+Matrix3 read_orientation(const YamlValue& entry) {
+  std::string given;
+  for (const std::string& key : orientation_keys()) {
+    if (!entry.has(key)) continue;
+    if (!given.empty()) entry.fail(fmt::format("has two orientations, `{}` and `{}`", given, key));
+    given = key;
+  }
+  if (given.empty()) return Matrix3::Identity();
+  const YamlValue value = entry.at(given);
+  if (given == "quaternion") return read_quaternion(value);
+  if (given == "axes") return read_axes(value);
+  if (given == "matrix") return read_matrix(value);
+  const Vector3 p = value.vector3();
+  const bool angles = given != "rodrigues" && given != "conformal";
+  constexpr double largest = 1e6;  // more turns leave fewer than ten digits of the last one
+  if (angles && p.cwiseAbs().maxCoeff() > largest)
+    value.fail(fmt::format("angles of more than {:.0e} rad do not tell an orientation any more", largest));
+  if (angles && p.cwiseAbs().maxCoeff() > 2 * M_PI)
+    value.doubt(fmt::format("is {:g} meant? Angles are in radians; 90 degrees are pi/2", p.cwiseAbs().maxCoeff()));
+  if (given == "rotation_vector") return RotationVector::rotation(p);
+  if (given == "bryant") return BryantAngles::rotation(p);
+  if (given == "euler") return EulerAngles::rotation(p);
+  if (given == "rodrigues") return RodriguesVector::rotation(p);
+  return ConformalVector::rotation(p);
+}
+
+Frame read_frame(const YamlValue& entry) {
+  return {entry.has("position") ? Vector3(entry.at("position").vector3()) : Vector3::Zero(), read_orientation(entry)};
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,114 @@
+#include "mechanism/solvers/dynamics/crossing_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bielle::mechanism {
+namespace {
+
+double side_of(double value) { return value > 0 ? 1 : value < 0 ? -1 : 0; }
+
+}  // namespace
+
+CrossingWatch::CrossingWatch(const System& system) : system_(system) {
+  const auto count = static_cast<Eigen::Index>(system.crossings().size());
+  for (VectorX* vector : {&sides_, &at_start_, &at_low_, &at_high_, &weight_}) vector->setZero(count);
+  last_end_.assign(system.crossings().size(), 0);
+  for (Eigen::Index k = 0; k < sides_.size(); ++k)
+    sides_[k] = system.crossings()[static_cast<std::size_t>(k)].crossing.begins_on;
+}
+
+std::vector<int> CrossingWatch::begin(const State& state, const Environment& environment) {
+  system_.calc_crossings(state, environment, at_start_);
+  std::vector<int> jumped;
+  for (int k = 0; k < static_cast<int>(sides_.size()); ++k) {
+    const double side = side_of(at_start_[k]);
+    if (side == 0) continue;
+    if (side == -sides_[k] && counts(k)) jumped.push_back(k);
+    sides_[k] = side;
+  }
+  return jumped;
+}
+
+bool CrossingWatch::counts(int k) const {
+  using Direction = Crossing::Direction;
+  const Direction direction = system_.crossings()[static_cast<std::size_t>(k)].crossing.direction;
+  return direction == Direction::both || (direction == Direction::rising) == (sides_[k] < 0);
+}
+
+bool CrossingWatch::has_crossed(int k, double value) const {
+  const double side = sides_[k];
+  if (side == 0 || side * value > 0) return false;
+  // A value of zero at the start has no other side to come from: the sign tells where the motion is.
+  if (value == 0 && at_start_[k] == 0) return false;
+  return counts(k);
+}
+
+void CrossingWatch::collect(const VectorX& values, std::vector<int>& crossed) const {
+  crossed.clear();
+  for (int k = 0; k < static_cast<int>(values.size()); ++k)
+    if (has_crossed(k, values[k])) crossed.push_back(k);
+}
+
+bool CrossingWatch::found(const State& end, const Environment& environment, double h, double tolerance) {
+  system_.calc_crossings(end, environment, at_high_);
+  collect(at_high_, crossed_);
+  low_ = 0;
+  high_ = h;
+  at_low_ = at_start_;
+  weight_.setOnes();
+  std::fill(last_end_.begin(), last_end_.end(), 0);
+  tolerance_ = tolerance;
+  return !crossed_.empty();
+}
+
+bool CrossingWatch::located() const {
+  const double width = high_ - low_;
+  if (width <= tolerance_) return true;
+  double farthest = 0;  // by the secant
+  for (const int k : crossed_)
+    farthest = std::max(farthest, width * std::abs(at_high_[k]) / (std::abs(at_high_[k]) + std::abs(at_low_[k])));
+  // Where a value is zero at both ends, the secant knows nothing.
+  return farthest <= tolerance_;
+}
+
+double CrossingWatch::proposal() const {
+  const double width = high_ - low_;
+  double earliest = high_;
+  for (const int k : crossed_) {
+    const double low = std::abs(weight_[k] * at_low_[k]), high = std::abs(at_high_[k]);
+    const bool secant = low > 0 && side_of(at_low_[k]) != side_of(at_high_[k]);
+    earliest = std::min(earliest, low_ + (secant ? low / (low + high) : 0.5) * width);
+  }
+  // A little past the zero, where the step is to end, and away from the ends of the bracket, so that both move.
+  const double least = std::min(1e-3 * width, 0.5 * tolerance_);
+  return std::clamp(earliest + 0.5 * tolerance_, low_ + least, high_ - least);
+}
+
+void CrossingWatch::narrow(const State& end, const Environment& environment, double h) {
+  VectorX values(at_high_.size());
+  system_.calc_crossings(end, environment, values);
+  std::vector<int> crossed;
+  collect(values, crossed);
+  const bool behind = !crossed.empty();
+  // An end that stays for a second time counts half.
+  for (const int k : behind ? crossed : crossed_) {
+    int& last = last_end_[static_cast<std::size_t>(k)];
+    const int moved = behind ? 1 : -1;
+    if (last == moved) weight_[k] *= behind ? 0.5 : 2;
+    if (last != moved) weight_[k] = 1;
+    last = moved;
+  }
+  (behind ? high_ : low_) = h;
+  (behind ? at_high_ : at_low_) = values;
+  if (behind) crossed_ = crossed;
+}
+
+std::vector<int> CrossingWatch::pass() {
+  for (const int k : crossed_) sides_[k] = -sides_[k];
+  return crossed_;
+}
+
+void CrossingWatch::exchange(Archive& archive) { archive(sides_); }
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,351 @@
+#include "mechanism/solvers/dynamics/march.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "mechanism/solvers/constraints/redundancy.hpp"
+#include "reduce/common/error.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+/// The size for the next step after one of size h with this error over tolerance.
+double proposed_size(double h, double error, double largest) {
+  const double factor = 0.9 * std::cbrt(1 / std::max(error, 1e-6));
+  if (error > 1) return h * std::clamp(factor, 0.1, 0.9);
+  if (factor > 0.9 && factor < 1.25) return h;
+  return std::min(h * std::clamp(factor, 0.5, 2.0), largest);
+}
+
+}  // namespace
+
+void MarchLog::exchange(Archive& archive) {
+  for (long* count :
+       {&steps, &iterations, &factorisations, &shortened, &refused_by_error, &refused_by_newton, &crossings})
+    archive(*count);
+  for (double* value : {&smallest, &largest, &most_iterations_at}) archive(*value);
+  archive(most_iterations);
+  archive(slowest_equation);
+}
+
+MarchLog MarchLog::followed_by(const MarchLog& next) const {
+  MarchLog both = next.most_iterations > most_iterations ? next : *this;  // the hardest step of the two
+  both.steps = steps + next.steps;
+  both.iterations = iterations + next.iterations;
+  both.factorisations = factorisations + next.factorisations;
+  both.shortened = shortened + next.shortened;
+  both.refused_by_error = refused_by_error + next.refused_by_error;
+  both.refused_by_newton = refused_by_newton + next.refused_by_newton;
+  both.crossings = crossings + next.crossings;
+  both.smallest = smallest > 0 && next.smallest > 0 ? std::min(smallest, next.smallest) : smallest + next.smallest;
+  both.largest = std::max(largest, next.largest);
+  both.hardest = next.hardest.empty() ? hardest : next.hardest;
+  return both;
+}
+
+/// Where steps have to end: the grid of fixed steps, kinks, and the end.
+class March::Stops {
+ public:
+  Stops(double begin, double end, const StepOptions& options)
+      : begin_(begin), end_(end), rounding_(1e-9 * options.size), kinks_(options.break_points) {
+    std::sort(kinks_.begin(), kinks_.end());
+    if (options.tolerance > 0) return;
+    steps_ = std::max(1L, std::lround((end - begin) / options.size));
+    size_ = (end - begin) / static_cast<double>(steps_);
+  }
+
+  /// Moves on to the first stop after the given time.
+  void advance(double time) {
+    while (kink_ < kinks_.size() && kinks_[kink_] <= time + rounding_) ++kink_;
+    stop_ = end_;
+    if (steps_ > 0) {
+      while (k_ <= steps_ && grid(k_) <= time + rounding_) ++k_;
+      stop_ = grid(k_);
+    }
+    at_kink_ = kink_ < kinks_.size() && kinks_[kink_] <= stop_ + rounding_;
+    // A kink at a stop, up to rounding, is that stop.
+    if (at_kink_ && kinks_[kink_] < stop_ - rounding_) stop_ = kinks_[kink_];
+  }
+  double time() const { return stop_; }
+  bool at_kink() const { return at_kink_; }
+  bool on_grid() const { return steps_ == 0 || stop_ == grid(k_); }
+  double step_size() const { return size_; }  ///< of the grid
+
+ private:
+  /// Counted, not summed: the last step ends on the end.
+  double grid(long k) const { return k >= steps_ ? end_ : begin_ + static_cast<double>(k) * size_; }
+  double begin_, end_, rounding_, size_ = 0, stop_ = 0;
+  long steps_ = 0, k_ = 1;  ///< of the grid; 0: there is none
+  std::vector<double> kinks_;
+  std::size_t kink_ = 0;
+  bool at_kink_ = false;
+};
+
+March::March(TimeIntegration& integration, double begin, double end, StepOptions options)
+    : integration_(integration),
+      end_(end),
+      options_(std::move(options)),
+      norm_(integration.system(), integration.environment(), integration.state()),
+      watch_(integration.system()) {
+  const bool adaptive = options_.tolerance > 0;
+  stops_ = std::make_unique<Stops>(begin, end, options_);
+  stops_->advance(integration.state().time);
+  size_ = adaptive ? std::min(options_.size, options_.largest) : stops_->step_size();
+  smallest_ = adaptive ? 1e-10 * (end - begin) : size_ / 1024;
+  const std::vector<double>& kinks = options_.break_points;
+  if (std::find(kinks.begin(), kinks.end(), begin) != kinks.end()) pending_ = Pending::branch;
+}
+
+March::~March() = default;
+
+bool March::done() const { return stopped_ || integration_.state().time >= end_; }
+
+void March::exchange(Archive& archive) {
+  auto pending = static_cast<int>(pending_);
+  archive(pending);
+  pending_ = static_cast<Pending>(pending);
+  archive(size_);
+  MarchLog whole = before_.followed_by(log_);
+  whole.exchange(archive);
+  if (archive.restoring()) {
+    before_ = whole;
+    log_ = {};
+  }
+  norm_.exchange(archive);  // with fixed steps as well: adaptive ones may go on where they ended
+  watch_.exchange(archive);
+  VectorX crossed = VectorX::Zero(static_cast<Eigen::Index>(integration_.system().crossings().size()));
+  for (const int k : crossed_) crossed[k] = 1;
+  archive(crossed);
+  crossed_.clear();
+  for (int k = 0; k < static_cast<int>(crossed.size()); ++k)
+    if (crossed[k] != 0) crossed_.push_back(k);
+  archive(stopped_);
+  archive(last_crossing_);
+  archive(crossings_at_once_);
+  stops_->advance(integration_.state().time);
+}
+
+void March::begin_branch(double h) {
+  const Jump jump = integration_.begin_branch(h, crossed_);
+  if (jump_listener_) jump_listener_(jump);
+}
+
+void March::begin_step(MarchStep& step) {
+  const double h = std::min(size_, stops_->time() - integration_.state().time);
+  const bool jumps = pending_ == Pending::start || pending_ == Pending::branch;
+  if (pending_ == Pending::start) integration_.start(h);
+  if (pending_ == Pending::restart) integration_.restart(h);
+  if (pending_ == Pending::branch) begin_branch(h);
+  pending_ = Pending::nothing;
+  if (!watch_.idle()) {
+    std::vector<int> jumped = watch_.begin(integration_.state(), integration_.environment());
+    // On which side of its zero that is which has just been met, rounding tells.
+    std::erase_if(jumped, [&](int k) { return std::find(crossed_.begin(), crossed_.end(), k) != crossed_.end(); });
+    if (jumps) pass_jumps(h, std::move(jumped), step);
+  }
+  crossed_.clear();
+}
+
+/// Crossings that were jumped over at a discontinuity: they may begin further branches there.
+void March::pass_jumps(double h, std::vector<int> jumped, MarchStep& step) {
+  constexpr int most = 100;
+  for (int k = 0; !jumped.empty(); ++k) {
+    if (k == most) throw_chattering(jumped.front());
+    crossed_.clear();
+    note(jumped, step);
+    const bool restarts = pending_ == Pending::branch;
+    pending_ = Pending::nothing;
+    if (stopped_ || !restarts) return;
+    begin_branch(h);
+    jumped = watch_.begin(integration_.state(), integration_.environment());
+  }
+}
+
+StepReport March::attempt(double h, double end, bool kink) {
+  const StepReport report = integration_.attempt(h, end, kink);
+  log_.iterations += report.iterations;
+  log_.factorisations += report.factorisations;
+  log_.shortened += report.shortened;
+  return report;
+}
+
+/// Where the attempted step holds a crossing: attempts shorter ones until it ends just past the first.
+/// @returns the size of that step, or 0 where it holds none, or where a shorter step failed (the report then says why)
+double March::locate(double time, StepReport& report) {
+  const double h = report.size;
+  // Far below the error of the steps, far above rounding.
+  const double tolerance = std::max(1e-10 * h, 16 * std::numeric_limits<double>::epsilon() * std::abs(time));
+  if (watch_.idle() || !watch_.found(integration_.attempted(), integration_.environment(), h, tolerance)) return 0;
+  constexpr int most = 60;  // bisection alone takes some 35
+  integration_.share_factors(true);
+  double last = h;
+  for (int k = 0; k < most && !watch_.located(); ++k) {
+    last = watch_.proposal();
+    if (k == 0) integration_.change_step(last);
+    report = attempt(last, time + last, false);
+    if (!report.converged()) break;
+    watch_.narrow(integration_.attempted(), integration_.environment(), last);
+  }
+  // The last attempt may have ended before the crossing.
+  if (report.converged() && last != watch_.behind()) report = attempt(watch_.behind(), time + watch_.behind(), false);
+  integration_.share_factors(false);
+  return report.converged() ? watch_.behind() : 0;
+}
+
+/// What the crossings at the end of an accepted step ask for.
+void March::pass_crossings(MarchStep& step) {
+  const double time = integration_.state().time;
+  crossings_at_once_ = time - last_crossing_ <= 1e-7 * size_ ? crossings_at_once_ + 1 : 0;
+  last_crossing_ = time;
+  const std::vector<int> passed = watch_.pass();
+  constexpr long most = 1000;
+  if (crossings_at_once_ > most) throw_chattering(passed.front());
+  note(passed, step);
+}
+
+void March::throw_chattering(int crossing) const {
+  throw ComputationError(fmt::format(
+      "t = {:.6g} s: {} is met again and again without the motion going on; give the contact some compliance, or the "
+      "switch some hysteresis",
+      integration_.state().time, integration_.system().crossings()[static_cast<std::size_t>(crossing)].name));
+}
+
+void March::note(const std::vector<int>& passed, MarchStep& step) {
+  const double time = integration_.state().time;
+  for (const int k : passed) {
+    const Crossing& crossing = integration_.system().crossings()[static_cast<std::size_t>(k)].crossing;
+    step.passed.push_back({time, k});
+    crossed_.push_back(k);
+    ++log_.crossings;
+    if (crossing.stops) stopped_ = true;
+    if (crossing.restarts) pending_ = Pending::branch;
+  }
+}
+
+void March::refuse_by_newton(double h, const StepReport& report) {
+  ++log_.refused_by_newton;
+  log_.hardest = report.refusal;
+  size_ = h / 2;
+  if (size_ >= smallest_) return;
+  const std::string singular =
+      describe_singularity(integration_.system(), integration_.environment(), integration_.state());
+  throw ComputationError(fmt::format("{}; steps down to {:.3g} s have been tried{}{}", report.refusal, h,
+                                     singular.empty() ? "" : "; ", singular));
+}
+
+void March::refuse_by_error(double h, double error) {
+  ++log_.refused_by_error;
+  size_ = proposed_size(h, error, options_.largest);
+  if (size_ < smallest_)
+    throw ComputationError(
+        fmt::format("t = {:.6g} s: the local error stays {:.3g} times the tolerance with a step of {:.3g} s",
+                    integration_.state().time, error, h));
+}
+
+March::Plan March::plan() const {
+  Plan plan;
+  plan.begin = integration_.state().time;
+  const double left = stops_->time() - plan.begin;
+  // The last two steps before a stop are of one size: no sliver remains.
+  plan.last = left <= size_ * (1 + 1e-9);
+  plan.size = plan.last ? left : left < 2 * size_ ? left / 2 : size_;
+  plan.end = plan.last ? stops_->time() : plan.begin + plan.size;
+  plan.kink = plan.last && stops_->at_kink();
+  return plan;
+}
+
+/// One step as planned: tried, judged, and cut short at the first crossing within.
+/// @param too_large  errors that were too large one after the other, in this step
+/// @returns whether it is to be accepted; otherwise sizes are smaller
+bool March::try_step(const Plan& plan, int& too_large, Trial& trial) {
+  // The local error falls with the third power of the step. Where it does not do so at once, it is made of what
+  // changes of the step left in the algorithmic accelerations: these are taken anew from equilibrium.
+  constexpr int most = 2;
+  if (too_large >= most)
+    integration_.restart(plan.size);
+  else
+    integration_.change_step(plan.size);
+  trial = Trial{};
+  trial.report = attempt(plan.size, plan.end, plan.kink);
+  if (trial.report.converged()) {
+    if (adaptive()) trial.error = norm_(integration_) / options_.tolerance;
+    trial.error_known = integration_.first_order_error_known();
+    if (trial.error > 1) {
+      tell(Attempt::Outcome::refused_by_error, plan, trial);
+      ++too_large;
+      refuse_by_error(plan.size, trial.error);
+      return false;
+    }
+    trial.crossing = locate(plan.begin, trial.report);
+  }
+  if (trial.report.converged()) return true;
+  trial.error = 0;
+  tell(Attempt::Outcome::refused_by_newton, plan, trial);
+  refuse_by_newton(plan.size, trial.report);
+  return false;
+}
+
+void March::tell(Attempt::Outcome outcome, const Plan& plan, const Trial& trial) const {
+  if (observer_) observer_({outcome, plan.begin + plan.size, trial.report, trial.error});
+}
+
+void March::count(const Plan& plan, const Trial& trial) {
+  ++log_.steps;
+  if (trial.report.iterations > log_.most_iterations) {
+    log_.most_iterations = trial.report.iterations;
+    log_.most_iterations_at = integration_.state().time;
+    log_.slowest_equation = trial.report.worst_equation;
+  }
+  if (plan.kink || trial.crossing > 0) return;
+  log_.smallest = log_.smallest > 0 ? std::min(log_.smallest, plan.size) : plan.size;
+  log_.largest = std::max(log_.largest, plan.size);
+}
+
+/// Where a step has ended on a crossing before its planned end.
+/// @returns whether that counts as a time of the grid
+bool March::pass_grid(const Plan& plan, const Trial& trial) {
+  // A time of the grid that is hardly farther has been reached: so short a step would be nothing but rounding.
+  constexpr double sliver = 1e-3;
+  const bool on_grid = !adaptive() && stops_->on_grid() && stops_->time() < end_ && !stops_->at_kink() &&
+                       stops_->time() - plan.begin - trial.crossing < sliver * stops_->step_size();
+  if (on_grid) stops_->advance(stops_->time());
+  return on_grid;
+}
+
+MarchStep March::advance() {
+  MarchStep step{{}, 0, adaptive(), {}};
+  begin_step(step);
+  if (stopped_) {
+    step.on_grid = false;
+    return step;
+  }
+  int too_large = 0;
+  Trial trial;
+  Plan planned = plan();
+  while (!try_step(planned, too_large, trial)) planned = plan();
+  const bool branch_left = integration_.accept();
+  tell(Attempt::Outcome::accepted, planned, trial);
+  count(planned, trial);
+  step.report = trial.report;
+  step.error = trial.error;
+  if (trial.crossing > 0) pass_crossings(step);
+  if (branch_left) pending_ = Pending::branch;
+  if (trial.crossing > 0 && trial.crossing < planned.size) {
+    step.on_grid = pass_grid(planned, trial);
+    return step;
+  }
+  // A step whose error is not known says nothing for a larger one.
+  if (adaptive())
+    size_ = std::max(trial.error_known ? proposed_size(planned.size, trial.error, options_.largest) : planned.size,
+                     planned.last ? size_ : 0);
+  else
+    size_ = std::min(2 * size_, stops_->step_size());
+  step.on_grid = adaptive() || (planned.last && stops_->on_grid());
+  if (planned.kink) pending_ = Pending::branch;
+  if (planned.last) stops_->advance(stops_->time());
+  return step;
+}
+
+}  // namespace bielle::mechanism

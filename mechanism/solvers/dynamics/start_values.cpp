@@ -1,0 +1,80 @@
+#include "mechanism/solvers/dynamics/start_values.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "mechanism/solvers/start/consistent_accelerations.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+/// Forward differences of the consistent accelerations along the motion: functions of time may not exist before the
+/// start. The step has to be small relative to h only.
+VectorX acceleration_rate(const SchemeStep& step, const Environment& environment, MassSaddle& saddle, double h) {
+  const System& system = step.system();
+  const State& state = step.state();
+  const VectorX &v = step.rates().v, &a = step.rates().a;
+  const double e = 0.05 * h;
+  VectorX ahead[2];
+  for (const int k : {1, 2}) {
+    State shifted = state;
+    shifted.time = state.time + k * e;
+    system.displace(shifted, state, k * e * v + 0.5 * k * k * e * e * a);
+    system.set_rates(shifted, v + k * e * a, a);
+    shifted.first_order = state.first_order + k * e * state.first_order_rate;
+    make_accelerations_consistent(system, environment, shifted, saddle);
+    VectorX unused(system.dofs());
+    ahead[k - 1].resize(system.dofs());
+    system.get_rates(shifted, unused, ahead[k - 1]);
+  }
+  return (4 * ahead[0] - ahead[1] - 3 * a) / (2 * e);
+}
+
+/// Whether accelerations change little within a step. Per kind: they change by less than themselves, or the velocities
+/// by little where accelerations happen to vanish (an oscillator on its way through the middle: h^2 j / v =
+/// (omega h)^2).
+bool resolved(const SchemeStep& step, const VectorX& j, double h) {
+  constexpr double little = 0.01;
+  const System& system = step.system();
+  std::array<double, kind_count> velocity{}, acceleration{}, rate{};
+  for (int i = 0; i < system.dofs(); ++i) {
+    const auto kind = static_cast<std::size_t>(system.kind(i));
+    velocity[kind] = std::max(velocity[kind], std::abs(step.rates().v[i]));
+    acceleration[kind] = std::max(acceleration[kind], std::abs(step.rates().a[i]));
+    rate[kind] = std::max(rate[kind], std::abs(j[i]));
+  }
+  for (std::size_t kind = 0; kind < kind_count; ++kind)
+    if (h * rate[kind] > acceleration[kind] && h * h * rate[kind] > little * velocity[kind]) return false;
+  return true;
+}
+
+}  // namespace
+
+void set_start_values(SchemeStep& step, const Environment& environment, VelocityCorrection& correction, double h) {
+  SchemeStep::Rates& rates = step.rates();
+  MassSaddle& saddle = correction.saddle();
+  step.set_size(h);
+  if (!saddle.serves()) saddle.factor(environment, step.state());
+  rates.j = acceleration_rate(step, environment, saddle, h);
+  if (resolved(step, rates.j, h)) {
+    rates.A = rates.a + step.scheme().delta() * h * rates.j;
+    correction.add_offset(step, rates.j, h * h);
+    step.set_rates();
+  }
+  saddle.serve_no_more();
+}
+
+void change_step_size(SchemeStep& step, VelocityCorrection& correction, double h) {
+  SchemeStep::Rates& rates = step.rates();
+  const double before = step.size();
+  if (resolved(step, rates.j, std::max(h, before))) {
+    rates.A += step.scheme().delta() * (h - before) * rates.j;
+    correction.add_offset(step, rates.j, h * h - before * before);
+    correction.saddle().serve_no_more();
+    step.set_rates();
+  }
+  step.set_size(h);
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,234 @@
+#include "mechanism/solvers/dynamics/step_newton.hpp"
+
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace bielle::mechanism {
+namespace {
+
+/// Steps after which the rounding of residuals is measured again.
+constexpr int floor_lasts = 64;
+
+/// What a factorisation with its tangent costs, in iterations with old factors (2.5 to 5 for chains of rigid and
+/// elastic links).
+constexpr double factorisation_cost = 4;
+
+/// Whether old factors will do in a step: at the rate at which they brought a residual from `before` to `now` (over its
+/// tolerance), they need no more further iterations than a factorisation costs.
+bool worthwhile(double before, double now) {
+  constexpr double slowest = 0.5;
+  return now < slowest * before && std::log(now) < factorisation_cost * std::log(before / now);
+}
+
+}  // namespace
+
+StepNewton::StepNewton(const System& system, const Environment& environment, std::unique_ptr<StepEquations> equations,
+                       const NewtonOptions& options)
+    : system_(system),
+      environment_(environment),
+      options_(options),
+      equations_(std::move(equations)),
+      convergence_(system, options),
+      reactions_(system) {
+  for (VectorX* vector : {&r_, &r_evaluated_, &delta_}) vector->setZero(equations_->size());
+}
+
+void StepNewton::begin_anew() {
+  equations_->choose_pivots_anew();
+  reactions_.begin_anew();
+  factored_for_ = 0;
+  floor_age_ = never_measured;
+  measures_ = false;
+}
+
+void StepNewton::begin(const State& state) {
+  ++floor_age_;
+  equations_->begin(state, environment_);
+}
+
+void StepNewton::evaluate(SchemeStep& step, StepReport& report) {
+  ++report.evaluations;
+  step.show();
+  h_ = step.trial_size();
+  ResidualScale scale;
+  reactions_.balance(environment_, step.trial());
+  equations_->calc_residual(step.trial(), environment_, r_evaluated_, scale);
+  r_.swap(r_evaluated_);
+  scale_ = scale;
+}
+
+double StepNewton::size_of_residual() { return convergence_.size_of(equations_->judged(r_, h_)); }
+
+void StepNewton::factor(SchemeStep& step, StepReport& report) {
+  factored_for_ = 0;
+  equations_->factor(step, environment_);
+  factored_for_ = step.trial_size();
+  ++report.factorisations;
+  if (floor_age_ < floor_lasts && same_size(step.size(), step.trial_size())) return;
+  // With the accepted state's multipliers: what a trial starts from may be far off.
+  convergence_.measure_rounding(equations_->linear(), step.state());
+  floor_age_ = 0;
+}
+
+void StepNewton::solve_with_factors(StepReport& report) {
+  ++report.solutions;
+  equations_->solve(r_, delta_);
+}
+
+void StepNewton::move_and_follow(SchemeStep& step, double part) {
+  equations_->move(step, delta_, part);
+  equations_->follow(step);
+}
+
+void StepNewton::solve(SchemeStep& step, StepReport& report) {
+  for (;; improve(step, report)) {
+    if (reached(step, report)) break;
+    if (report.iterations == options_.iterations || !finite(report)) {
+      within_tolerance();
+      report.refusal = fmt::format("t = {:.6g} s: Newton did not converge (iterations: {}); largest residual: {}",
+                                   step.trial().time, report.iterations, convergence_.worst());
+      factored_for_ = 0;
+      break;
+    }
+  }
+  if (report.converged()) {
+    // What is left so far below the tolerance does no harm.
+    constexpr double little = 0.03;
+    if (options_.reuse_tangent && convergence_.worst_ratio() > little) polish(step, report);
+    step.check_turns();
+    judge_factors(report);
+  }
+  report.worst_equation = convergence_.worst_equation();
+  report.worst_residual = convergence_.worst_residual();
+  report.worst_ratio = convergence_.worst_ratio();
+}
+
+/// Factors have served their time when a step with them takes more than steps have taken on the average since they were
+/// made, their own cost included: from there on that average would grow.
+void StepNewton::judge_factors(const StepReport& report) {
+  if (report.factorisations > 0) {
+    spent_ = factorisation_cost;
+    served_ = 0;
+  }
+  spent_ += report.iterations;
+  ++served_;
+  if (report.factorisations == 0 && report.iterations * served_ > spent_) factored_for_ = 0;
+}
+
+void StepNewton::explain(SchemeStep& step, StepReport& report) {
+  factored_for_ = 0;
+  h_ = step.trial_size();
+  if (report.iterations <= 1) return;
+  within_tolerance();
+  report.refusal += "; before the iteration went there the largest residual was: " + convergence_.worst();
+}
+
+/// Where a full step made the residual larger than it was `before`, or was refused: shorter ones, if they make it
+/// smaller.
+void StepNewton::shorten(SchemeStep& step, double before, std::exception_ptr refusal, StepReport& report) {
+  const double full = size_;
+  double part = 1;
+  for (const double shorter : {0.5, 0.25, 0.125}) {
+    move_and_follow(step, shorter - part);
+    part = shorter;
+    try {
+      evaluate(step, report);
+      size_ = size_of_residual();
+    } catch (const ComputationError&) {
+      continue;
+    }
+    if (size_ < before) {
+      ++report.shortened;
+      return;
+    }
+  }
+  if (refusal) {
+    move_and_follow(step, -part);
+    evaluate(step, report);
+    std::rethrow_exception(refusal);
+  }
+  // Newton's method may have to pass over a hill.
+  move_and_follow(step, 1 - part);
+  evaluate(step, report);
+  size_ = full;
+}
+
+/// Where forces have kinks, the tangent may be of the other side: there the residual has to become smaller indeed.
+void StepNewton::polish(SchemeStep& step, StepReport& report) {
+  solve_with_factors(report);
+  equations_->move(step, delta_, 1);
+  if (!system_.has_kinks()) {
+    step.show();
+    return;
+  }
+  const double before = size_of_residual();
+  try {
+    evaluate(step, report);
+    if (size_of_residual() <= before) return;
+  } catch (const ComputationError&) {
+    // refused: not there, then
+  }
+  move_and_follow(step, -1);
+  evaluate(step, report);
+}
+
+/// An iteration of Newton's method.
+void StepNewton::improve(SchemeStep& step, StepReport& report) {
+  // Late in a step that is hard to solve, old factors are not to blame.
+  const bool renew = !options_.reuse_tangent || !same_size(step.trial_size(), factored_for_, factors_serve_within_) ||
+                     report.iterations >= options_.iterations / 2;
+  if (renew) factor(step, report);
+  if (renew || report.iterations == 0) convergence_.measure_terms(equations_->linear(), step.trial());
+  if (report.iterations == 0) {
+    convergence_.measure_by(scale_);
+    measures_ = true;
+    size_ = size_of_residual();
+  }
+  solve_with_factors(report);
+  ++report.iterations;
+  const double before = size_before_ = size_;
+  equations_->move(step, delta_, 1);
+  std::exception_ptr refusal;
+  try {
+    evaluate(step, report);
+    size_ = size_of_residual();
+  } catch (const ComputationError&) {
+    // A component refuses what it is asked for (a beam whose ends turn too far).
+    if (renew && !options_.line_search) throw;
+    refusal = std::current_exception();
+    size_ = std::numeric_limits<double>::infinity();
+  }
+  if (!renew && !worthwhile(before, size_)) {
+    factored_for_ = 0;
+    if (size_ < before) return;
+    // The old tangent led astray.
+    move_and_follow(step, -1);
+    evaluate(step, report);
+    size_ = size_of_residual();
+    return;
+  }
+  if (options_.line_search && !(size_ <= before)) shorten(step, before, refusal, report);
+}
+
+bool StepNewton::reached(const SchemeStep& step, const StepReport& report) {
+  if (report.iterations == 0) return false;
+  // Where nothing more is gained, what is left may be rounding.
+  const bool stalled = report.iterations >= 3 && !(size_ < 0.5 * size_before_);
+  if (!stalled && convergence_.out_of_reach(size_, scale_)) return false;
+  if (within_tolerance()) return true;
+  // The forces may have grown since their rounding was measured.
+  if (!stalled || floor_age_ == 0) return false;
+  convergence_.measure_rounding(equations_->linear(), step.trial());
+  floor_age_ = 0;
+  return within_tolerance();
+}
+
+bool StepNewton::within_tolerance() { return convergence_.reached(equations_->judged(r_, h_), scale_); }
+
+/// No number among the residuals makes their size infinite; before the first iteration there is no size.
+bool StepNewton::finite(const StepReport& report) const {
+  return report.iterations == 0 ? r_.allFinite() : std::isfinite(size_);
+}
+
+}  // namespace bielle::mechanism

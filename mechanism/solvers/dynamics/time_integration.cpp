@@ -1,0 +1,211 @@
+#include "mechanism/solvers/dynamics/time_integration.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "mechanism/solvers/constraints/redundancy.hpp"
+#include "mechanism/solvers/dynamics/stabilised_equations.hpp"
+#include "mechanism/solvers/dynamics/start_values.hpp"
+#include "mechanism/solvers/start/consistent_accelerations.hpp"
+#include "mechanism/solvers/start/consistent_start.hpp"
+#include "mechanism/solvers/start/consistent_velocities.hpp"
+#include "mechanism/solvers/start/massless_balance.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+/// Distance from a kink at which its two sides are told apart in spite of rounding [s].
+double just_off(double time, double h) {
+  return 1e-12 * h + 8 * std::numeric_limits<double>::epsilon() * std::abs(time);
+}
+
+std::unique_ptr<StepEquations> equations_of(const System& system, ConstraintForm form) {
+  if (form == ConstraintForm::stabilised && system.multipliers() > 0)
+    return std::make_unique<StabilisedEquations>(system);
+  return std::make_unique<StepEquations>(system);
+}
+
+}  // namespace
+
+TimeIntegration::TimeIntegration(const System& system, const Environment& environment, const Scheme& scheme,
+                                 State state, ConstraintForm form, const NewtonOptions& options)
+    : system_(system),
+      environment_(environment),
+      step_(system, scheme, std::move(state)),
+      correction_(system, environment_, form),
+      newton_(system, environment_, equations_of(system, form), options),
+      extrapolation_(system.size(), options.extrapolation) {
+  start_report_ = make_consistent(system_, environment_, step_.state());
+  step_.take_rates();
+  system_.accept(step_.state(), environment_);
+  step_.trial() = step_.state();
+  extrapolate_from_here();
+}
+
+TimeIntegration::TimeIntegration(const System& system, const Environment& environment, const Scheme& scheme,
+                                 Archive& archive, ConstraintForm form, const NewtonOptions& options)
+    : system_(system),
+      environment_(environment),
+      step_(system, scheme, system.start(0)),
+      correction_(system, environment_, form),
+      newton_(system, environment_, equations_of(system, form), options),
+      extrapolation_(system.size(), options.extrapolation) {
+  exchange(archive);
+}
+
+void TimeIntegration::exchange(Archive& archive) {
+  step_.exchange(archive);
+  correction_.exchange(archive);
+  extrapolation_.exchange(archive);
+  newton_.begin_anew();
+}
+
+/// Nothing before the accepted state is known any more.
+void TimeIntegration::extrapolate_from_here() {
+  extrapolation_.forget();
+  step_.get_highest(highest_);
+  extrapolation_.add(state().time, highest_);
+}
+
+void TimeIntegration::start(double h) { set_start_values(step_, environment_, correction_, h); }
+
+void TimeIntegration::change_step(double h) {
+  if (!StepNewton::same_size(h, step_.size())) change_step_size(step_, correction_, h);
+}
+
+void TimeIntegration::restart(double h) {
+  const double time = state().time;
+  step_.state().time += just_off(time, h);
+  StartReport unused;
+  start_anew(h, unused);
+  step_.state().time = time;
+  extrapolate_from_here();
+}
+
+void TimeIntegration::start_anew(double h, StartReport& report) {
+  // One factorisation serves all of it.
+  State& state = step_.state();
+  make_velocities_consistent(system_, environment_, state, report, correction_.saddle());
+  make_accelerations_consistent(system_, environment_, state, correction_.saddle());
+  balance_massless(system_, environment_, state, report);
+  step_.take_rates();
+  start(h);
+}
+
+Jump TimeIntegration::begin_branch(double h, const std::vector<int>& crossed) {
+  State& state = step_.state();
+  Jump jump;
+  jump.time = state.time;
+  jump.crossed = crossed;
+  jump.before = system_.energy(state, environment_);
+  state.time += just_off(jump.time, h);
+  system_.begin_branch(state, environment_, crossed);
+  set_redundant_aside(system_, environment_, state);
+  StartReport report;
+  start_anew(h, report);
+  newton_.forget_factors();
+  jump.after = system_.energy(state, environment_);
+  jump.work = report.impulse_work;
+  state.time = jump.time;
+  extrapolate_from_here();
+  return jump;
+}
+
+/// A trial whose accelerations, rates and multipliers are extrapolated, with its residual.
+/// @returns the residual's size; infinite where a component refuses the trial
+double TimeIntegration::begin_trial(double h, double end, int order, StepReport& report) {
+  extrapolation_.calc(order, end, highest_);
+  step_.begin(h, end, highest_);
+  report.order = order;
+  try {
+    newton_.evaluate(step_, report);
+  } catch (const ComputationError&) {
+    if (order == 0) throw;
+    return std::numeric_limits<double>::infinity();
+  }
+  return newton_.measures() ? newton_.size_of_residual() : 0;
+}
+
+void TimeIntegration::choose_start(double h, double end, StepReport& report) {
+  const int order = extrapolation_.order(end);
+  double size = begin_trial(h, end, order, report);
+  const bool measured = newton_.measures();
+  if (!measured || !extrapolation_.wants_choice(size)) {
+    if (measured) extrapolation_.note(size);
+    if (!std::isfinite(size)) begin_trial(h, end, 0, report);
+    return;
+  }
+  // A higher order has to be better by as much as its evaluation and its memory of farther steps cost.
+  constexpr double clearly = 0.7;
+  int best = order;
+  if (order > 0)
+    if (const double other = begin_trial(h, end, order - 1, report); other * clearly <= size) {
+      size = other;
+      best = order - 1;
+    }
+  if (best == order && order < extrapolation_.highest_order(end))
+    if (const double other = begin_trial(h, end, order + 1, report); other < clearly * size) {
+      size = other;
+      best = order + 1;
+    }
+  const bool refused = !std::isfinite(size);
+  if (refused) best = 0;
+  extrapolation_.choose(best, size);
+  if (refused || report.order != best) begin_trial(h, end, best, report);
+}
+
+StepReport TimeIntegration::attempt_from(double h, double end, bool extrapolated) {
+  StepReport report;
+  report.size = h;
+  try {
+    newton_.begin(state());
+    if (extrapolated)
+      choose_start(h, end, report);
+    else
+      begin_trial(h, end, 0, report);
+    newton_.solve(step_, report);
+  } catch (const ComputationError& error) {
+    // A component refuses what it was asked for, or the equations are singular. Nearer to the last state that may not
+    // be so.
+    report.refusal = error.what();
+    newton_.explain(step_, report);
+  }
+  return report;
+}
+
+StepReport TimeIntegration::attempt(double h, double end, bool kink) {
+  end_ = end;
+  const double trial_end = kink ? end - just_off(end, h) : end;
+  const StepReport first = attempt_from(h, trial_end, true);
+  if (first.converged() || first.order == 0) return first;
+  // What is extrapolated may lead astray where unchanged values do not.
+  extrapolation_.choose(0, std::numeric_limits<double>::infinity());
+  StepReport second = attempt_from(h, trial_end, false);
+  second.iterations += first.iterations;
+  second.factorisations += first.factorisations;
+  second.evaluations += first.evaluations;
+  second.solutions += first.solutions;
+  second.shortened += first.shortened;
+  return second;
+}
+
+bool TimeIntegration::accept() {
+  check_set_aside(system_, environment_, step_.trial());
+  step_.take_algorithmic_values();
+  correction_.watch(step_);
+  const bool branch_left = system_.accept(step_.trial(), environment_);
+  step_.trial().time = end_;
+  step_.accept();
+  step_.get_highest(highest_);
+  extrapolation_.add(end_, highest_);
+  return branch_left;
+}
+
+StepReport TimeIntegration::step(double h) {
+  const StepReport report = attempt(h);
+  if (!report.converged()) throw ComputationError(report.refusal);
+  accept();
+  return report;
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,333 @@
+#include "mechanism/solvers/start/consistent_accelerations.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "mechanism/solvers/constraints/reaction_norm.hpp"
+#include "mechanism/solvers/newton/model_length.hpp"
+#include "reduce/common/counted.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+class AccelerationEquations {
+ public:
+  AccelerationEquations(const System& system, const Environment& environment, State& state, MassSaddle& saddle)
+      : system_(system),
+        environment_(environment),
+        state_(state),
+        saddle_(saddle),
+        reactions_(system),
+        length_(model_length(state)),
+        v_(system.dofs()),
+        a_(system.dofs()),
+        r_(system.size()),
+        step_(system.size()),
+        begin_(state.first_order),
+        size_(system.algebraic().size(), 0.0) {
+    system.get_rates(state, v_, a_);
+    a_.setZero();
+    state.multiplier.setZero();
+    state.first_order_rate.setZero();
+    system.set_rates(state, v_, a_);
+    evaluate();
+  }
+
+  /// All unknowns enter linearly.
+  void solve_linear() {
+    if (!saddle_.serves()) return solve_afresh();
+    // Factors of nearby positions: refined until what is left is rounding. (Differences of such accelerations are
+    // taken.)
+    constexpr int most = 20;
+    constexpr double rounding = 1e-11;
+    double before = std::numeric_limits<double>::infinity();
+    for (int iteration = 0; iteration < most; ++iteration) {
+      solve();
+      move(1);
+      const double size = size_of_all();
+      if (size == 0 || (size <= rounding && size > 0.1 * before)) return;
+      if (size > 0.3 * before) break;
+      before = size;
+      evaluate();
+    }
+    evaluate();
+    solve_afresh();
+  }
+
+  void solve_for_algebraic() {
+    constexpr int most = 50;
+    constexpr double accurate = 1e-9;  // the step: what is left after it is its square
+    saddle_.factor(environment_, state_);
+    solve();
+    for (int iteration = 0;; ++iteration) {
+      measure();
+      const double size = size_of_step();
+      if (size <= accurate) return move(1);
+      if (iteration == most || !std::isfinite(size)) throw_unsolved(iteration);
+      shorten(size);
+      saddle_.factor(environment_, state_);
+      solve();
+    }
+  }
+
+  /// Forces depend on multipliers.
+  void solve_with_reactions() {
+    // First as if they did not: with the multipliers of zero in them.
+    saddle_.factor(environment_, state_);
+    const int without = saddle_.determinant_sign();
+    solve();
+    move(1);
+    const VectorX guess = state_.multiplier;
+    const State first = state_;
+    const VectorX a_first = a_;
+    const Search found = search();
+    const State solution = state_;
+    const VectorX a_solution = a_;
+    // Once more from reactions of the opposite sign.
+    state_ = first;
+    a_ = a_first;
+    state_.multiplier = -guess;
+    const Search mirrored = search();
+    if (!found.converged && !mirrored.converged) throw_without_solution();
+    if (found.converged && mirrored.converged) check_same(solution.multiplier, state_.multiplier);
+    if (found.converged) {
+      state_ = solution;
+      a_ = a_solution;
+      system_.set_rates(state_, v_, a_);
+    }
+    if ((found.converged ? found : mirrored).determinant_sign != without)
+      throw_ambiguous("the one found is not the continuation of what there is without such forces");
+  }
+
+ private:
+  void solve_afresh() {
+    saddle_.factor(environment_, state_);
+    solve();
+    move(1);
+    saddle_.serve_no_more();  // those who ask for factors that serve may mean other positions
+  }
+
+  void evaluate() {
+    const int m = system_.multipliers();
+    VectorX velocity(m), acceleration(m);
+    reactions_.balance(environment_, state_);
+    system_.residual(state_, environment_, r_);
+    system_.constraint_rates(state_, environment_, velocity, acceleration);
+    r_.tail(m) = acceleration;
+    system_.for_each_idle(state_, [&](int multiplier) { r_[system_.size() - m + multiplier] = 0; });
+  }
+
+  /// The step of Newton's method with the last factors.
+  void solve() {
+    saddle_.solve(r_, step_);
+    const VectorX& floor = saddle_.floor();
+    if (!(floor.array() > 0).any()) return;
+    // Forces that nothing but the floor balances would be accelerations without end. They equal floor times
+    // acceleration (to the size of the floor everywhere else): take them out.
+    r_.head(system_.dofs()) += floor.cwiseProduct(step_.head(system_.dofs()));
+    saddle_.solve(r_, step_);
+  }
+
+  void move(double part) {
+    const int n = system_.dofs();
+    a_ += part * step_.head(n);
+    system_.set_rates(state_, v_, a_);
+    state_.first_order_rate += part * step_.segment(n, system_.first_orders());
+    for (const int k : system_.algebraic()) {
+      state_.first_order_rate[k] = 0;
+      state_.first_order[k] += part * step_[n + k];
+    }
+    state_.multiplier += part * step_.tail(system_.multipliers());
+  }
+
+  /// The last step relative to what it has led to, by kinds of unknowns.
+  double size_of_all() const {
+    std::array<double, kind_count> step{}, whole{};
+    const auto note = [&](int unknown, double change, double value) {
+      const auto kind = static_cast<std::size_t>(system_.kind(unknown));
+      step[kind] = std::max(step[kind], std::abs(change));
+      whole[kind] = std::max(whole[kind], std::abs(value));
+    };
+    const int n = system_.dofs(), y = system_.first_orders();
+    for (int i = 0; i < n; ++i) note(i, step_[i], a_[i]);
+    for (int i = 0; i < y; ++i)
+      note(n + i, step_[n + i], std::max(std::abs(state_.first_order_rate[i]), std::abs(state_.first_order[i])));
+    for (int i = 0; i < system_.multipliers(); ++i) note(n + y + i, step_[n + y + i], state_.multiplier[i]);
+    // Kinds of which nothing is left are measured by the others: accelerations by the model's length, forces by masses.
+    const auto kind_of = [](Kind kind) { return static_cast<std::size_t>(kind); };
+    double &translation = whole[kind_of(Kind::translation)], &rotation = whole[kind_of(Kind::rotation)],
+           &multiplier = whole[kind_of(Kind::multiplier)];
+    translation = std::max(translation, rotation * length_);
+    rotation = std::max(rotation, translation / length_);
+    multiplier = std::max(multiplier, translation * saddle_.scale());
+    double most = 0;
+    for (std::size_t kind = 0; kind < kind_count; ++kind)
+      if (step[kind] > 0) most = std::max(most, step[kind] / std::max(whole[kind], std::numeric_limits<double>::min()));
+    return most;
+  }
+
+  struct Search {
+    bool converged = false;
+    int determinant_sign = 0;
+  };
+
+  /// Newton's method with the derivatives by multipliers, from where the state is. Steps over kinks are halved where
+  /// the next one would be longer.
+  Search search() {
+    constexpr int most = 50;
+    constexpr double accurate = 1e-11;
+    Search result;
+    try {
+      evaluate();
+      for (int iteration = 0; iteration < most; ++iteration) {
+        if (!saddle_.factor_with_reactions(environment_, state_)) return result;
+        result.determinant_sign = saddle_.determinant_sign();
+        solve();
+        if (!step_.allFinite()) return result;
+        const VectorX full = step_;
+        const State base = state_;
+        const VectorX a_base = a_;
+        const double before = step_.cwiseAbs().dot(weights());
+        for (double part = 1; part > 0.01; part /= 2) {
+          state_ = base;
+          a_ = a_base;
+          step_ = full;
+          move(part);
+          evaluate();
+          solve();
+          if (step_.cwiseAbs().dot(weights()) <= (1 - part / 4) * before) break;
+        }
+        if (size_of_all() <= accurate) {
+          move(1);
+          // The branch that the solution lies on may be another than that of the last factors.
+          if (saddle_.factor_with_reactions(environment_, state_)) result.determinant_sign = saddle_.determinant_sign();
+          result.converged = true;
+          return result;
+        }
+      }
+    } catch (const ComputationError&) {
+      // refused by a component
+    }
+    return result;
+  }
+
+  /// Multipliers alone measure the search: they are what the forces depend on.
+  VectorX weights() const {
+    VectorX weights = VectorX::Zero(system_.size());
+    weights.tail(system_.multipliers()).setOnes();
+    return weights;
+  }
+
+  /// What steps of the algebraic unknowns are compared with: their scales, where the search began, where it is. (From
+  /// zero, without a scale, the step is no smaller than itself.)
+  void measure() {
+    for (std::size_t j = 0; j < size_.size(); ++j) {
+      const int k = system_.algebraic()[j];
+      size_[j] = std::max({std::abs(state_.first_order[k]), std::abs(begin_[k]), system_.scale(system_.dofs() + k)});
+      if (size_[j] == 0) size_[j] = std::abs(step_[system_.dofs() + k]);
+    }
+  }
+
+  double size_of_step() {
+    double most = 0;
+    for (std::size_t j = 0; j < size_.size(); ++j) {
+      const int unknown = system_.dofs() + system_.algebraic()[j];
+      if (step_[unknown] == 0) continue;
+      const double size = std::abs(step_[unknown]) / size_[j];
+      if (size <= most) continue;
+      most = size;
+      worst_ = unknown;
+      if (!std::isfinite(size)) break;
+    }
+    return most;
+  }
+
+  /// Moves by as much of the step as makes the next one, with the same factors, shorter (P. Deuflhard, Newton Methods
+  /// for Nonlinear Problems, 2004, 3.3): nothing else compares residuals of different units.
+  void shorten(double size) {
+    const State base = state_;
+    const VectorX a = a_, step = step_;
+    for (double part = 1; part > 1e-3; part /= 2) {
+      state_ = base;
+      a_ = a;
+      step_ = step;
+      move(part);
+      try {
+        evaluate();
+        solve();
+      } catch (const ComputationError&) {
+        continue;  // refused by a component
+      }
+      if (size_of_step() <= (1 - part / 4) * size) break;
+    }
+    evaluate();
+  }
+
+  [[noreturn]] void throw_unsolved(int iterations) {
+    evaluate();
+    throw ComputationError(
+        fmt::format("t = {:.6g} s: no value was found for {} that satisfies its equation; {:.2g} {} are left after {} "
+                    "of Newton's method",
+                    state_.time, system_.unknown_name(worst_), r_[worst_], system_.equation_units(worst_),
+                    counted(iterations, "iteration")));
+  }
+
+  void check_same(const VectorX& one, const VectorX& other) const {
+    const double size = std::max(one.lpNorm<Eigen::Infinity>(), other.lpNorm<Eigen::Infinity>());
+    Eigen::Index most = 0;
+    if ((one - other).cwiseAbs().maxCoeff(&most) <= 1e-6 * size) return;
+    throw_ambiguous(fmt::format("the multiplier {} may be {:.4g} or {:.4g}",
+                                system_.unknown_name(system_.size() - system_.multipliers() + static_cast<int>(most)),
+                                one[most], other[most]));
+  }
+
+  static constexpr const char* advice =
+      "; such forces (friction) are too strong for rigid parts in this position (Painleve's paradox): give a part or "
+      "the contact some compliance, or make them weaker";
+  [[noreturn]] void throw_ambiguous(const std::string& how) const {
+    throw ComputationError(fmt::format(
+        "t = {:.6g} s: forces that depend on reactions leave more than one solution for the accelerations: {}{}",
+        state_.time, how, advice));
+  }
+  [[noreturn]] void throw_without_solution() const {
+    throw ComputationError(
+        fmt::format("t = {:.6g} s: forces that depend on reactions leave no solution for the accelerations{}",
+                    state_.time, advice));
+  }
+
+  const System& system_;
+  const Environment& environment_;
+  State& state_;
+  MassSaddle& saddle_;
+  ReadReactions reactions_;
+  double length_;
+  VectorX v_, a_, r_, step_;
+  VectorX begin_;             ///< first-order unknowns
+  std::vector<double> size_;  ///< of each algebraic unknown
+  int worst_ = 0;
+};
+
+}  // namespace
+
+void make_accelerations_consistent(const System& system, const Environment& environment, State& state,
+                                   MassSaddle& saddle) {
+  AccelerationEquations equations(system, environment, state, saddle);
+  if (system.reads_reactions())
+    equations.solve_with_reactions();
+  else if (!system.algebraic().empty())
+    equations.solve_for_algebraic();
+  else
+    return equations.solve_linear();
+  saddle.serve_no_more();
+}
+
+void make_accelerations_consistent(const System& system, const Environment& environment, State& state) {
+  MassSaddle saddle(system);
+  make_accelerations_consistent(system, environment, state, saddle);
+}
+
+}  // namespace bielle::mechanism

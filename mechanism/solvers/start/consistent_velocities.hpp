@@ -1,0 +1,19 @@
+// Velocities that keep the constraints satisfied.
+//
+//   [M B^T; B 0][dv; mu] = [0; -dPhi/dt]
+//
+// dv is the least change in the norm of the kinetic energy: what constraints that come into force stop, they stop by an
+// inelastic impulse.
+#pragma once
+
+#include "mechanism/solvers/constraints/mass_saddle.hpp"
+#include "mechanism/solvers/start/start_report.hpp"
+
+namespace bielle::mechanism {
+
+/// Projects the state's velocities on the constraints.
+/// @param saddle  holds the factors of these positions afterwards
+void make_velocities_consistent(const System& system, const Environment& environment, State& state, StartReport& report,
+                                MassSaddle& saddle);
+
+}  // namespace bielle::mechanism

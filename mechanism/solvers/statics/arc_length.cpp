@@ -1,0 +1,283 @@
+#include "mechanism/solvers/statics/arc_length.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "mechanism/solvers/constraints/redundancy.hpp"
+#include "mechanism/solvers/statics/equilibrium.hpp"
+#include "mechanism/solvers/statics/path_step.hpp"
+#include "reduce/common/counted.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+constexpr double longest_arc = 0.1;         // mean displacement relative to the mechanism's size, or turn [rad]
+constexpr double easy_iterations = 4;       // of Newton's method: arcs grow with fewer, and shrink with more
+constexpr double sharpest_bend = 0.7;       // cosine between a step and the tangent that it set off along
+constexpr double least_part = 1.0 / 16384;  // of the first arc
+constexpr double resolved = 1e-12;          // displacements relative to the mechanism's size
+
+/// How far a point is from the end of the path.
+class EndCondition final : public PathCondition {
+ public:
+  EndCondition(const PathEnd& end, const LoadRamp& ramp, const PathStep& step)
+      : end_(end), ramp_(ramp), step_(step), drawn_(ramp.system().model().node(end.node).frame.x) {}
+
+  double gap(const State& state, double factor) const {
+    if (end_.load_factor) return factor - *end_.load_factor;
+    const Vector3 u = state.nodes[static_cast<std::size_t>(end_.node)].x - drawn_;
+    return (end_.direction.isZero(0) ? u.norm() : end_.direction.dot(u)) - end_.displacement;
+  }
+  /// Where trials start from.
+  void set_base(const State& base) { base_ = &base; }
+  double value(const PathTrial& trial) const override { return gap(trial.state, trial.factor); }
+  double slope(const PathTrial& trial, const VectorX& along, double factor) const override {
+    if (end_.load_factor) return factor;
+    const double part = 1e-6 / std::max(step_.length(along), 1e-30);
+    const auto value_at = [&](double distance) {
+      PathTrial moved = trial;
+      moved.delta += distance * along;
+      moved.factor += distance * factor;
+      step_.place(*base_, moved);
+      return value(moved);
+    };
+    return (value_at(part) - value_at(-part)) / (2 * part);
+  }
+  double tolerance() const override { return end_.load_factor ? 0 : resolved * step_.extent(); }
+
+  std::string describe(double gap) const {
+    if (end_.load_factor) return fmt::format("and the end at {:.6g}", *end_.load_factor);
+    return fmt::format("with {:.6g} m of the {:.6g} m that node '{}' is to move", gap + end_.displacement,
+                       end_.displacement, ramp_.system().model().node(end_.node).name);
+  }
+
+ private:
+  const PathEnd& end_;
+  const LoadRamp& ramp_;
+  const PathStep& step_;
+  Vector3 drawn_;
+  const State* base_ = nullptr;
+};
+
+/// The unit tangent of the path and the load factor's derivative along it.
+struct Tangent {
+  VectorX direction;
+  double slope = 0;
+};
+
+class Path {
+ public:
+  Path(const LoadRamp& ramp, const PathOptions& path, const NewtonOptions& options, State& state)
+      : ramp_(ramp),
+        system_(ramp.system()),
+        path_(path),
+        state_(in_equilibrium(ramp, options, state)),
+        factor_(ramp.begin()),
+        step_(ramp, options, state),
+        end_(path.end, ramp, step_),
+        gap_(end_.gap(state, factor_)),
+        whole_(std::abs(gap_)) {
+    set_off();
+  }
+
+  bool ended() const { return gap_ == 0; }
+  double factor() const { return factor_; }
+
+  /// Goes to the next point: a step, the limit point within it, or the end.
+  PathPoint advance() {
+    for (;; refuse()) {
+      trial_.delta = arc_ * tangent_.direction;
+      trial_.factor = factor_ + arc_ * tangent_.slope;
+      if (!correct(ArcCondition(step_, arc_), arc_)) continue;
+      double length = arc_;
+      Tangent after = tangent_at(trial_);
+      const bool limit = going_ * after.slope <= 0;
+      if (limit && !locate_limit(after, length)) continue;
+      const double gap = end_.gap(trial_.state, trial_.factor);
+      if (gap_ * gap <= 0) {
+        if (!meet_end(gap, length)) continue;
+        return accept(0, false, after, length);
+      }
+      return accept(gap, limit, after, length);
+    }
+  }
+
+  std::string describe_end() const { return end_.describe(gap_); }
+
+ private:
+  static State& in_equilibrium(const LoadRamp& ramp, const NewtonOptions& options, State& state) {
+    Equilibrium equilibrium(ramp, options);
+    if (equilibrium.find(ramp.begin(), state) < 0)
+      throw ComputationError(fmt::format("static path: no equilibrium to set off from at load factor {:.6g}: {}",
+                                         ramp.begin(), equilibrium.why()));
+    equilibrium.accept(ramp.begin(), state);
+    return state;
+  }
+
+  /// The first tangent and the first arc.
+  void set_off() {
+    if (whole_ <= (path_.end.load_factor ? 0 : resolved * step_.extent()))
+      throw ComputationError("static path: its end is where it begins");
+    VectorX b;
+    if (!step_.response(state_, factor_, b))
+      throw ComputationError(
+          fmt::format("static path: the equations are singular at load factor {:.6g}, where it sets off: something can "
+                      "move without resistance",
+                      factor_));
+    const double response = step_.length(b);
+    if (!(response > resolved))
+      throw ComputationError(
+          "static path: nothing moves with the load factor: there are no loads that do work, or the analyses before "
+          "have brought about all of them");
+    // How the end comes closer per load factor.
+    const double part = 1e-6 / response;
+    PathTrial trial{part * b, factor_ + part, state_};
+    step_.place(state_, trial);
+    const double closing = (end_.gap(trial.state, trial.factor) - gap_) / part;
+    double way = std::abs(gap_ / closing);  // in load factors
+    if (!std::isfinite(way)) way = factor_ == 1 ? 1 : std::abs(1 - factor_);
+    const bool towards_end = factor_ != 0 || path_.end.load_factor;
+    const double sign = towards_end && closing * gap_ > 0 ? -1 : 1;
+    const double steps = path_.steps > 0 ? path_.steps : 20;
+    first_arc_ = std::min(response * way / steps, longest_arc / 2);
+    most_arc_ = path_.steps > 0 ? std::min(4 * first_arc_, longest_arc) : longest_arc;
+    arc_ = first_arc_;
+    tangent_ = {sign / response * b, sign / response};
+    going_ = sign;
+  }
+
+  bool correct(const PathCondition& condition, double arc) {
+    if (!step_.correct(state_, condition, 2 * arc, trial_)) {
+      why_ = step_.why();
+      return false;
+    }
+    const double cosine = step_.product(trial_.delta, tangent_.direction) / step_.length(trial_.delta);
+    if (cosine >= sharpest_bend) return true;
+    why_ = fmt::format("the path bends by {:.0f} degrees at load factor {:.6g}", std::acos(cosine) * 180 / M_PI,
+                       trial_.factor);
+    return false;
+  }
+
+  /// Oriented along the step that led to the trial. Where the tangent matrix is singular the step goes on as it came.
+  Tangent tangent_at(const PathTrial& trial) {
+    VectorX b;
+    if (step_.response(trial.state, trial.factor, b))
+      if (const double response = step_.length(b); std::isfinite(response) && response > 0) {
+        const double sign = step_.product(trial.delta, b) < 0 ? -1 : 1;
+        return {sign / response * b, sign / response};
+      }
+    return {trial.delta / step_.length(trial.delta), 0};
+  }
+
+  /// Between the base and the trial the slope of the load factor changes its sign: moves the trial to where it
+  /// vanishes, or to the kink where it jumps (regula falsi after Illinois). @returns whether it was found
+  bool locate_limit(Tangent& after, double& length) {
+    constexpr int most = 60;
+    constexpr double accurate = 1e-12, kink = 1e-10;  // the load factor relative to itself, the arc to the step
+    const PathTrial far = trial_;
+    const double size = std::max(std::abs(far.factor), std::abs(factor_)) + std::abs(tangent_.slope) * length;
+    // Just after a limit point the slope is nearly zero and meaningless.
+    double low = 0, high = length, slope_high = after.slope, slope_low = at_limit_ ? -slope_high : tangent_.slope;
+    for (int k = 0, side = 0; k < most; ++k) {
+      const double arc = (low * slope_high - high * slope_low) / (slope_high - slope_low);
+      trial_.delta = arc / length * far.delta;
+      trial_.factor = factor_ + arc / length * (far.factor - factor_);
+      if (!correct(ArcCondition(step_, arc), arc)) return false;
+      const Tangent here = tangent_at(trial_);
+      const double curvature = std::abs((slope_high - slope_low) / (high - low));
+      if (here.slope * here.slope <= 2 * curvature * accurate * size || high - low < kink * length) {
+        trial_.iterations += far.iterations;
+        after = here;
+        length = arc;
+        return true;
+      }
+      const bool before = here.slope * going_ > 0;
+      (before ? low : high) = arc;
+      (before ? slope_low : slope_high) = here.slope;
+      if (side == (before ? 1 : -1)) (before ? slope_high : slope_low) /= 2;
+      side = before ? 1 : -1;
+    }
+    why_ = fmt::format("the limit point near load factor {:.6g} was not found", trial_.factor);
+    return false;
+  }
+
+  /// Moves the trial back to where the end lies between the base and it.
+  bool meet_end(double gap, double length) {
+    const double part = gap_ / (gap_ - gap);
+    trial_.delta *= part;
+    trial_.factor = path_.end.load_factor ? *path_.end.load_factor : factor_ + part * (trial_.factor - factor_);
+    end_.set_base(state_);
+    if (!correct(end_, length)) return false;
+    if (path_.end.load_factor) trial_.factor = *path_.end.load_factor;
+    return true;
+  }
+
+  void refuse() {
+    arc_ /= 2;
+    if (arc_ < least_part * first_arc_)
+      throw ComputationError(
+          fmt::format("static path: no further point found beyond load factor {:.6g} (step {:.2g} of "
+                      "the mechanism's size): {}",
+                      factor_, 2 * arc_, why_));
+  }
+
+  PathPoint accept(double gap, bool limit, const Tangent& after, double length) {
+    const Environment loaded = ramp_.environment(trial_.factor);
+    try {
+      check_set_aside(system_, loaded, trial_.state);
+      system_.accept(trial_.state, loaded);
+    } catch (const ComputationError& error) {
+      throw ComputationError(
+          fmt::format("static path: the equilibrium at load factor {:.6g} is refused: {}; largest residual: {}",
+                      trial_.factor, error.what(), step_.worst()));
+    }
+    state_ = trial_.state;
+    factor_ = trial_.factor;
+    gap_ = gap;
+    tangent_ = after;
+    at_limit_ = limit;
+    going_ = limit ? -going_ : after.slope < 0 ? -1 : 1;
+    // A step that was cut at a limit point says nothing against the arc that led there.
+    if (!limit) arc_ = length * std::clamp(std::sqrt(easy_iterations / std::max(1, trial_.iterations)), 0.5, 2.0);
+    arc_ = std::min(arc_, most_arc_);
+    return {factor_, trial_.iterations, limit, std::clamp(1 - std::abs(gap) / whole_, 0.0, 1.0)};
+  }
+
+  const LoadRamp& ramp_;
+  const System& system_;
+  const PathOptions& path_;
+  State& state_;
+  double factor_;
+  PathStep step_;
+  EndCondition end_;
+  double gap_, whole_;
+  double first_arc_ = 0, most_arc_ = 0, arc_ = 0;
+  Tangent tangent_;
+  double going_ = 1;  ///< sign of the load factor's slope after the last point
+  bool at_limit_ = false;
+  PathTrial trial_;
+  std::string why_;
+};
+
+}  // namespace
+
+Loaded follow_path(const System& system, const Environment& environment, const Loaded& start,
+                   const PathOptions& options, const NewtonOptions& newton, State& state,
+                   const std::function<void(const State&, const PathPoint&)>& record) {
+  const LoadRamp ramp(system, environment, start);
+  ramp.set_off(state);
+  Path path(ramp, options, newton, state);
+  for (int points = 0; !path.ended(); ++points) {
+    if (points == options.most_points)
+      throw ComputationError(
+          fmt::format("static path: its end was not met in {}; the last one stands at load factor {:.6g}, {}",
+                      counted(points, "point"), path.factor(), path.describe_end()));
+    const PathPoint point = path.advance();
+    if (record) record(state, point);
+  }
+  return {path.factor(), ramp.motion(path.factor())};
+}
+
+}  // namespace bielle::mechanism

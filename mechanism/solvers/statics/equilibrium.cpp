@@ -1,0 +1,180 @@
+#include "mechanism/solvers/statics/equilibrium.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "mechanism/solvers/constraints/redundancy.hpp"
+#include "mechanism/solvers/newton/model_length.hpp"
+#include "mechanism/solvers/start/consistent_accelerations.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+constexpr double longest = 0.3;  // step of `relax`: of the mechanism's size, or [rad]
+
+}  // namespace
+
+Equilibrium::Equilibrium(const LoadRamp& ramp, const NewtonOptions& options)
+    : ramp_(ramp),
+      system_(ramp.system()),
+      options_(options),
+      linear_(system_),
+      convergence_(system_, options),
+      reactions_(system_),
+      r_(system_.size()),
+      delta_(system_.size()) {}
+
+int Equilibrium::find(double factor, State& state) { return attempt(&Equilibrium::iterate, factor, state); }
+
+int Equilibrium::relax(double factor, State& state) { return attempt(&Equilibrium::iterate_relaxing, factor, state); }
+
+/// A component that refuses a wild iterate (a beam whose ends turn too far) makes the attempt fail, not the analysis.
+int Equilibrium::attempt(int (Equilibrium::*iterations)(double, State&), double factor, State& state) {
+  const State start = state;
+  judged_ = false;
+  why_.clear();
+  environment_ = ramp_.environment(factor);
+  int count = -1;
+  try {
+    count = (this->*iterations)(factor, state);
+  } catch (const ComputationError& error) {
+    why_ = error.what();
+    if (judged_) why_ += fmt::format("; largest residual before: {}", convergence_.worst());
+  }
+  if (count >= 0) return count;
+  if (why_.empty()) why_ = fmt::format("Newton did not converge; largest residual: {}", convergence_.worst());
+  state = start;
+  return -1;
+}
+
+void Equilibrium::accept(double factor, State& state) const {
+  try {
+    check_set_aside(system_, environment_, state);
+    system_.accept(state, environment_);
+  } catch (const ComputationError& error) {
+    throw ComputationError(
+        fmt::format("statics: the equilibrium at load factor {:.6g} is refused: {}; largest residual: {}", factor,
+                    error.what(), convergence_.worst()));
+  }
+}
+
+int Equilibrium::iterate(double factor, State& state) {
+  const bool followed = ramp_.motion(factor) != state.motion_factor && follow_motions(factor, state);
+  evaluate(state);
+  for (int iteration = 0;; ++iteration) {
+    const bool reached = convergence_.reached(r_, scale_);
+    judged_ = true;
+    if (iteration > 0 && reached) return iteration + (followed ? 1 : 0);
+    if (iteration == options_.iterations || !r_.allFinite()) return -1;
+    improve(state);
+  }
+}
+
+int Equilibrium::iterate_relaxing(double factor, State& state) {
+  constexpr int most_iterations = 300;
+  if (ramp_.motion(factor) != state.motion_factor) {
+    state.motion_factor = ramp_.motion(factor);
+    system_.displace(state, State(state), VectorX::Zero(system_.dofs()));
+  }
+  evaluate(state);
+  double tau_squared = first_tau_squared(state);
+  for (int iteration = 0; iteration < most_iterations && r_.allFinite(); ++iteration) {
+    const bool reached = convergence_.reached(r_, scale_);
+    judged_ = true;
+    if (iteration > 0 && reached) return iteration;
+    this->factor(state, 1 / tau_squared);
+    const double before = convergence_.size_of(r_);
+    solve();
+    if (const double excess = extent(state) / longest; excess > 1) {
+      tau_squared /= 2 * excess;
+      continue;
+    }
+    const State base = state;
+    move(state, base, 1);
+    evaluate(state);
+    tau_squared *= std::clamp(before / convergence_.size_of(r_), 1.0, 10.0);
+  }
+  return -1;
+}
+
+/// The last solution's largest turn [rad], or displacement relative to the mechanism's size.
+double Equilibrium::extent(const State& state) const {
+  double turn = 0, displacement = 0;
+  for (int i = 0; i < system_.dofs(); ++i) {
+    if (system_.kind(i) == Kind::rotation) turn = std::max(turn, std::abs(delta_[i]));
+    if (system_.kind(i) == Kind::translation) displacement = std::max(displacement, std::abs(delta_[i]));
+  }
+  return std::max(turn, displacement / model_length(state));
+}
+
+/// In which the accelerations of rest lead through a part of `longest`.
+double Equilibrium::first_tau_squared(const State& state) {
+  State released = state;
+  make_accelerations_consistent(system_, environment_, released);
+  VectorX unused(system_.dofs());
+  system_.get_rates(released, unused, delta_.head(system_.dofs()));
+  const double rate = extent(state);
+  return rate > 0 ? 0.3 * longest / rate : 1;
+}
+
+bool Equilibrium::follow_motions(double factor, State& state) {
+  VectorX by_motion(system_.size());
+  ramp_.motion_derivative(state, environment_, by_motion);
+  if (by_motion.isZero(0)) {
+    state.motion_factor = ramp_.motion(factor);
+    return false;
+  }
+  evaluate(state);
+  this->factor(state);
+  r_ += (ramp_.motion(factor) - state.motion_factor) * by_motion;
+  solve();
+  const State base = state;
+  state.motion_factor = ramp_.motion(factor);
+  move(state, base, 1);
+  return true;
+}
+
+void Equilibrium::improve(State& state) {
+  factor(state);
+  const double before = convergence_.size_of(r_);
+  solve();
+  const State base = state;
+  const auto size_at = [&](double part) {
+    move(state, base, part);
+    evaluate(state);
+    return convergence_.size_of(r_);
+  };
+  const auto smaller = [&](double part) {
+    try {
+      return size_at(part) <= before;
+    } catch (const ComputationError&) {
+      return false;  // refused by a component
+    }
+  };
+  for (double part = 1; options_.line_search && part > 0.1; part /= 2)
+    if (smaller(part)) return;
+  size_at(1);  // Newton's method may have to pass over a hill
+}
+
+void Equilibrium::factor(const State& state, double inertia) {
+  linear_.factor(state, environment_, TangentWeights{1, 0, inertia, 0, 1, true}, nullptr);
+  convergence_.measure_rounding(linear_, state);
+  convergence_.measure_by(scale_);
+}
+
+void Equilibrium::solve() { linear_.solve(r_, delta_); }
+
+void Equilibrium::move(State& state, const State& base, double part) const {
+  system_.displace(state, base, part * delta_.head(system_.dofs()));
+  state.first_order = base.first_order + part * delta_.segment(system_.dofs(), system_.first_orders());
+  state.multiplier = base.multiplier + part * delta_.tail(system_.multipliers());
+}
+
+void Equilibrium::evaluate(State& state) {
+  reactions_.balance(environment_, state);
+  residual_at_rest(system_, environment_, state, r_, &scale_);
+}
+
+}  // namespace bielle::mechanism

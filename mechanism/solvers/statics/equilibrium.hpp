@@ -1,0 +1,57 @@
+// Newton's method for the equations of rest at a fixed load factor.
+#pragma once
+
+#include <string>
+
+#include "mechanism/solvers/constraints/reaction_norm.hpp"
+#include "mechanism/solvers/newton/convergence.hpp"
+#include "mechanism/solvers/statics/load_ramp.hpp"
+
+namespace bielle::mechanism {
+
+class Equilibrium {
+ public:
+  Equilibrium(const LoadRamp& ramp, const NewtonOptions& options);
+
+  /// Brings a state at rest into equilibrium under a load factor. Prescribed motions are taken along in the first
+  /// iteration: the free nodes follow them by the tangent.
+  /// @returns the iterations, or -1 with the state as it was; then `why` tells
+  int find(double factor, State& state);
+  /// Goes down to an equilibrium from afar, also where nothing but inertia resists at first (an arm that is to hang):
+  /// pseudo-transient continuation, (K + M/tau^2) dq = -r with tau growing as the residual falls, from steps of a tenth
+  /// of the mechanism's size on (C. T. Kelley, D. E. Keyes, SIAM J. Numer. Anal. 35 (1998) 508). Returns as `find`.
+  int relax(double factor, State& state);
+  /// Why the last attempt failed: what a component refused, what is singular, or where Newton's method stalled.
+  const std::string& why() const { return why_; }
+  /// Hands an equilibrium to the components, constraints set aside included.
+  /// @throws ComputationError with the load factor and the residual when one refuses it
+  void accept(double factor, State& state) const;
+
+ private:
+  int iterate(double factor, State& state);
+  int iterate_relaxing(double factor, State& state);
+  int attempt(int (Equilibrium::*iterations)(double, State&), double factor, State& state);
+  double extent(const State& state) const;
+  double first_tau_squared(const State& state);
+  /// An iteration of Newton's method that takes prescribed motions along. @returns false where nothing is prescribed
+  bool follow_motions(double factor, State& state);
+  void improve(State& state);
+  void solve();
+  void factor(const State& state, double inertia = 0);
+  void move(State& state, const State& base, double part) const;
+  void evaluate(State& state);
+
+  const LoadRamp& ramp_;
+  const System& system_;
+  NewtonOptions options_;
+  LinearStep linear_;
+  Convergence convergence_;
+  ReadReactions reactions_;
+  Environment environment_;  ///< of the load factor in hand
+  VectorX r_, delta_;
+  ResidualScale scale_;
+  bool judged_ = false;  ///< a residual of this attempt has been compared with its tolerances
+  std::string why_;
+};
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,111 @@
+#include "mechanism/solvers/statics/path_step.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "mechanism/solvers/newton/model_length.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+const TangentWeights at_rest{1, 0, 0, 0, 1, true};
+
+}  // namespace
+
+PathStep::PathStep(const LoadRamp& ramp, const NewtonOptions& options, const State& state)
+    : ramp_(ramp),
+      system_(ramp.system()),
+      options_(options),
+      linear_(system_),
+      convergence_(system_, options),
+      reactions_(system_),
+      weights_(system_.dofs()),
+      extent_(model_extent(state)) {
+  linear_.assemble(state, ramp.environment(ramp.begin()), at_rest, nullptr);
+  std::array<double, kind_count> count{}, stiffness{};
+  const auto place = [&](int dof) { return static_cast<std::size_t>(system_.kind(dof)); };
+  for (int i = 0; i < system_.dofs(); ++i) {
+    count[place(i)] += 1;
+    stiffness[place(i)] += std::abs(linear_.diagonal(i));
+  }
+  constexpr auto translation = static_cast<std::size_t>(Kind::translation),
+                 amplitude = static_cast<std::size_t>(Kind::amplitude);
+  // A modal amplitude that takes as much work as a displacement of the mechanism's size counts as much.
+  const double unit_work = count[translation] > 0 && stiffness[translation] > 0
+                               ? stiffness[translation] / count[translation] * extent_ * extent_
+                               : stiffness[amplitude] / std::max(1.0, count[amplitude]);
+  for (int i = 0; i < system_.dofs(); ++i) {
+    double weight = 1;  // of rotations
+    if (system_.kind(i) == Kind::translation) weight = 1 / (extent_ * extent_);
+    if (system_.kind(i) == Kind::amplitude) weight = unit_work > 0 ? std::abs(linear_.diagonal(i)) / unit_work : 1;
+    weights_[i] = weight / count[place(i)];
+  }
+}
+
+double PathStep::product(const VectorX& a, const VectorX& b) const {
+  const Eigen::Index n = system_.dofs();
+  return a.head(n).cwiseProduct(weights_).dot(b.head(n));
+}
+
+void PathStep::place(const State& base, PathTrial& trial) const {
+  trial.state.motion_factor = ramp_.motion(trial.factor);
+  system_.displace(trial.state, base, trial.delta.head(system_.dofs()));
+  trial.state.first_order = base.first_order + trial.delta.segment(system_.dofs(), system_.first_orders());
+  trial.state.multiplier = base.multiplier + trial.delta.tail(system_.multipliers());
+}
+
+bool PathStep::response(const State& state, double factor, VectorX& b) {
+  if (!linear_.try_factor(state, ramp_.environment(factor), at_rest, nullptr)) return false;
+  VectorX r(system_.size());
+  ramp_.factor_derivative(state, factor, r);
+  b.resize(system_.size());
+  linear_.solve(r, b);
+  return b.allFinite();
+}
+
+bool PathStep::correct(const State& base, const PathCondition& condition, double longest, PathTrial& trial) {
+  why_.clear();
+  trial.state = base;
+  try {
+    return iterate(base, condition, longest, trial);
+  } catch (const ComputationError& error) {
+    why_ = fmt::format("load factor {:.6g}: {}", trial.factor, error.what());  // refused by a component
+    return false;
+  }
+}
+
+bool PathStep::iterate(const State& base, const PathCondition& condition, double longest, PathTrial& trial) {
+  VectorX r(system_.size()), by_factor(system_.size()), a(system_.size()), b(system_.size());
+  ResidualScale scale;
+  for (trial.iterations = 0;; ++trial.iterations) {
+    const Environment environment = ramp_.environment(trial.factor);
+    place(base, trial);
+    reactions_.balance(environment, trial.state);
+    residual_at_rest(system_, environment, trial.state, r, &scale);
+    const double g = condition.value(trial);
+    const bool reached = convergence_.reached(r, scale);
+    if (trial.iterations > 0 && reached && std::abs(g) <= condition.tolerance()) return true;
+    if (trial.iterations == options_.iterations || !r.allFinite() || !std::isfinite(g)) {
+      why_ = fmt::format("Newton did not converge at load factor {:.6g}; largest residual: {}", trial.factor,
+                         convergence_.worst());
+      return false;
+    }
+    const VectorX increment = trial.delta.head(system_.dofs());
+    linear_.factor(trial.state, environment, at_rest, &increment);
+    convergence_.measure_rounding(linear_, trial.state);
+    linear_.solve(r, a);
+    ramp_.factor_derivative(trial.state, trial.factor, by_factor);
+    linear_.solve(by_factor, b);
+    const double change = -(g + condition.slope(trial, a, 0)) / condition.slope(trial, b, 1);
+    trial.delta += a + change * b;
+    trial.factor += change;
+    if (!(length(trial.delta) <= longest)) {
+      why_ = fmt::format("Newton lost its way at load factor {:.6g}; largest residual: {}", trial.factor,
+                         convergence_.worst());
+      return false;
+    }
+  }
+}
+
+}  // namespace bielle::mechanism

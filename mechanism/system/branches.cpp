@@ -1,0 +1,73 @@
+#include "mechanism/system/branches.hpp"
+
+#include <algorithm>
+#include <atomic>
+
+namespace bielle::mechanism {
+
+void Branches::add(const Declaration& declaration) {
+  const std::size_t index = members_++;
+  if (!declaration.memory.empty()) remembering_.push_back(index);
+  for (int k = 0; k < static_cast<int>(declaration.crossings.size()); ++k) {
+    const Crossing& crossing = declaration.crossings[static_cast<std::size_t>(k)];
+    const std::string owner = describe(model_.members()[index]);
+    crossings_.push_back({index, k, crossing, crossing.name.empty() ? owner : owner + ": " + crossing.name});
+  }
+  if (declaration.passive) return;  // measures are read by what acts
+  reads_reactions_ = reads_reactions_ || declaration.reads_reactions;
+  kinks_ = kinks_ || declaration.kinks || declaration.reads_reactions;
+}
+
+void Branches::calc_crossings(const State& state, const Environment& environment, Eigen::Ref<VectorX> values) const {
+  for (std::size_t k = 0; k < crossings_.size();) {
+    const std::size_t member = crossings_[k].member;
+    std::size_t end = k;
+    while (end < crossings_.size() && crossings_[end].member == member) ++end;
+    const auto count = static_cast<Eigen::Index>(end - k);
+    model_.members()[member].component->calc_crossings(local(state, member, environment),
+                                                       values.segment(static_cast<Eigen::Index>(k), count));
+    k = end;
+  }
+}
+
+void Branches::begin(State& state, const Environment& environment, const std::vector<int>& crossed) const {
+  VectorX memory = state.memory;
+  std::vector<int> ascending = crossed, own;  // by member, as the crossings are
+  std::sort(ascending.begin(), ascending.end());
+  auto next = ascending.begin();
+  for (const std::size_t m : remembering_) {
+    own.clear();
+    for (; next != ascending.end() && crossings_[static_cast<std::size_t>(*next)].member <= m; ++next)
+      if (const MemberCrossing& crossing = crossings_[static_cast<std::size_t>(*next)]; crossing.member == m)
+        own.push_back(crossing.index);
+    const Slots& slots = unknowns_.slots()[m];
+    model_.members()[m].component->begin_branch(local(state, m, environment), own,
+                                                memory.segment(slots.memory_begin, slots.memories));
+  }
+  state.memory = memory;
+}
+
+bool Branches::accept(State& state, const Environment& environment) const {
+  thread_local VectorX accepted;
+  accepted = state.memory;
+  VectorX& memory = accepted;  // the calling thread's, in all threads
+  std::atomic<bool> left = false;
+  const auto accept_one = [&](std::size_t m) {
+    const Component& component = *model_.members()[m].component;
+    const Slots& slots = unknowns_.slots()[m];
+    const LocalState view = local(state, m, environment);
+    if (component.leaves_branch(view)) left = true;
+    component.accept(view, memory.segment(slots.memory_begin, slots.memories));
+  };
+  const auto accept_costly = [&](std::size_t k) {
+    if (unknowns_.slots()[work_.costly()[k]].memories > 0) accept_one(work_.costly()[k]);
+  };
+  work_.share(accept_costly, [&] {
+    for (const std::size_t m : remembering_)
+      if (!work_.is_costly(m)) accept_one(m);
+  });
+  state.memory.swap(memory);
+  return left;
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,54 @@
+// Branches of a motion: crossings that end them, and what components remember from one to the next.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mechanism/system/shared_work.hpp"
+
+namespace bielle::mechanism {
+
+/// A crossing that a member declares, see Component::calc_crossings.
+struct MemberCrossing {
+  std::size_t member;
+  int index;  ///< among the member's own
+  Crossing crossing;
+  std::string name;  ///< with its owner: "joint 'door': angle at its upper stop"
+};
+
+class Branches {
+ public:
+  /// Keeps references.
+  Branches(const Model& model, const Unknowns& unknowns, const SharedWork& work)
+      : model_(model), unknowns_(unknowns), work_(work) {}
+  Branches(const Branches&) = delete;
+  Branches& operator=(const Branches&) = delete;
+
+  /// Notes what the next member of the model declares.
+  void add(const Declaration& declaration);
+
+  const std::vector<MemberCrossing>& crossings() const { return crossings_; }  ///< in the order of the members
+  bool reads_reactions() const { return reads_reactions_; }
+  bool has_kinks() const { return kinks_; }
+
+  // As System says.
+  void calc_crossings(const State& state, const Environment& environment, Eigen::Ref<VectorX> values) const;
+  void begin(State& state, const Environment& environment, const std::vector<int>& crossed) const;
+  /// Components renew their memory. @returns whether one has left its branch
+  bool accept(State& state, const Environment& environment) const;
+
+ private:
+  LocalState local(const State& state, std::size_t member, const Environment& environment) const {
+    return {state, unknowns_.slots()[member], environment};
+  }
+
+  const Model& model_;
+  const Unknowns& unknowns_;
+  const SharedWork& work_;
+  std::size_t members_ = 0;
+  std::vector<std::size_t> remembering_;  ///< members with memory
+  std::vector<MemberCrossing> crossings_;
+  bool reads_reactions_ = false, kinks_ = false;
+};
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,200 @@
+#include "mechanism/system/tangent_assembly.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <numeric>
+
+#include "mechanism/system/sparse_columns.hpp"
+
+namespace bielle::mechanism {
+
+/// Which reduced entries of each member belong to the pattern, a bit each.
+class TangentAssembly::KeptEntries {
+ public:
+  KeptEntries(const TangentAssembly& assembly) : placements_(assembly.placements_) {
+    first_multiplier_ = assembly.unknowns_.first_multiplier();
+    begin_.reserve(placements_.size() + 1);
+    for (std::size_t m = 0; m < placements_.size(); ++m) {
+      begin_.push_back(kept_.size());
+      if (placements_[m].contributes())
+        add(placements_[m],
+            placements_[m].pattern(*assembly.model_.members()[m].component, assembly.unknowns_.slots()[m]));
+    }
+    begin_.push_back(kept_.size());
+  }
+  /// Calls act(entry, row, column): the member's own, by columns, and where it stands in the whole.
+  template <class Act>
+  void for_each(std::size_t member, const Act& act) const {
+    const std::vector<int>& unknown = placements_[member].unknown;
+    std::size_t k = begin_[member];
+    if (k == begin_[member + 1]) return;
+    int entry = 0;
+    for (const int column : unknown)
+      for (const int row : unknown) {
+        if (kept_[k++]) act(entry, row, column);
+        ++entry;
+      }
+  }
+
+ private:
+  /// A constraint does not depend on multipliers: that block stays out of the pattern, but for those that may be out of
+  /// the equations. Nobody adds to the constraints of others.
+  void add(const Placement& placement, const LocalPattern& pattern) {
+    const int n = placement.reduced_size();
+    std::vector<bool> of_others(placement.reads_multipliers ? static_cast<std::size_t>(n) : 0, false);
+    if (placement.reads_multipliers)
+      for (const ScalarPart& part : placement.scalars)
+        if (part.kind == Kind::multiplier && !part.own) std::fill_n(of_others.begin() + part.reduced, part.count, true);
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) {
+        const int row = placement.unknown[static_cast<std::size_t>(i)],
+                  column = placement.unknown[static_cast<std::size_t>(j)];
+        const bool constraint = row >= first_multiplier_;
+        kept_.push_back(pattern.has(i, j) && row >= 0 && column >= 0 && !(constraint && column >= first_multiplier_) &&
+                        !(placement.reads_multipliers && of_others[static_cast<std::size_t>(i)]));
+      }
+  }
+
+  const std::vector<Placement>& placements_;
+  int first_multiplier_;
+  std::vector<bool> kept_;
+  std::vector<std::size_t> begin_;  ///< of each member's, and the end
+};
+
+void TangentAssembly::complete() {
+  for (std::size_t m = 0; m < placements_.size(); ++m)
+    placements_[m].find_rows(kinematics_, unknowns_, unknowns_.slots()[m]);
+  find_lone_amplitudes();
+}
+
+void TangentAssembly::find_lone_amplitudes() {
+  std::vector<bool> referred(static_cast<std::size_t>(unknowns_.amplitudes()), false);
+  const auto first = [&](const ScalarPart& part) {
+    return referred.begin() + part.unknown - unknowns_.first_amplitude();
+  };
+  for (const Placement& placement : placements_)
+    if (placement.contributes())
+      for (const ScalarPart& part : placement.scalars)
+        if (part.kind == Kind::amplitude && !part.own) std::fill_n(first(part), part.count, true);
+  for (Placement& placement : placements_) {
+    const ScalarPart* own = placement.contributes() ? placement.own_amplitudes() : nullptr;
+    placement.lone_amplitudes =
+        own && std::find(first(*own), first(*own) + own->count, true) == first(*own) + own->count;
+  }
+}
+
+std::vector<std::vector<int>> TangentAssembly::lone_amplitudes() const {
+  std::vector<std::vector<int>> all;
+  for (const Placement& placement : placements_) {
+    if (!placement.lone_amplitudes) continue;
+    const ScalarPart& part = *placement.own_amplitudes();
+    std::vector<int>& amplitudes = all.emplace_back(static_cast<std::size_t>(part.count));
+    std::iota(amplitudes.begin(), amplitudes.end(), part.unknown);
+  }
+  return all;
+}
+
+void TangentAssembly::build_pattern(const std::vector<bool>& may_be_idle) {
+  const KeptEntries kept(*this);
+  pattern_ = gather_columns(unknowns_.size(), [&](const auto& act) {
+    for (std::size_t m = 0; m < placements_.size(); ++m)
+      kept.for_each(m, [&](int, int row, int column) { act(row, column); });
+    for (int i = 0; i < unknowns_.dofs(); ++i) act(i, i);  // solvers add to it
+    for (int k = 0, row = unknowns_.first_multiplier(); row < unknowns_.size(); ++k, ++row)
+      if (may_be_idle[static_cast<std::size_t>(k)]) act(row, row);
+  });
+  small_.clear();
+  for (std::size_t m = 0; m < placements_.size(); ++m) set_places(kept, m);
+  waiting_.assign(1, 0);
+  for (const std::size_t m : work_.costly()) waiting_.push_back(waiting_.back() + placements_[m].targets.count());
+}
+
+void TangentAssembly::set_places(const KeptEntries& kept, std::size_t member) {
+  std::vector<Targets::Target> targets;
+  const std::vector<int>& rows = pattern_.row();
+  int place = -1;
+  kept.for_each(member, [&](int entry, int row, int column) {
+    // Rows follow each other more often than not.
+    const bool follows = place >= 0 && place + 1 < pattern_.column_start()[static_cast<std::size_t>(column) + 1] &&
+                         place >= pattern_.column_start()[static_cast<std::size_t>(column)] &&
+                         rows[static_cast<std::size_t>(place) + 1] == row;
+    place = follows ? place + 1 : pattern_.find(row, column);
+    targets.push_back({entry, place});
+  });
+  placements_[member].set_places(kinematics_, unknowns_.slots()[member], targets);
+  if (!targets.empty() && !work_.is_costly(member)) small_.push_back(member);
+}
+
+/// Each block goes straight to its places.
+void TangentAssembly::add_in_place(const Placement& placement, const LocalState& local, const TangentWeights& weights,
+                                   const Component& component, const Matrix3* turns,
+                                   std::vector<double>& values) const {
+  const auto into = [&](double weight, double constraint, const Matrix3* turned) {
+    return LocalMatrix(placement.places, values.data(), weight, constraint, turned);
+  };
+  LocalTangent tangent{
+      into(weights.stiffness, weights.constraint, turns),
+      into(weights.damping, weights.damping, nullptr),
+      into(weights.mass, weights.mass, nullptr),
+      placement.stiffness && (weights.stiffness != 0 || (weights.constraint != 0 && local.slots().multipliers > 0)),
+      placement.damping && weights.damping != 0,
+      placement.mass && weights.mass != 0};
+  if (tangent.wants_K || tangent.wants_C || tangent.wants_M) component.add_tangent(local, tangent);
+}
+
+namespace {
+
+TangentWorkspace& workspace(int rows) {
+  thread_local std::unique_ptr<TangentWorkspace> work;
+  if (!work || work->r.size() < rows) work = std::make_unique<TangentWorkspace>(rows);
+  return *work;
+}
+
+}  // namespace
+
+void TangentAssembly::set_values(const State& state, const Environment& environment, const TangentWeights& weights,
+                                 const VectorX* dq, std::vector<double>& values) const {
+  thread_local std::vector<Matrix3> step_tangent;
+  thread_local std::vector<double> waiting_entries;
+  values.assign(static_cast<std::size_t>(pattern_.entry_count()), 0.0);
+  if (dq) {
+    step_tangent.resize(state.nodes.size());
+    for (const auto [node, begin] : kinematics_.all_free())
+      step_tangent[node] = mechanism::tangent(dq->segment<3>(begin + 3));
+  }
+  const TangentRequest request{kinematics_, weights, dq, dq ? step_tangent.data() : nullptr};
+  waiting_entries.assign(waiting_.back(), 0.0);
+  std::vector<double>& waiting = waiting_entries;  // the calling thread's, in all threads
+  const auto evaluate_costly = [&](std::size_t k) {
+    const std::size_t m = work_.costly()[k];
+    const LocalState local(state, unknowns_.slots()[m], environment);
+    TangentWorkspace& work = workspace(unknowns_.largest_local());
+    if (weights.velocity_level && local.slots().multipliers > 0) work.probe = state;
+    MemberTangent member(request, placements_[m], local, *model_.members()[m].component, work);
+    const double* entries = placements_[m].contributes() ? member.reduced() : nullptr;
+    if (!entries) return;
+    placements_[m].lone.scatter(entries, values);
+    placements_[m].targets.collect(entries, waiting.data() + waiting_[k]);
+  };
+  work_.share(evaluate_costly, [&] { add_small(state, environment, request, values); });
+  for (std::size_t k = 0; k < work_.costly().size(); ++k)
+    placements_[work_.costly()[k]].targets.scatter_collected(waiting.data() + waiting_[k], values);
+}
+
+/// Adds the entries of all members that are not costly.
+void TangentAssembly::add_small(const State& state, const Environment& environment, const TangentRequest& request,
+                                std::vector<double>& values) const {
+  TangentWorkspace& work = workspace(unknowns_.largest_local());
+  if (request.weights.velocity_level) work.probe = state;
+  for (const std::size_t m : small_) {
+    const Placement& placement = placements_[m];
+    const LocalState local(state, unknowns_.slots()[m], environment);
+    const Component& component = *model_.members()[m].component;
+    if (placement.in_place && !request.weights.velocity_level)
+      add_in_place(placement, local, request.weights, component, request.turns, values);
+    else
+      MemberTangent(request, placement, local, component, work).add_to(values);
+  }
+}
+
+}  // namespace bielle::mechanism

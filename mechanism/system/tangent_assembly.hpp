@@ -1,0 +1,59 @@
+// The tangent of the whole from those of the components: its pattern, and its values.
+#pragma once
+
+#include <vector>
+
+#include "mechanism/math/sparse.hpp"
+#include "mechanism/system/member_tangent.hpp"
+#include "mechanism/system/placement.hpp"
+#include "mechanism/system/shared_work.hpp"
+#include "mechanism/system/tangent_weights.hpp"
+
+namespace bielle::mechanism {
+
+class TangentAssembly {
+ public:
+  /// Keeps references.
+  TangentAssembly(const Model& model, const NodeKinematics& kinematics, const Unknowns& unknowns,
+                  const SharedWork& work)
+      : model_(model), kinematics_(kinematics), unknowns_(unknowns), work_(work) {}
+  TangentAssembly(const TangentAssembly&) = delete;
+  TangentAssembly& operator=(const TangentAssembly&) = delete;
+
+  /// Notes what the next member of the model declares.
+  void add(const Declaration& declaration) { placements_.emplace_back(declaration); }
+  /// To be called when all members are numbered.
+  void complete();
+  /// Finds the pattern of the whole and the places of all entries.
+  /// @param may_be_idle  multipliers whose diagonal entries are wanted
+  void build_pattern(const std::vector<bool>& may_be_idle);
+
+  const SparsePattern& pattern() const { return pattern_; }
+  /// Amplitudes of each member with which nothing else in the equations has to do, ascending: they couple to the
+  /// member's own unknowns alone.
+  std::vector<std::vector<int>> lone_amplitudes() const;
+  /// Values in the pattern's order; constraints that are idle count as if they were active.
+  /// @param dq  increment since the base of the step, for T(Dq); nullptr: zero
+  void set_values(const State& state, const Environment& environment, const TangentWeights& weights, const VectorX* dq,
+                  std::vector<double>& values) const;
+
+ private:
+  class KeptEntries;
+  void find_lone_amplitudes();
+  void set_places(const KeptEntries& kept, std::size_t member);
+  void add_small(const State& state, const Environment& environment, const TangentRequest& request,
+                 std::vector<double>& values) const;
+  void add_in_place(const Placement& placement, const LocalState& local, const TangentWeights& weights,
+                    const Component& component, const Matrix3* turns, std::vector<double>& values) const;
+
+  const Model& model_;
+  const NodeKinematics& kinematics_;
+  const Unknowns& unknowns_;
+  const SharedWork& work_;
+  std::vector<Placement> placements_;  ///< of the members
+  std::vector<std::size_t> small_;     ///< members that have entries and are not costly
+  std::vector<std::size_t> waiting_;   ///< where entries of the costly members wait that others may add to, too
+  SparsePattern pattern_;
+};
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,27 @@
+// What interfaces have in common, those that the body file names and those that cuts make, and points with them.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "reduce/reduction/options.hpp"
+
+namespace bielle {
+class YamlValue;
+}
+
+namespace bielle::reduce {
+
+/// "rod.yaml:17: interfaces.big_end"
+std::string place_of(const YamlValue& value);
+
+/// Names become paths in the superelement file. @throws InputError
+void check_name(const std::string& name, const YamlValue& value);
+
+/// `rigid`, `average` or `free`. @throws InputError for other words
+Tie read_tie(const YamlValue& value);
+
+/// A list of x, y, z, rx, ry, rz. @param tie  nodes of free ones have no rotations
+std::array<bool, 6> read_directions(const YamlValue& value, Tie tie = Tie::rigid);
+
+}  // namespace bielle::reduce

@@ -1,0 +1,23 @@
+// `pieces` in a body file: where a body is cut.
+//
+//   pieces: {planes: [{point: [..], normal: [..], name: ..}, {axis: x, at: 0.2}, {axis: x, at: [0.4, 0.6]}]}
+//   pieces: {count: 4, line: {from: [..], to: [..]}}
+//   pieces: {count: 5, arc: {from: [..], centre: [..], axis: [..], angle: "pi/4"}}
+#pragma once
+
+#include <vector>
+
+#include "reduce/mesh/mesh_request.hpp"
+#include "reduce/reduction/piece_options.hpp"
+
+namespace bielle {
+class YamlValue;
+}
+
+namespace bielle::reduce {
+
+/// @param cuts  gets the planes
+/// @throws InputError `file:line: key: what was expected`
+PiecesRequest read_pieces(const YamlValue& value, std::vector<CutPlane>& cuts);
+
+}  // namespace bielle::reduce

@@ -1,0 +1,16 @@
+// Whether a file can be read, or written, before the work begins.
+#pragma once
+
+#include <string>
+
+namespace bielle {
+
+/// @throws InputError when there is none, or it is a folder, a device or a named pipe. (The standard input and what a
+///         shell hands over under /dev may be pipes.)
+void check_input_file(const std::string& path);
+
+/// @throws InputError when no file of that name can be written: no such folder, not permitted, a folder, a device or a
+///         pipe, a name that is too long
+void check_output_file(const std::string& path);
+
+}  // namespace bielle

@@ -1,0 +1,28 @@
+#include "reduce/common/plausible.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace bielle {
+
+void doubt_outside(const YamlValue& place, double value, const PlausibleRange& range) {
+  if (value < range.low || value > range.high) place.doubt(fmt::format("is {:g} meant? {}", value, range.text));
+}
+
+void doubt_jumps(const YamlValue& place, const Expression& formula, const char* what) {
+  for (const double time : formula.break_points()) {
+    // A jump stays as it is when looked at more closely; what a kink changes by becomes smaller.
+    const double near = 1e-8 * (1 + std::abs(time));
+    const auto change = [&](double step) { return std::abs(formula(time + step) - formula(time - step)); };
+    const double wide = change(near), narrow = change(0.1 * near);
+    if (wide > 1e-12 * std::abs(formula(time + near)) && narrow > 0.5 * wide) {
+      place.doubt(fmt::format("{} jumps by {:.3g} at t = {:.6g} s; the motion there is what the steps make of it. `step` is "
+                              "a smooth transition",
+                              what, narrow, time));
+      return;
+    }
+  }
+}
+
+}  // namespace bielle

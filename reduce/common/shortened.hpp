@@ -1,0 +1,15 @@
+// What users wrote, as much of it as a message bears.
+#pragma once
+
+#include <string>
+
+namespace bielle {
+
+/// The text itself, or its beginning and end where it has more than a hundred characters.
+inline std::string shortened(const std::string& text) {
+  constexpr std::size_t most = 100, end = 30;
+  if (text.size() <= most) return text;
+  return text.substr(0, most - end) + " ... " + text.substr(text.size() - end);
+}
+
+}  // namespace bielle

@@ -1,0 +1,33 @@
+// Products of dense matrices, compiled once: Eigen compiles a product for each combination of types anew, which takes
+// longer than anything else in sources that are full of them. Large ones run in BLAS, whose kernels are those of the
+// processor; small ones in Eigen. None allocates.
+#pragma once
+
+#include <span>
+
+#include <Eigen/Core>
+
+namespace bielle {
+
+using MatrixRef = Eigen::Ref<Eigen::MatrixXd>;
+/// Whole matrices and blocks of them by columns, of any type, are not copied.
+using ConstMatrixRef = Eigen::Ref<const Eigen::MatrixXd>;
+
+/// C += scale A B
+void add_product(MatrixRef C, const ConstMatrixRef& A, const ConstMatrixRef& B, double scale = 1);
+
+/// C += scale A^T B
+void add_transposed_product(MatrixRef C, const ConstMatrixRef& A, const ConstMatrixRef& B, double scale = 1);
+
+struct WeightedMatrix {
+  const Eigen::MatrixXd* matrix;
+  double weight;
+};
+
+/// X += sum of weight times matrix, all of X's size: reads and writes X once.
+void add_weighted(MatrixRef X, std::span<const WeightedMatrix> terms);
+
+/// P^T S P
+Eigen::MatrixXd congruent(const ConstMatrixRef& S, const ConstMatrixRef& P);
+
+}  // namespace bielle

@@ -1,0 +1,13 @@
+// Whether the numbers of a superelement are those that were written.
+#pragma once
+
+#include <cstdint>
+
+namespace bielle {
+
+struct Superelement;
+
+/// A checksum over all numbers and names of interfaces, loads, mesh, matrices and recovery.
+std::int64_t sum_of(const Superelement& body);
+
+}  // namespace bielle

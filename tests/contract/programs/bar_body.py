@@ -1,0 +1,19 @@
+"""Reductions of a bar, each test in a folder with its geometry."""
+
+from command import CommandTest
+
+
+class BarTest(CommandTest):
+    program = "bielle-reduce"
+    geometry = ""  # text of bar.geo
+
+    def setUp(self):
+        super().setUp()
+        self.write("bar.geo", self.geometry)
+
+    def reduce(self, body):
+        """A run that succeeds."""
+        self.write("body.yaml", body)
+        done = self.run_program("body.yaml")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done

@@ -1,0 +1,109 @@
+"""What people get wrong with bielle-mechanism: units, degrees, jumps, lists with the same name twice, parts joined to nothing."""
+
+import unittest
+
+from command import CommandTest
+
+BEAM = """\
+gravity: [0, 0, -9.81]
+nodes: {a: {fixed: true}, b: {position: [1, 0, 0]}}
+elements: {m: {type: beam, nodes: [a, b], section: {circle: 0.02, young: 210e9, poisson: 0.3, density: 7850}}}
+analysis: [{type: static}]
+"""
+
+CRANK = """\
+gravity: [0, 0, -9.81]
+nodes:
+  c: {position: [0.5, 0, 0]}
+  d: {position: [0.5, 0, 0]}
+elements:
+  c: {type: rigid_body, node: c, also: [d], mass: 1, inertia: [0.1, 0.1, 0.1]}
+joints: {h: {type: hinge, nodes: [ground, c], axis: [0, 1, 0], position: [0, 0, 0]}}
+drives: {m: {joint: h, angle: "0.5*t"}}
+analysis: [{type: dynamic, duration: 0.01, step: 1e-3}]
+"""
+
+
+class Slips(CommandTest):
+    program = "bielle-mechanism"
+
+    def run_changed(self, model, old="", new=""):
+        self.assertIn(old, model)
+        self.write("model.yaml", model.replace(old, new))
+        return self.run_program("model.yaml")
+
+    def doubts(self, model, old="", new=""):
+        """Warnings of a run that goes on all the same."""
+        done = self.run_changed(model, old, new)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return "\n".join(line for line in done.stderr.splitlines() if "warning: " in line)
+
+    def refuse(self, model, old, new, *says):
+        self.assertIn(old, model)
+        self.write("model.yaml", model.replace(old, new))
+        return self.expect_refusal(1, "model.yaml", says=says)
+
+    def test_what_is_plausible_is_not_doubted(self):
+        self.assertEqual(self.doubts(BEAM), "")
+        self.assertEqual(self.doubts(CRANK), "")
+        self.assertEqual(self.doubts(CRANK, '"0.5*t"', '"100*t"'), "")  # turns far
+        self.assertEqual(self.doubts(CRANK, '"0.5*t"', '"ramp(t, 0.002, 0.005)"'), "")
+        self.assertEqual(self.doubts(CRANK, '"0.5*t"', '"step(t, 0.002, 0.005)"'), "")
+
+    def test_moduli_and_densities_in_other_units(self):
+        text = self.run_changed(BEAM, "210e9", "210e3").stderr  # sags so far that it fails, too
+        self.assertIn("model.yaml:3: elements.m.section.young: is 210000 meant? Solids have 1e6", text)
+        self.assertIn("steel has 210e9", text)
+        self.assertIn("section.density: is 7.85e-09 meant?", self.doubts(BEAM, "7850", "7.85e-9"))
+        self.assertIn("model.yaml:1: gravity: is 9810 meant? Lengths are in metres", self.doubts(BEAM, "9.81", "9810"))
+
+    def test_a_radius_in_millimetres(self):
+        self.assertIn("model.yaml:3: elements.m.section: is it meant? It is as stiff as one of some 20 m in size, and the beam "
+                      "is 1 m long", self.doubts(BEAM, "0.02", "20"))
+
+    def test_orientations_in_degrees(self):
+        self.assertIn("nodes.c.bryant: is 90 meant? Angles are in radians",
+                      self.doubts(CRANK, "c: {position: [0.5, 0, 0]}", "c: {position: [0.5, 0, 0], bryant: [90, 0, 0]}"))
+
+    def test_drives_and_motions_that_jump(self):
+        text = self.doubts(CRANK, '"0.5*t"', '"0.5*pulse(t, 0.002, 1)"')
+        self.assertIn("drives.m.angle: the angle jumps by 0.5 at t = 0.002 s", text)
+        text = self.doubts(BEAM.replace("type: static", "type: dynamic, duration: 0.01, step: 1e-3"), "a: {fixed: true}",
+                           'a: {fixed: [y, z, rx, ry, rz], motion: {x: "1e-3*if(t < 0.005, 0, 1)"}}')
+        self.assertIn("nodes.a.motion.x: the prescribed motion jumps by 0.001 at t = 0.005 s", text)
+
+    def test_steps_without_end(self):
+        self.refuse(CRANK, "step: 1e-3", "step: 1e-25", "model.yaml:9: analysis[1].step", "1e+23 steps; expected at most 1e+09")
+
+    def test_names_that_stand_in_a_list_twice(self):
+        self.refuse(BEAM, "fixed: true", "fixed: [x, y, x]", "nodes.a.fixed[3]: 'x' stands in this list twice")
+        self.refuse(CRANK, "also: [d]", "also: [d, d]", "elements.c.also[2]: node 'd' is carried by node 'c' already")
+
+    def test_numbers_beyond_anything(self):
+        self.refuse(BEAM, "-9.81", "1e300", "model.yaml:1: gravity: expected accelerations in m/s^2")
+        self.refuse(BEAM, "0.02", '"1e200*1e90"', "too large or too small")
+
+    def test_a_long_formula_is_not_printed_whole(self):
+        for term in ("sqrt(t-1)", "foo(t-1)"):
+            formula = "+".join([term] * 3000)
+            self.write("model.yaml", CRANK + f'loads: {{p: {{node: c, force: ["{formula}", 0, 0]}}}}\n')
+            done = self.run_program("model.yaml")
+            self.assertIn(done.returncode, (1, 2))
+            self.assertLess(len(done.stderr), 1000)
+            self.assertIn(" ... ", done.stderr)
+
+    def test_a_part_that_is_joined_to_nothing(self):
+        lost = "nodes:\n  lost: {position: [3, 0, 0]}"
+        model = CRANK.replace("\nnodes:", "\n" + lost).replace(
+            "\nelements:", "\nelements:\n  lost: {type: rigid_body, node: lost, mass: 1, inertia: [0.1, 0.1, 0.1]}")
+        done = self.run_changed(model)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("\n  joined to nothing that is held: the part of node 'lost'\n", done.stdout)
+        self.assertNotIn("joined to nothing", self.run_changed(CRANK).stdout)
+        # What flies as a whole is meant to.
+        flying = model.replace("nodes: [ground, c]", "nodes: [lost, c]")
+        self.assertNotIn("joined to nothing", self.run_changed(flying).stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,175 @@
+"""What happens to files, streams and limits around the programs: damaged, tampered with, misplaced, closed, too small."""
+
+import os
+import resource
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+
+import h5py
+
+from command import PROGRAMS, CommandTest
+from test_mechanism import PENDULUM
+from test_reduce import BAR, BODY
+
+MODEL = PENDULUM + "output: {checkpoint: 10}\n"
+
+
+def rewrite(path, dataset, change):
+    """Puts other numbers in place of those of a dataset."""
+    with h5py.File(path, "r+") as file:
+        values, attributes = change(file[dataset][()]), dict(file[dataset].attrs)
+        del file[dataset]
+        file[dataset] = values
+        file[dataset].attrs.update(attributes)
+
+
+class Files(CommandTest):
+    program = "bielle-mechanism"
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def test_damaged_checkpoints(self):
+        self.write("model.yaml", MODEL)
+        self.assertEqual(self.run_program("model.yaml", "-o", "good.h5", "--quiet").returncode, 0)
+        last = "checkpoints/analysis_1/"
+        for dataset, change, says in ((last + "state", lambda v: v[:1], "has not one row for each of"),
+                                      (last + "state", lambda v: v.ravel(), "has not one row for each of"),
+                                      (last + "rows", lambda v: 3.0, "is no list of numbers"),
+                                      (last + "rows", lambda v: v * float("nan"), "counts nan rows"),
+                                      (last + "rows", lambda v: v * 1e6, "of which there are"),
+                                      (last + "state", lambda v: v * 1.001, "does not hold the numbers")):
+            shutil.copy(self.path("good.h5"), self.path("bad.h5"))
+            rewrite(self.path("bad.h5"), dataset, change)
+            self.expect_refusal(1, "model.yaml", "--restart", "bad.h5", "-o", "on.h5", says=["bad.h5: ", says])
+        with h5py.File(self.path("bad.h5"), "r+") as file:
+            del file[last + "state"]
+            file.create_dataset(last + "state", shape=(2**20, 2**20), chunks=(1024, 1024), dtype="f8")
+        self.expect_refusal(1, "model.yaml", "--restart", "bad.h5", "-o", "on.h5", says=["larger than the file"])
+
+    def test_a_continued_run_replaces_no_other_results_by_default(self):
+        self.write("model.yaml", MODEL)
+        self.assertEqual(self.run_program("model.yaml", "--quiet").returncode, 0)
+        self.assertEqual(self.run_program("model.yaml", "-o", "other.h5", "--quiet").returncode, 0)
+        self.expect_refusal(1, "model.yaml", "--restart", "other.h5", says=["model.h5: exists", "say with -o"])
+        self.assertEqual(self.run_program("model.yaml", "--restart", "model.h5", "--quiet").returncode, 0)
+
+    def test_the_head_of_a_file_that_a_killed_run_left_is_replaced(self):
+        self.write("model.yaml", PENDULUM)
+        self.assertEqual(self.run_program("model.yaml", "--quiet").returncode, 0)
+        with open(self.path("model.h5"), "r+b") as file:
+            file.truncate(96)
+        self.assertEqual(self.run_program("model.yaml", "--quiet").returncode, 0)
+
+    def test_aliases_that_repeat_without_end(self):
+        lines = ["x0: &x0 {a: 1, b: 2}"] + [f"x{k}: &x{k} {{a: *x{k - 1}, b: *x{k - 1}}}" for k in range(1, 40)]
+        self.write("bomb.yaml", "\n".join(lines))
+        self.expect_refusal(1, "bomb.yaml", says=["aliases (`*name`) repeat more than 100000 values"])
+
+    def test_devices_and_pipes(self):
+        os.mkfifo(self.path("pipe"))
+        self.expect_refusal(1, "pipe", says=["pipe: is a device or a pipe"])
+        self.expect_refusal(1, "/dev/zero", says=["/dev/zero: is a device or a pipe"])
+        self.write("model.yaml", PENDULUM)
+        self.expect_refusal(1, "model.yaml", "-o", "pipe", says=["pipe: is a folder or a device"])
+        self.expect_refusal(1, "model.yaml", "-o", "no/such/folder.h5", says=["there is no folder 'no/such'"])
+        self.expect_refusal(1, "model.yaml", "-o", "x" * 300 + ".h5", says=["the file name is too long"])
+        self.expect_refusal(1, "x" * 300, says=["cannot be read: File name too long"])
+        for table in ("/dev/zero", "pipe"):
+            self.write("model.yaml", PENDULUM + f"loads: {{l: {{node: bob, force: [0, 0, \"table('{table}', t)\"]}}}}\n")
+            self.expect_refusal(1, "model.yaml", says=["is a device or a pipe"])
+
+    def test_names_under_which_no_results_can_stand(self):
+        for name in (".", "/", "", "a//b", "a/./b"):
+            self.write("model.yaml", PENDULUM.replace("nodes:\n", f'nodes:\n  "{name}": {{position: [0, 0, 0], fixed: true}}\n'))
+            self.expect_refusal(1, "model.yaml", says=["model.yaml:5: nodes", "name"])
+
+    def test_walls_of_no_thickness(self):
+        beam = ("nodes: {a: {fixed: true}, b: {position: [1, 0, 0]}}\nelements: {beam: {type: beam, nodes: [a, b], section: "
+                "{SECTION, young: 2e11, poisson: 0.3, density: 7800}}}\n")
+        for section in ("box: {width: 0.05, height: 0.1, thickness: 1e-300}", "l: {width: 0.05, height: 0.1, thickness: 1e-300}",
+                        "i: {width: 0.05, height: 0.1, web: 1e-300, flange: 0.01}",
+                        "t: {width: 0.05, height: 0.1, web: 0.01, flange: 1e-300}"):
+            self.write("model.yaml", beam.replace("SECTION", section))
+            self.expect_refusal(1, "model.yaml", "--check", says=["its thinnest part"])
+
+
+class Streams(CommandTest):
+    program = "bielle-mechanism"
+
+    def start(self, *arguments, **options):
+        return subprocess.Popen([os.path.join(PROGRAMS, self.program), *arguments], cwd=self.folder, text=True,
+                                stdin=subprocess.DEVNULL, **options)
+
+    def complete(self, name):
+        with h5py.File(os.path.join(self.folder, name)) as results:
+            return results.attrs["complete"]
+
+    def test_closed_streams_get_into_no_file(self):
+        self.write("model.yaml", PENDULUM)
+        command = f"'{os.path.join(PROGRAMS, self.program)}' model.yaml <&- >&- 2>&-"
+        self.assertEqual(subprocess.run(["bash", "-c", command], cwd=self.folder, timeout=120, check=False).returncode, 0)
+        self.assertEqual(self.complete("model.h5"), 1)
+
+    def test_a_reader_of_messages_that_goes_away_ends_no_run(self):
+        self.write("model.yaml", PENDULUM)
+        ends = os.pipe()
+        os.close(ends[0])
+        run = self.start("model.yaml", stdout=subprocess.DEVNULL, stderr=ends[1])
+        os.close(ends[1])
+        self.assertEqual(run.wait(timeout=120), 0)
+        self.assertEqual(self.complete("model.h5"), 1)
+
+    def test_the_end_of_the_terminal_is_an_interruption(self):
+        self.write("model.yaml", PENDULUM.replace("duration: 0.1", "duration: 1000"))
+        run = self.start("model.yaml", stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        time.sleep(1.5)
+        run.send_signal(signal.SIGHUP)
+        self.assertIn("interrupted at t = ", run.communicate(timeout=60)[1])
+        self.assertEqual(run.returncode, 2)
+
+    def test_too_little_address_space_ends_at_once(self):
+        self.write("model.yaml", PENDULUM)
+        for megabytes in (150, 200, 250):
+            limit = megabytes << 20
+            run = self.start("model.yaml", stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                             preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+            self.assertIn("error", run.communicate(timeout=60)[1])
+            self.assertIn(run.returncode, (2, 127))  # 127: of the loader, which has no room for the libraries
+
+
+class Tampered(CommandTest):
+    program = "bielle-reduce"
+
+    def test_numbers_that_no_body_has_and_numbers_that_were_changed(self):
+        self.write("bar.geo", BAR)
+        self.write("body.yaml", BODY.replace("size: 0.02, order: 2", "size: 0.04, order: 1") + "damping: {ratio: 0.01}\n")
+        self.assertEqual(self.run_program("body.yaml", "-o", "good.h5", "--quiet").returncode, 0)
+        path = os.path.join(self.folder, "bad.h5")
+        for dataset, factor, says in (("stiffness", 1000, "mode 1 has"), ("mass", 4, "mode 1 has"), ("damping", -1, "gain energy"),
+                                      ("stiffness", -1, "release energy"), ("mass", -1, "not positive definite"),
+                                      ("damping", 2, "not those that were written")):
+            shutil.copy(os.path.join(self.folder, "good.h5"), path)
+            rewrite(path, "reduced/" + dataset, lambda v, f=factor: f * v)
+            self.expect_refusal(1, "--inspect", "bad.h5", says=["bad.h5", says])
+        with h5py.File(path, "r+") as file:
+            del file.attrs["checksum"]
+        self.assertEqual(self.run_program("--inspect", "bad.h5").returncode, 0)
+
+    def test_two_reductions_into_one_file(self):
+        self.write("bar.geo", BAR)
+        self.write("body.yaml", BODY)
+        runs = [subprocess.Popen([os.path.join(PROGRAMS, self.program), "body.yaml", "--quiet"], cwd=self.folder,
+                                 stdin=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) for _ in range(4)]
+        for run in runs:
+            said = run.communicate(timeout=300)[1]
+            self.assertEqual(run.returncode, 0, said)
+        self.assertEqual(self.run_program("--inspect", "body.h5").returncode, 0)
+        self.assertEqual([name for name in os.listdir(self.folder) if ".partial" in name], [])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,61 @@
+// Loads: closed forms. (Tangents and power: tests/laws.)
+#include <catch2/catch.hpp>
+
+#include "mechanism/elements/forces/load.hpp"
+#include "tests/support/dense_model.hpp"
+#include "tests/support/model_text.hpp"
+
+using namespace bielle::mechanism;
+using bielle::test::DenseModel;
+using bielle::test::model_from_text;
+using Catch::Contains;
+
+namespace {
+
+// A node turned by 90 degrees about z: its x axis is the inertial y axis.
+VectorX force(const std::string& load, double time, double factor = 1) {
+  const auto model = model_from_text(
+      "nodes: {a: {position: [5, 6, 7], rotation_vector: [0, 0, pi/2]}}\nloads: {gas: {node: a, " + load + "}}");
+  DenseModel dense(*model);
+  dense.environment.load_factor = factor;
+  State state = dense.start();
+  state.time = time;
+  return -dense.residual(state).tail<6>();
+}
+
+VectorX six(double a, double b, double c, double d, double e, double f) {
+  return (VectorX(6) << a, b, c, d, e, f).finished();
+}
+
+}  // namespace
+
+TEST_CASE("a dead load keeps its direction in space, its moment about the node is felt in the node's axes") {
+  CHECK((force("force: ['2*t', 0, 0]", 3) - six(6, 0, 0, 0, 0, 0)).norm() < 1e-15);
+  // At 0.1 along the node's x (inertial y), force along inertial x: moment -0.6 about z.
+  CHECK((force("force: ['2*t', 0, 0], at: [0.1, 0, 0]", 3) - six(6, 0, 0, 0, 0, -0.6)).norm() < 1e-15);
+  CHECK((force("moment: [0, 4, 0]", 0) - six(0, 0, 0, 4, 0, 0)).norm() < 1e-15);
+  CHECK((force("moment: [0, 4, 0]", 0, 0.25) - six(0, 0, 0, 1, 0, 0)).norm() < 1e-15);
+}
+
+TEST_CASE("a follower load turns with its node") {
+  CHECK((force("force: ['2*t', 0, 0], follower: true", 3) - six(0, 6, 0, 0, 0, 0)).norm() < 1e-15);
+  CHECK((force("force: [0, 2, 0], at: [0.1, 0, 0], follower: true", 3) - six(-2, 0, 0, 0, 0, 0.2)).norm() < 1e-15);
+  CHECK((force("moment: [0, 4, 0], follower: true", 0) - six(0, 0, 0, 0, 4, 0)).norm() < 1e-15);
+}
+
+TEST_CASE("loads name the times at which their expressions break") {
+  const auto model = model_from_text(
+      "nodes: {a: {position: [0, 0, 0]}}\n"
+      "loads: {gas: {node: a, force: ['ramp(t, 0.1, 0.2)', 0, 0], moment: [0, 't', 0]}}");
+  std::vector<double> times;
+  model->members()[0].component->add_break_points(times);
+  REQUIRE(times.size() == 2);
+  CHECK_THAT(times[0], Catch::WithinAbs(0.1, 1e-12));
+  CHECK_THAT(times[1], Catch::WithinAbs(0.2, 1e-12));
+}
+
+TEST_CASE("a load without force or moment is refused") {
+  CHECK_THROWS_WITH(force("follower: true", 0), Contains("loads.gas") && Contains("needs `force` or `moment`"));
+  CHECK_THROWS_WITH(force("moment: [1, 0, 0], at: [1, 0, 0]", 0), Contains("loads.gas.at"));
+  CHECK_THROWS_WITH(force("force: [1, 0]", 0), Contains("three components"));
+}

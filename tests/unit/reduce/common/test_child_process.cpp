@@ -1,0 +1,81 @@
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <new>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+#include <unistd.h>
+
+#include "reduce/common/child_process.hpp"
+#include "reduce/common/error.hpp"
+#include "reduce/common/packing.hpp"
+#include "tests/support/messages.hpp"
+
+using namespace bielle;
+using bielle::test::message_of;
+
+namespace {
+
+std::string ended_by(void (*end)(), int seconds = 0) {
+  return message_of<InputError>([&] {
+    in_child_process("a.msh: lost", seconds, [&] {
+      end();
+      return std::string("not lost");
+    });
+  });
+}
+
+struct Part {
+  int number = 0;
+  std::map<std::string, std::vector<double>> lists;
+  Eigen::Matrix3Xd points;
+};
+
+void exchange(Packing& packing, Part& part) {
+  packing(part.number);
+  packing(part.lists);
+  packing(part.points);
+}
+
+}  // namespace
+
+TEST_CASE("child process: what the work returns and throws arrives", "[common]") {
+  const std::string long_text(3'000'000, 'x');
+  CHECK(in_child_process("lost", 0, [&] { return long_text; }) == long_text);
+  CHECK(in_child_process("lost", 0, [] { return std::string(); }).empty());
+  CHECK(message_of<InputError>([] {
+          in_child_process("lost", 0, []() -> std::string { throw InputError("a.yaml:3: wrong"); });
+        }) == "a.yaml:3: wrong");
+  CHECK(message_of<ComputationError>([] {
+          in_child_process("lost", 0, []() -> std::string { throw ComputationError("failed"); });
+        }) == "failed");
+  CHECK_THROWS_AS(in_child_process("lost", 0, []() -> std::string { throw std::bad_alloc(); }), std::bad_alloc);
+}
+
+TEST_CASE("child process: a crash is a sentence, however it comes", "[common]") {
+  CHECK(ended_by([] { std::raise(SIGKILL); }) == "a.msh: lost");
+  CHECK(ended_by([] { std::abort(); }) == "a.msh: lost");
+  CHECK(ended_by([] { _exit(0); }) == "a.msh: lost");
+}
+
+TEST_CASE("child process: work without end is ended", "[common]") {
+  const auto endless = [] {
+    for (volatile bool more = true; more;) {
+    }
+  };
+  CHECK(ended_by(endless, 1) == "a.msh: lost");
+}
+
+TEST_CASE("packing: all comes back as it was", "[common]") {
+  Part part{7, {{"a", {1, 2.5}}, {"", {}}}, Eigen::Matrix3Xd::Random(3, 5)}, found;
+  Packing packing;
+  packing(part);
+  Packing back(packing.bytes());
+  back(found);
+  CHECK(found.number == 7);
+  CHECK(found.lists == part.lists);
+  CHECK(found.points == part.points);
+  CHECK_THROWS_AS(back(found), std::logic_error);  // no more is there
+}

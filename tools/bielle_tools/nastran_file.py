@@ -1,0 +1,177 @@
+"""What a Nastran file holds beside its mesh: materials, rigid elements, point masses.
+
+A superelement has no place for some of it. Nothing of it is passed over in silence: materials are told as lines of a body
+file, the nodes of RBE2 and RBE3 become sets that an interface can name, everything else is told with its numbers.
+"""
+
+import re
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .messages import InputError, counted
+
+# Cards that hold stiffness, mass or conditions that no tetrahedron has.
+LOST = ("CONM1", "CMASS1", "CMASS2", "CELAS1", "CELAS2", "CBUSH", "CBAR", "CBEAM", "CROD", "RBAR", "RBE1", "MPC", "CGAP", "CWELD",
+        "CFAST", "MAT2", "MAT8", "MAT9")
+READ = ("GRID", "MAT1", "PSOLID", "CONM2", "RBE2", "RBE3") + LOST
+MOST_NAMED = 8
+
+
+@dataclass
+class Extras:
+    """Sets of nodes by name, counted from 0, and sentences for the user."""
+
+    point_sets: dict = field(default_factory=dict)
+    notes: list = field(default_factory=list)
+
+
+def read_extras(text, path):
+    """@returns Extras. @raises InputError where a card of those that are read has no number where one belongs."""
+    cards = {name: [] for name in READ}
+    for line, fields in _cards(text):
+        if fields[0] in cards:
+            cards[fields[0]].append(_Card(path, line, fields))
+    nodes = {card.integer(1): k for k, card in enumerate(cards["GRID"])}
+    places = {card.integer(1): [card.number(k, 0.0) for k in (3, 4, 5)] for card in cards["GRID"]}
+    extras = Extras()
+    tied = {}
+    for card in cards["RBE2"]:
+        members = [card.integer(k) for k in card.filled(4) if card.is_integer(k)]  # a number with a point is ALPHA
+        if set("123") <= set(card.fields[3]):
+            _add_tie(extras, card, "rigid", card.integer(2), members, nodes, places, tied)
+        else:
+            extras.notes.append(f"left out: RBE2 {card.integer(1)} ({counted(len(members), 'node')}), which ties the components "
+                                f"{card.fields[3]} alone")
+    for card in cards["RBE3"]:
+        _add_tie(extras, card, "average", card.integer(3), _nodes_of_rbe3(card), nodes, places, tied)
+    _tell_materials(extras, cards)
+    _tell_masses(extras, cards["CONM2"], places, tied)
+    for name in LOST:
+        if cards[name]:
+            extras.notes.append(f"left out: {counted(len(cards[name]), name)} ({_ids(cards[name])}), which no tetrahedron stands for")
+    return extras
+
+
+def _add_tie(extras, card, tie, reference, members, nodes, places, tied):
+    name = f"{card.name.lower()}_{card.integer(1)}"
+    missing = [node for node in members + [reference] if node not in nodes]
+    if missing:
+        raise InputError(f"'{card.path}': line {card.line}: {card.name} {card.integer(1)} names the node {missing[0]}, which does not exist")
+    extras.point_sets[name] = np.array([nodes[node] for node in members], np.int64)
+    tied[reference] = name
+    x, y, z = places[reference]
+    weighted = ", by area whatever its weights" if tie == "average" else ""
+    extras.notes.append(f"{card.name} {card.integer(1)} ({counted(len(members), 'node')}) is the surface '{name}': the interface "
+                        f"{{surface: {name}, tie: {tie}, position: [{x:g}, {y:g}, {z:g}]}} stands for it{weighted} (position in the file's units)")
+
+
+def _nodes_of_rbe3(card):
+    """Groups of weight, components, nodes; a weight is written with a point. UM and ALPHA end them."""
+    members, k = [], 5
+    while k < len(card.fields) and card.fields[k] not in ("UM", "ALPHA"):
+        if card.fields[k] and not card.is_integer(k):
+            k += 2  # the weight and its components
+            continue
+        if card.fields[k]:
+            members.append(card.integer(k))
+        k += 1
+    return members
+
+
+def _tell_materials(extras, cards):
+    of_property = {}
+    for card in cards["PSOLID"]:
+        of_property.setdefault(card.integer(2), []).append(f"property_{card.integer(1)}")
+    for card in cards["MAT1"]:
+        number = card.integer(1)
+        young, shear, poisson = (card.number(k, None) for k in (2, 3, 4))
+        if young is None and None not in (shear, poisson):
+            young = 2 * shear * (1 + poisson)
+        if poisson is None and None not in (young, shear):
+            poisson = young / (2 * shear) - 1
+        text = ", ".join(f"{key}: {value:g}" for key, value in
+                         (("young", young), ("poisson", poisson), ("density", card.number(5, None))) if value is not None)
+        users = ", ".join(of_property.get(number, [])) or "no property"
+        extras.notes.append(f"MAT1 {number} of {users} is, in the file's units (the body file wants SI), mat_{number}: {{{text}}}")
+
+
+def _tell_masses(extras, cards, places, tied):
+    if not cards:
+        return
+    total = sum(card.number(4, 0.0) for card in cards)
+    at = []
+    for card in cards[:MOST_NAMED]:
+        x, y, z = places.get(card.integer(2), (np.nan,) * 3)
+        hangs = f", tied by {tied[card.integer(2)]}" if card.integer(2) in tied else ""
+        at.append(f"{card.integer(1)}: {card.number(4, 0.0):g} at ({x:g}, {y:g}, {z:g}){hangs}")
+    more = f"; and {len(cards) - MOST_NAMED} more" if len(cards) > MOST_NAMED else ""
+    extras.notes.append(f"left out: {counted(len(cards), 'CONM2', 'CONM2')} with a mass of {total:g} in total, in the file's units, which the "
+                        f"superelement does not have: give the mechanism a rigid body there ({'; '.join(at)}{more})")
+
+
+def _ids(cards):
+    return ", ".join(card.fields[1] for card in cards[:MOST_NAMED]) + (" ..." if len(cards) > MOST_NAMED else "")
+
+
+class _Card:
+    def __init__(self, path, line, fields):
+        self.path, self.line, self.fields, self.name = path, line, fields, fields[0]
+
+    def filled(self, first):
+        return [k for k in range(first, len(self.fields)) if self.fields[k]]
+
+    def is_integer(self, k):
+        return re.fullmatch(r"[+-]?\d+", self.fields[k]) is not None
+
+    def integer(self, k):
+        if k < len(self.fields) and self.is_integer(k):
+            return int(self.fields[k])
+        self.fail(k, "an integer")
+
+    def number(self, k, default):
+        if k >= len(self.fields) or not self.fields[k]:
+            return default
+        text = re.sub(r"(?<=[\d.])([+-]\d+)$", r"e\1", self.fields[k].replace("D", "E"))  # 7.85-9 is 7.85e-9
+        try:
+            return float(text)
+        except ValueError:
+            self.fail(k, "a number")
+
+    def fail(self, k, expected):
+        found = f"'{self.fields[k]}'" if k < len(self.fields) else "nothing"
+        raise InputError(f"'{self.path}': line {self.line}: {self.name}: expected {expected} in field {k + 1}, found {found}")
+
+
+def _cards(text):
+    """Line number and fields of each card, continuations joined: field 0 is the name."""
+    line_of, fields = 0, None
+    for number, line in enumerate(text.upper().splitlines(), start=1):
+        line = line.split("$")[0].rstrip()
+        if not line:
+            continue
+        more, name = _split(line)
+        if name and not name.startswith(("+", "*")):
+            if fields:
+                yield line_of, fields
+            line_of, fields = number, [name] + more
+        elif fields:
+            fields += more
+    if fields:
+        yield line_of, fields
+
+
+def _split(line):
+    """The fields of one line after the first, always as many as its form has, and the first."""
+    if "," in line:
+        parts = [part.strip() for part in line.split(",")]
+        wide = parts[0].endswith("*")
+        count = 4 if wide else 8
+        fields = (parts[1:] + [""] * count)[:count]
+    else:
+        line = line.expandtabs(8)
+        wide = "*" in line[:8]
+        width, count = (16, 4) if wide else (8, 8)
+        fields = [line[8 + k * width:8 + (k + 1) * width].strip() for k in range(count)]
+    name = (line.split(",")[0] if "," in line else line[:8]).strip()
+    return fields, (name.rstrip("*") if name != "*" else name)

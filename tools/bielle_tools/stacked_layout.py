@@ -1,0 +1,85 @@
+"""The stacked layout of results: names of entries, and where the numbers of each are found.
+
+    /nodes/node/name      (n)         names
+    /nodes/node/position  (nt,n,3)    the quantity of all of them
+    /nodes/node/attributes/carrier (n)  texts, empty where an entry has no such attribute
+A section holds one such group per kind: entries that record the same.
+"""
+
+import numpy as np
+
+SECTIONS = ("nodes", "elements", "joints", "measures")
+
+
+class StackedLayout:
+    """Finds what `joints/main/coordinate` is called in the layout by names. root: group of an analysis, or of the file."""
+
+    def __init__(self, root):
+        self.root = root
+        self._places = {}  # section -> {name: (group of the kind, number)}
+        self._lists = {}  # path of an attribute -> its texts
+        self._row = {}  # path of a dataset -> (row, numbers of all entries)
+
+    def names(self, section):
+        """In the order of their kinds; None where the section is not stacked."""
+        return list(self._section(section)) if section in SECTIONS else None
+
+    def split(self, place):
+        """`joints/main/coordinate` -> (group, number, "coordinate"); the last is empty for an entry. None: not stacked."""
+        section, _, rest = place.strip("/").partition("/")
+        if section not in SECTIONS or not rest:
+            return None
+        entries = self._section(section)
+        if section == "measures":
+            return (*entries[rest], "value") if rest in entries else ()
+        name, _, field = rest.partition("/")
+        return (*entries[name], field) if name in entries else ()
+
+    def has(self, found):
+        return bool(found) and (not found[2] or found[2] in found[0])
+
+    def datasets(self, found):
+        """Names of what an entry holds."""
+        return [name for name in found[0] if name not in ("name", "attributes")]
+
+    def text(self, found, attribute):
+        """An attribute of an entry or of its dataset; empty where there is none."""
+        group, number, field = found
+        if field:
+            return group[field].attrs.get(attribute, "") if field in group else ""
+        if attribute == "type":
+            return group.attrs.get(attribute, "")
+        path = f"{group.name}/attributes/{attribute}"
+        if path not in self._lists:
+            self._lists[path] = group["attributes"][attribute].asstr()[:] \
+                if "attributes" in group and attribute in group["attributes"] else None
+        texts = self._lists[path]
+        return "" if texts is None else texts[number]
+
+    def read(self, found, rows):
+        """Rows of one entry. What is asked of many entries for one row is read at once."""
+        group, number, field = found
+        data = group[field]
+        if isinstance(rows, slice) or np.ndim(rows):
+            return np.asarray(data[rows, number])
+        kept = self._row.get(data.name)
+        if kept is None or kept[0] != rows:
+            self._row[data.name] = kept = (rows, data[rows])
+        return kept[1][number]
+
+    def shape(self, found):
+        """As the dataset of the entry alone has it."""
+        shape = found[0][found[2]].shape
+        return shape[:1] + shape[2:] if len(shape) > 1 else ()  # a number that is no row over time
+
+    def value(self, found):
+        """A number of an entry that is no row over time."""
+        return float(found[0][found[2]][found[1]])
+
+    def _section(self, section):
+        if section not in self._places:
+            places = {}
+            for group in self.root[section].values() if section in self.root else ():
+                places.update((name, (group, k)) for k, name in enumerate(group["name"].asstr()[:]))
+            self._places[section] = places
+        return self._places[section]
