@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/LU>
+#include "reduce/common/dense_solves.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -126,7 +126,7 @@ void CondensedPattern::find_places(Block& block) const {
 /// Factors of one block, and what they make of its neighbours.
 struct CondensedLU::Block {
   const CondensedPattern::Block* pattern;
-  Eigen::PartialPivLU<MatrixX> lu;  ///< of R A_aa
+  LUFactors lu;                     ///< of R A_aa
   VectorX row_scale;                ///< R: rows are brought to entries of size one, whatever their units
   MatrixX inner, right;             ///< R A_aa, R A_ab
   MatrixX below;                    ///< A_ba
@@ -140,7 +140,6 @@ struct CondensedLU::Block {
 
   explicit Block(const CondensedPattern::Block& of) : pattern(&of) {
     const auto m = static_cast<Eigen::Index>(of.inner.size()), n = static_cast<Eigen::Index>(of.outer.size());
-    lu = Eigen::PartialPivLU<MatrixX>(m);
     inner.resize(m, m);
     right.resize(m, n);
     solved.resize(m, n);
@@ -152,14 +151,6 @@ struct CondensedLU::Block {
   void factor(const std::vector<double>& values, const std::vector<double>& rest_values, const VectorX& rest_scale);
   void set_row_floor(const std::vector<double>& rest_values, const VectorX& rest_scale);
   bool harmless(const VectorX& rest_scale) const;
-  int sign() const;
-  /// to = A_aa^-1 from
-  template <class From, class To>
-  void solve(const From& from, To& to) const {
-    to.noalias() = lu.permutationP() * from;
-    lu.matrixLU().template triangularView<Eigen::UnitLower>().solveInPlace(to);
-    lu.matrixLU().template triangularView<Eigen::Upper>().solveInPlace(to);
-  }
 };
 
 void CondensedLU::Block::factor(const std::vector<double>& values, const std::vector<double>& rest_values,
@@ -176,11 +167,10 @@ void CondensedLU::Block::factor(const std::vector<double>& values, const std::ve
   inner.array().colwise() *= row_scale.array();
   right.array().colwise() *= row_scale.array();
   lu.compute(inner);
-  const double least = lu.matrixLU().diagonal().cwiseAbs().minCoeff(),
-               most = lu.matrixLU().diagonal().cwiseAbs().maxCoeff();
+  const double least = lu.pivots().cwiseAbs().minCoeff(), most = lu.pivots().cwiseAbs().maxCoeff();
   if (!(least > 0) || !std::isfinite(most)) return;
   condition = least / most;
-  solve(right, solved);
+  lu.solve(right, solved);
   change.noalias() = below * solved;
   set_row_floor(rest_values, rest_scale);
   good = harmless(rest_scale);
@@ -205,13 +195,6 @@ bool CondensedLU::Block::harmless(const VectorX& rest_scale) const {
       if (!(scale * std::abs(change(i, j)) <= most_growth * row_floor[i])) return false;
   }
   return true;
-}
-
-int CondensedLU::Block::sign() const {
-  int sign = lu.permutationP().determinant() < 0 ? -1 : 1;
-  for (Eigen::Index k = 0; k < lu.matrixLU().rows(); ++k)
-    if (lu.matrixLU()(k, k) < 0) sign = -sign;
-  return sign;
 }
 
 CondensedLU::CondensedLU(const CondensedPattern& pattern)
@@ -266,7 +249,7 @@ void CondensedLU::solve(Eigen::Ref<VectorX> b) const {
   for (const Block& block : blocks_) {
     for (Eigen::Index i = 0; i < block.permuted.size(); ++i)
       block.permuted[i] = block.row_scale[i] * b[block.pattern->inner[static_cast<std::size_t>(i)]];
-    block.solve(block.permuted, block.part);
+    block.lu.solve(block.permuted, block.part);
     block.outside.noalias() = block.below * block.part;
     for (Eigen::Index i = 0; i < block.outside.size(); ++i)
       rest_vector_[block.pattern->outer[static_cast<std::size_t>(i)]] -= block.outside[i];
@@ -288,7 +271,7 @@ int CondensedLU::singular_column() const { return condensed_ ? -1 : whole_.singu
 int CondensedLU::determinant_sign() const {
   if (!condensed_) return whole_.determinant_sign();
   int sign = rest_.determinant_sign();
-  for (const Block& block : blocks_) sign *= block.sign();
+  for (const Block& block : blocks_) sign *= block.lu.sign();
   return sign;
 }
 

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <fstream>
 #include <new>
 
 #include <fcntl.h>
@@ -45,6 +46,13 @@ std::string read_all(int source) {
   }
 }
 
+/// Of this process [bytes].
+rlim_t address_space() {
+  std::uint64_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return static_cast<rlim_t>(pages) * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
+}
+
 void send(int pipe, Outcome outcome, const std::string& text) {
   const std::uint64_t size = text.size();
   char head[1 + sizeof size] = {outcome};
@@ -65,22 +73,26 @@ void divert_last_words() {
   stderr = own;
 }
 
-void limit(int seconds) {
-  const rlimit no_core{0, 0};
-  setrlimit(RLIMIT_CORE, &no_core);
-  if (seconds <= 0) return;
-  rlimit time{};
-  getrlimit(RLIMIT_CPU, &time);
-  const auto most = static_cast<rlim_t>(seconds);
-  if (time.rlim_cur == RLIM_INFINITY || time.rlim_cur > most) time.rlim_cur = most;
-  setrlimit(RLIMIT_CPU, &time);
+/// Lowers a limit of this process to `most`.
+void lower(decltype(RLIMIT_CPU) kind, rlim_t most) {
+  rlimit limit{};
+  getrlimit(kind, &limit);
+  if (limit.rlim_cur == RLIM_INFINITY || limit.rlim_cur > most) limit.rlim_cur = most;
+  setrlimit(kind, &limit);
 }
 
-[[noreturn]] void run_child(int pipe, pid_t parent, int seconds, const std::function<std::string()>& work) {
+void set_limits(const ChildLimits& limits) {
+  const rlimit no_core{0, 0};
+  setrlimit(RLIMIT_CORE, &no_core);
+  if (limits.seconds > 0) lower(RLIMIT_CPU, static_cast<rlim_t>(limits.seconds));
+  if (limits.memory > 0) lower(RLIMIT_AS, address_space() + limits.memory);
+}
+
+[[noreturn]] void run_child(int pipe, pid_t parent, const ChildLimits& limits, const std::function<std::string()>& work) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(1);
   std::signal(SIGPIPE, SIG_IGN);
-  limit(seconds);
+  set_limits(limits);
   divert_last_words();
   try {
     send(pipe, value, work());
@@ -107,7 +119,7 @@ int wait_for(pid_t process) {
 
 }  // namespace
 
-std::string in_child_process(const std::string& lost, int seconds, const std::function<std::string()>& work) {
+std::string in_child_process(const std::string& lost, const ChildLimits& limits, const std::function<std::string()>& work) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throw ComputationError(fmt::format("no pipe can be made: {}", std::strerror(errno)));
   std::fflush(nullptr);
@@ -115,7 +127,7 @@ std::string in_child_process(const std::string& lost, int seconds, const std::fu
   const pid_t child = fork();
   if (child == 0) {
     close(ends[0]);
-    run_child(ends[1], parent, seconds, work);
+    run_child(ends[1], parent, limits, work);
   }
   const int failed = errno;
   close(ends[1]);

@@ -293,7 +293,7 @@ std::string describe_geometry(const std::string& path, const std::optional<std::
   request.path = path;
   request.length_unit = length_unit;
   const SourceFile source = prepare_source(request, progress);
-  return in_child_process(crash_sentence(source), 0, [&] { return describe_source(path, source); });
+  return in_child_process(crash_sentence(source), {}, [&] { return describe_source(path, source); });
 }
 
 }  // namespace bielle::reduce

@@ -6,10 +6,10 @@
 #include <numbers>
 #include <optional>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "reduce/common/dense_solves.hpp"
 #include "reduce/common/orthogonal_factors.hpp"
 #include "reduce/common/symmetric_eigenpairs.hpp"
 #include "reduce/mesh/place.hpp"
@@ -57,7 +57,7 @@ VectorXd refine(const Residual& residual, VectorXd parameters) {
     }
     Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
     normal.diagonal() += VectorXd::Constant(parameters.size(), damping * normal.diagonal().maxCoeff() + 1e-300);
-    const VectorXd change = -normal.ldlt().solve(jacobian.transpose() * r);
+    const VectorXd change = -solve_symmetric(normal, jacobian.transpose() * r);
     const VectorXd trial = residual(parameters + change);
     if (!trial.allFinite() || !(trial.squaredNorm() < r.squaredNorm())) {
       damping *= 10;

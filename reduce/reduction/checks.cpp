@@ -12,6 +12,7 @@
 #include "reduce/reduction/geometric_checks.hpp"
 #include "reduce/reduction/reduced_matrices.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
+#include "reduce/spectral/dense_products.hpp"
 
 namespace bielle::reduce {
 
@@ -109,14 +110,14 @@ double relative_force(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& m
   }
   const double largest = root.maxCoeff();
   root = Eigen::VectorXd(root.cwiseMax(1e-8 * largest));  // a direction may meet no stiffness at all
-  const Eigen::MatrixXd forces = root.cwiseInverse().asDiagonal() * (k * u);
+  const Eigen::MatrixXd forces = root.cwiseInverse().asDiagonal() * product(k, u);
   return (forces.cwiseAbs().colwise().maxCoeff().array() / (largest * u.cwiseAbs().colwise().maxCoeff()).array())
       .maxCoeff();
 }
 
 ReducedMassProperties reduced_mass_properties(const Superelement& body) {
   const Eigen::MatrixXd u = rigid_coordinates(body, body.centre);
-  const Eigen::Matrix<double, 6, 6> m = u.transpose() * body.mass * u;
+  const Eigen::Matrix<double, 6, 6> m = congruent(body.mass, u);
   ReducedMassProperties result;
   result.mass = m.topLeftCorner<3, 3>().trace() / 3;
   // The coupling block is -m d~, d from the reference to the centre.

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <map>
 
-#include <Eigen/Cholesky>
-
+#include "reduce/common/dense_solves.hpp"
 #include "reduce/common/error.hpp"
 #include "reduce/common/orthogonal_factors.hpp"
 #include "reduce/common/symmetric_eigenpairs.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
+#include "reduce/spectral/dense_products.hpp"
 
 namespace bielle::reduce {
 
@@ -41,10 +41,9 @@ MatrixXd condensed(const MatrixXd& stiffness, Index outer) {
   const Eigen::VectorXd scale = stiffness.diagonal().tail(inner).cwiseSqrt().cwiseInverse();
   const MatrixXd inside = scale.asDiagonal() * stiffness.bottomRightCorner(inner, inner) * scale.asDiagonal();
   const MatrixXd coupling = scale.asDiagonal() * stiffness.bottomLeftCorner(inner, outer);
-  const Eigen::LLT<MatrixXd> factor(inside);
-  if (factor.info() != Eigen::Success)
+  if (!is_positive_definite(inside))
     throw ComputationError("the pieces do not hold together: their stiffness with all interfaces held is singular");
-  const MatrixXd given_way = coupling.transpose() * factor.solve(coupling);
+  const MatrixXd given_way = transposed_product(coupling, solve_symmetric(inside, coupling));
   return stiffness.topLeftCorner(outer, outer) - given_way;
 }
 
@@ -60,7 +59,7 @@ std::vector<double> stiffness_ratios(const Superelement& pieces, const Superelem
   const Eigen::VectorXd unit = uncut.mass.diagonal().head(outer).cwiseSqrt();
   const MatrixXd rigid = unit.asDiagonal() * interface_rigid_motions(uncut.interfaces, uncut.centre);
   const MatrixXd elastic = unit.cwiseInverse().asDiagonal() * orthogonal_basis(rigid).rightCols(outer - 6);
-  const MatrixXd a_elastic = elastic.transpose() * a * elastic, b_elastic = elastic.transpose() * b * elastic;
+  const MatrixXd a_elastic = congruent(a, elastic), b_elastic = congruent(b, elastic);
   const auto pairs =
       symmetric_eigenpairs((a_elastic + a_elastic.transpose()) / 2, (b_elastic + b_elastic.transpose()) / 2);
   if (!pairs) throw ComputationError("the stiffness of the uncut body between its interfaces is singular");

@@ -10,6 +10,7 @@
 #include "reduce/reduction/reduced_matrices.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
 #include "reduce/reduction/tie_second_order.hpp"
+#include "reduce/spectral/dense_products.hpp"
 
 namespace bielle::reduce {
 
@@ -85,9 +86,8 @@ Eigen::MatrixXd solve_free(const Eigen::MatrixXd& k, const Eigen::VectorXd& scal
   const Eigen::MatrixXd scaled = scale.asDiagonal() * k * scale.asDiagonal();
   const SymmetricEigenpairs eigen = symmetric_eigenpairs((scaled + scaled.transpose()) / 2);
   const Eigen::Index rigid = 6, elastic = std::max<Eigen::Index>(0, k.rows() - rigid);
-  const auto vectors = eigen.vectors.rightCols(elastic);
-  return scale.asDiagonal() * vectors * eigen.values.tail(elastic).cwiseInverse().asDiagonal() * vectors.transpose() *
-         scale.asDiagonal() * f;
+  const Eigen::MatrixXd vectors = scale.asDiagonal() * eigen.vectors.rightCols(elastic);
+  return product(vectors, eigen.values.tail(elastic).cwiseInverse().asDiagonal() * transposed_product(vectors, f));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "reduce/reduction/free_body.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
+#include "reduce/spectral/dense_products.hpp"
 
 namespace bielle::reduce {
 
@@ -84,8 +85,8 @@ void add_objectivity_check(const Superelement& body, std::vector<Check>& checks)
       row += std::count(interface.kept.begin(), interface.kept.end(), true);
     }
     const auto in_unit_mass = [&](const Eigen::MatrixXd& x) {
-      const Eigen::MatrixXd product = scale.asDiagonal() * (body.stiffness * x) * scale.asDiagonal();
-      return (product + product.transpose()).cwiseAbs().maxCoeff();
+      const Eigen::MatrixXd energy = scale.asDiagonal() * product(body.stiffness, x) * scale.asDiagonal();
+      return (energy + energy.transpose()).cwiseAbs().maxCoeff();
     };
     size = std::max(size, in_unit_mass(turned));
     for (std::size_t j = 0; j < body.load_stiffness.size(); ++j) {
@@ -116,7 +117,7 @@ void add_virial_checks(const Superelement& body, std::vector<Check>& checks) {
     if (!is_spin) {
       expected.bottomRightCorner<3, 3>() += release_terms[field - 6];
     }
-    Eigen::Matrix<double, 6, 6> error = u.transpose() * k * u - expected;
+    Eigen::Matrix<double, 6, 6> error = congruent(k, u) - expected;
     error.topRows<3>() *= length;
     error.leftCols<3>() *= length;
     // In units of what such a load does to a body of this size: m l^2 for spins, l for forces, 1 for moments.

@@ -2,14 +2,16 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <fmt/format.h>
 
+#include "reduce/common/dense_solves.hpp"
 #include "reduce/common/error.hpp"
 #include "reduce/common/orthogonal_factors.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
+#include "reduce/spectral/dense_products.hpp"
 
 namespace bielle::reduce {
 
@@ -123,7 +125,7 @@ void HeldBody::find_rigid_motions(const Solid& solid, const Ties& ties) {
     return;
   }
   // Do the averages hold what the missing freedoms do not?
-  Eigen::MatrixXd held = conditions_.transpose() * rigid_;
+  Eigen::MatrixXd held = transposed_product(conditions_, rigid_);
   for (Eigen::Index k = 0; k < held.rows(); ++k) {
     held.row(k) *= ties.kept[ties.averages[k]].axis < 3 ? 1 : length;
   }
@@ -212,9 +214,9 @@ void HeldBody::close_conditions(const Ties& ties) {
   }
   flexibility_ = pseudo_solve(conditions_);
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(a + r, a + r);
-  matrix.topLeftCorner(a, a) = conditions_.transpose() * flexibility_;
-  matrix.topRightCorner(a, r) = -conditions_.transpose() * rigid_;
-  matrix.bottomLeftCorner(r, a) = rigid_.transpose() * conditions_;
+  matrix.topLeftCorner(a, a) = transposed_product(conditions_, flexibility_);
+  matrix.topRightCorner(a, r) = -transposed_product(conditions_, rigid_);
+  matrix.bottomLeftCorner(r, a) = transposed_product(rigid_, conditions_);
   // Scaled to comparable entries before it is inverted: multipliers are forces and moments.
   Eigen::VectorXd scale = Eigen::VectorXd::Ones(a + r);
   for (Eigen::Index k = 0; k < a; ++k) {
@@ -223,12 +225,12 @@ void HeldBody::close_conditions(const Ties& ties) {
   for (Eigen::Index k = 0; k < r; ++k) {
     scale(a + k) = 1 / (scale.head(a).asDiagonal() * matrix.col(a + k).head(a)).norm();
   }
-  const Eigen::FullPivLU<Eigen::MatrixXd> lu(scale.asDiagonal() * matrix * scale.asDiagonal());
-  if (!lu.isInvertible()) {
+  const std::optional<Eigen::MatrixXd> inverse = regular_inverse(scale.asDiagonal() * matrix * scale.asDiagonal());
+  if (!inverse) {
     throw ComputationError(fmt::format("{}: the average ties of the body depend on each other",
                                        ties.surfaces[ties.kept[ties.averages.front()].interface].located));
   }
-  small_ = scale.asDiagonal() * lu.inverse() * scale.asDiagonal();
+  small_ = scale.asDiagonal() * *inverse * scale.asDiagonal();
 }
 
 Eigen::MatrixXd HeldBody::solve(const Eigen::MatrixXd& f, const Eigen::MatrixXd& averages) const {
@@ -238,14 +240,14 @@ Eigen::MatrixXd HeldBody::solve(const Eigen::MatrixXd& f, const Eigen::MatrixXd&
     return z;
   }
   Eigen::MatrixXd right(a + r, f.cols());
-  right.topRows(a) = conditions_.transpose() * z;
+  right.topRows(a) = transposed_product(conditions_, z);
   if (averages.size() > 0) {
     right.topRows(a) -= averages;
   }
-  right.bottomRows(r) = rigid_.transpose() * f;
-  const Eigen::MatrixXd unknowns = small_ * right;
-  z -= flexibility_ * unknowns.topRows(a);
-  z += rigid_ * unknowns.bottomRows(r);
+  right.bottomRows(r) = transposed_product(rigid_, f);
+  const Eigen::MatrixXd unknowns = product(small_, right);
+  add_product(z, flexibility_, unknowns.topRows(a), -1);
+  add_product(z, rigid_, unknowns.bottomRows(r));
   return z;
 }
 

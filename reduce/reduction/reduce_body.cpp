@@ -17,6 +17,7 @@
 #include "reduce/reduction/reduced_matrices.hpp"
 #include "reduce/reduction/residual_vectors.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
+#include "reduce/spectral/dense_products.hpp"
 
 namespace bielle::reduce {
 
@@ -41,8 +42,8 @@ ReducedStiffness reduce_stiffness(const SymmetricMatrix& stiffness, const Basis&
   const Eigen::MatrixXd boundary = full.topLeftCorner(kept, kept);
   const Eigen::MatrixXd rigid = interface_rigid_motions(interfaces, body.centre);
   const Eigen::MatrixXd rest = Eigen::MatrixXd::Identity(kept, kept) -
-                               rigid * nearest_rigid_motion(interfaces, body.centre, radius_of_gyration(body));
-  const Eigen::MatrixXd elastic = rest.transpose() * boundary * rest;
+                               product(rigid, nearest_rigid_motion(interfaces, body.centre, radius_of_gyration(body)));
+  const Eigen::MatrixXd elastic = congruent(boundary, rest);
   result.matrix.topLeftCorner(kept, kept) = (elastic + elastic.transpose()) / 2;
   if (kept > rigid.cols()) {
     result.rigid_force = relative_force(boundary, mass.topLeftCorner(kept, kept), rigid);

@@ -7,6 +7,7 @@
 #include "reduce/common/orthogonal_factors.hpp"
 #include "reduce/common/symmetric_eigenpairs.hpp"
 #include "reduce/spectral/blas.hpp"
+#include "reduce/spectral/dense_products.hpp"
 
 namespace bielle::reduce {
 
@@ -52,7 +53,7 @@ FreeModes free_modes(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& ma
   // Elastic modes are M~-orthogonal to U: they lie in the complement of M~ U.
   Eigen::MatrixXd complement = Eigen::MatrixXd::Identity(n, n);
   if (r > 0) {
-    const Eigen::MatrixXd momenta = m * u;
+    const Eigen::MatrixXd momenta = product(m, u);
     complement = orthogonal_basis(momenta).rightCols(n - r);
   }
   FreeModes result;
@@ -61,15 +62,15 @@ FreeModes free_modes(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& ma
     result.vectors.resize(n, 0);
     return result;
   }
-  const Eigen::MatrixXd reduced_mass = complement.transpose() * m * complement;
-  const Eigen::MatrixXd reduced_stiffness = complement.transpose() * k * complement;
+  const Eigen::MatrixXd reduced_mass = congruent(m, complement);
+  const Eigen::MatrixXd reduced_stiffness = congruent(k, complement);
   const auto modes = symmetric_eigenpairs((reduced_stiffness + reduced_stiffness.transpose()) / 2,
                                           (reduced_mass + reduced_mass.transpose()) / 2);
   if (!scale.allFinite() || !modes) {
     throw ComputationError("the mass matrix of the reduced body is not positive definite");
   }
   result.omega = modes->values.cwiseMax(0).cwiseSqrt();
-  result.vectors = scale.asDiagonal() * complement * modes->vectors;
+  result.vectors = scale.asDiagonal() * product(complement, modes->vectors);
   return result;
 }
 
@@ -87,8 +88,8 @@ Eigen::MatrixXd modal_damping(const FreeModes& modes, const Eigen::MatrixXd& mas
     const double ratio = k < static_cast<Eigen::Index>(ratios.size()) ? ratios[k] : ratios.back();
     coefficients(k) = 2 * ratio * modes.omega(k);
   }
-  const Eigen::MatrixXd momenta = mass * modes.vectors;
-  const Eigen::MatrixXd damping = momenta * coefficients.asDiagonal() * momenta.transpose();
+  const Eigen::MatrixXd momenta = product(mass, modes.vectors);
+  const Eigen::MatrixXd damping = product(momenta, coefficients.asDiagonal() * momenta.transpose());
   return (damping + damping.transpose()) / 2;
 }
 

@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 
 #include "reduce/reduction/rigid_motions.hpp"
+#include "reduce/spectral/dense_products.hpp"
 
 namespace bielle::reduce {
 
@@ -98,7 +99,7 @@ void TieSecondOrder::add_deformation(const InterfaceLoad& load, Eigen::MatrixXd&
   const Eigen::RowVectorXd trace = d.row(0) + d.row(4) + d.row(8);
   const Eigen::MatrixXd lever =
       w(0) * d.topRows<3>() + w(1) * d.middleRows<3>(3) + w(2) * d.bottomRows<3>() - w * trace;  // D w - w tr D
-  const Eigen::MatrixXd half = rotations_[number].transpose() * lever;
+  const Eigen::MatrixXd half = transposed_product(rotations_[number], lever);
   k -= half + half.transpose();
 }
 
@@ -119,7 +120,7 @@ void TieSecondOrder::add(const RowMatrix& tie_forces, Eigen::Index field, const 
                          Eigen::MatrixXd& k) const {
   for (std::size_t i = 0; i < ties_.interfaces.size(); ++i) {
     if (ties_.surfaces[i].tie != Tie::free) {
-      k += rotations_[i].transpose() * rotation_term(tie_forces, field, load, i) * rotations_[i];
+      k += congruent(rotation_term(tie_forces, field, load, i), rotations_[i]);
     }
   }
   if (load.interface >= 0) {

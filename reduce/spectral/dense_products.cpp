@@ -45,11 +45,20 @@ void add_weighted(MatrixRef X, std::span<const WeightedMatrix> terms) {
     for (const auto& [matrix, weight] : terms) X.col(j) += weight * matrix->col(j);
 }
 
+Eigen::MatrixXd product(const ConstMatrixRef& A, const ConstMatrixRef& B) {
+  Eigen::MatrixXd C = Eigen::MatrixXd::Zero(A.rows(), B.cols());
+  add_product(C, A, B);
+  return C;
+}
+
+Eigen::MatrixXd transposed_product(const ConstMatrixRef& A, const ConstMatrixRef& B) {
+  Eigen::MatrixXd C = Eigen::MatrixXd::Zero(A.cols(), B.cols());
+  add_transposed_product(C, A, B);
+  return C;
+}
+
 Eigen::MatrixXd congruent(const ConstMatrixRef& S, const ConstMatrixRef& P) {
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(P.cols(), P.cols()), right = Eigen::MatrixXd::Zero(S.rows(), P.cols());
-  add_product(right, S, P);
-  add_transposed_product(result, P, right);
-  return result;
+  return transposed_product(P, product(S, P));
 }
 
 }  // namespace bielle

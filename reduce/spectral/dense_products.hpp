@@ -1,17 +1,15 @@
 // Products of dense matrices, compiled once: Eigen compiles a product for each combination of types anew, which takes
 // longer than anything else in sources that are full of them. Large ones run in BLAS, whose kernels are those of the
-// processor; small ones in Eigen. None allocates.
+// processor; small ones in Eigen. What adds to a matrix does not allocate.
 #pragma once
 
 #include <span>
 
 #include <Eigen/Core>
 
-namespace bielle {
+#include "reduce/common/matrix_refs.hpp"
 
-using MatrixRef = Eigen::Ref<Eigen::MatrixXd>;
-/// Whole matrices and blocks of them by columns, of any type, are not copied.
-using ConstMatrixRef = Eigen::Ref<const Eigen::MatrixXd>;
+namespace bielle {
 
 /// C += scale A B
 void add_product(MatrixRef C, const ConstMatrixRef& A, const ConstMatrixRef& B, double scale = 1);
@@ -26,6 +24,12 @@ struct WeightedMatrix {
 
 /// X += sum of weight times matrix, all of X's size: reads and writes X once.
 void add_weighted(MatrixRef X, std::span<const WeightedMatrix> terms);
+
+/// A B
+Eigen::MatrixXd product(const ConstMatrixRef& A, const ConstMatrixRef& B);
+
+/// A^T B
+Eigen::MatrixXd transposed_product(const ConstMatrixRef& A, const ConstMatrixRef& B);
 
 /// P^T S P
 Eigen::MatrixXd congruent(const ConstMatrixRef& S, const ConstMatrixRef& P);

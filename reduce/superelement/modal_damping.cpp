@@ -6,6 +6,7 @@
 #include "reduce/common/error.hpp"
 #include "reduce/common/orthogonal_factors.hpp"
 #include "reduce/common/symmetric_eigenpairs.hpp"
+#include "reduce/spectral/dense_products.hpp"
 #include "reduce/superelement/superelement.hpp"
 
 namespace bielle {
@@ -43,9 +44,9 @@ MatrixXd modal_damping(const Superelement& body, const std::vector<double>& rati
   const VectorXd scale = body.mass.diagonal().cwiseSqrt().cwiseInverse();
   const MatrixXd M = scale.asDiagonal() * body.mass * scale.asDiagonal();
   const MatrixXd K = scale.asDiagonal() * body.stiffness * scale.asDiagonal();
-  const MatrixXd momenta = M * scale.cwiseInverse().asDiagonal() * rigid_motions(body);
+  const MatrixXd momenta = product(M, scale.cwiseInverse().asDiagonal() * rigid_motions(body));
   const MatrixXd basis = orthogonal_basis(momenta).rightCols(elastic);
-  const MatrixXd M_elastic = basis.transpose() * M * basis, K_elastic = basis.transpose() * K * basis;
+  const MatrixXd M_elastic = congruent(M, basis), K_elastic = congruent(K, basis);
   const auto modes =
       symmetric_eigenpairs(0.5 * (K_elastic + K_elastic.transpose()), 0.5 * (M_elastic + M_elastic.transpose()));
   if (!modes) throw ComputationError(fmt::format("the mass matrix of '{}' is not positive definite", body.name));
@@ -54,8 +55,8 @@ MatrixXd modal_damping(const Superelement& body, const std::vector<double>& rati
     const auto index = std::min(static_cast<std::size_t>(k), ratios.size() - 1);
     coefficients[k] = 2 * ratios[index] * std::sqrt(std::max(0.0, modes->values[k]));
   }
-  const MatrixXd Mv = scale.cwiseInverse().asDiagonal() * MatrixXd(M * basis * modes->vectors);
-  const MatrixXd C = Mv * coefficients.asDiagonal() * Mv.transpose();
+  const MatrixXd Mv = scale.cwiseInverse().asDiagonal() * product(M, product(basis, modes->vectors));
+  const MatrixXd C = product(Mv, coefficients.asDiagonal() * Mv.transpose());
   return 0.5 * (C + C.transpose());
 }
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Cholesky>
 #include <fmt/format.h>
 
+#include "reduce/common/dense_solves.hpp"
 #include "reduce/superelement/superelement.hpp"
 
 namespace bielle {
@@ -22,8 +22,6 @@ constexpr double rounding = 1e-8;
 /// Of the stiffness of a mode: frequencies may be written with few digits.
 constexpr double frequency_digits = 1e-3;
 
-bool is_positive(const MatrixXd& matrix) { return Eigen::LLT<MatrixXd>(matrix).info() == Eigen::Success; }
-
 /// @param scale  of each coordinate
 bool is_semidefinite(const MatrixXd& matrix, const VectorXd& scale) {
   MatrixXd scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
@@ -33,7 +31,7 @@ bool is_semidefinite(const MatrixXd& matrix, const VectorXd& scale) {
   if (largest == 0) return true;
   scaled /= largest;
   scaled.diagonal().array() += rounding * static_cast<double>(scaled.rows());
-  return is_positive(scaled);
+  return is_positive_definite(scaled);
 }
 
 double square_of_omega(double frequency) { return std::pow(2 * std::numbers::pi * frequency, 2); }
@@ -57,7 +55,7 @@ std::string odd_mode(const Superelement& body) {
 std::string physical_fault_of(const Superelement& body) {
   if (!(body.mass.diagonal().minCoeff() > 0)) return "/reduced/mass: is not positive definite";
   const VectorXd scale = body.mass.diagonal().cwiseSqrt().cwiseInverse();
-  if (!is_positive(scale.asDiagonal() * body.mass * scale.asDiagonal()))
+  if (!is_positive_definite(scale.asDiagonal() * body.mass * scale.asDiagonal()))
     return "/reduced/mass: is not positive definite";
   if (!is_semidefinite(body.stiffness, scale))
     return "/reduced/stiffness: is not positive: some deformation would release energy";

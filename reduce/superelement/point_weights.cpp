@@ -5,11 +5,12 @@
 #include <limits>
 #include <numeric>
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <fmt/format.h>
 
+#include "reduce/common/dense_solves.hpp"
 #include "reduce/common/error.hpp"
+#include "reduce/spectral/dense_products.hpp"
 
 namespace bielle {
 
@@ -49,14 +50,14 @@ Matrix4Xd linear_weights(const Matrix3Xd& arms, const VectorXd& weight) {
   Matrix4Xd rows(4, arms.cols());
   rows.row(0).setOnes();
   rows.bottomRows<3>() = arms;
-  const Eigen::Matrix4d normal = rows * weight.asDiagonal() * rows.transpose();
-  return normal.ldlt().solve(Matrix4Xd(rows * weight.asDiagonal()));
+  const Matrix4Xd weighted = rows * weight.asDiagonal();
+  return solve_symmetric(product(weighted, rows.transpose()), weighted);
 }
 
 /// Whether nodes span space, seen from their mean.
 bool in_space(const Matrix3Xd& arms) {
   const Matrix3Xd spread = arms.colwise() - Vector3d(arms.rowwise().mean());
-  const Matrix3d moment = spread * spread.transpose();
+  const Matrix3d moment = product(spread, spread.transpose());
   return moment.determinant() > flatness * std::pow(moment.trace() / 3, 3);
 }
 
@@ -81,7 +82,7 @@ Eigen::MatrixXd rows_of_rigid_motion(const Matrix3Xd& arms, const VectorXd& weig
     normal += weight[k] * motion.transpose() * motion;
     right.middleCols<3>(3 * k) = weight[k] * motion.transpose();
   }
-  return normal.ldlt().solve(right);
+  return solve_symmetric(normal, right);
 }
 
 }  // namespace

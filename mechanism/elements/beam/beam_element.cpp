@@ -5,10 +5,10 @@
 #include <numbers>
 #include <utility>
 
-#include <Eigen/Cholesky>
 #include <fmt/format.h>
 
 #include "mechanism/math/gauss.hpp"
+#include "mechanism/math/inverse.hpp"
 #include "mechanism/model/description.hpp"
 #include "reduce/common/counted.hpp"
 #include "reduce/common/error.hpp"
@@ -20,11 +20,6 @@ using Vector12 = Eigen::Matrix<double, 12, 1>;
 using Matrix12 = Eigen::Matrix<double, 12, 12>;
 using Matrix6x12 = Eigen::Matrix<double, 6, 12>;
 using Matrix12x6 = Eigen::Matrix<double, 12, 6>;
-
-Matrix6 inverse(const Matrix6& A) {
-  const Matrix6 B = A.llt().solve(Matrix6::Identity());
-  return 0.5 * (B + B.transpose());
-}
 
 /// Resultants at a section of an element of relative motion d that is in equilibrium, of its f: the nodal wrench at B,
 /// T6^-T(d) f, carried there. @param section  in the axes of the section frame at B
@@ -48,7 +43,7 @@ Matrix6 element_stiffness(const ElementSections& sections, const BeamReference& 
   std::array<Matrix6, 3> S;
   Matrix6 mean = Matrix6::Zero(), sum = Matrix6::Zero();
   for (std::size_t g = 0; g < 3; ++g) {
-    S[g] = inverse(sections.at[g].stiffness);
+    S[g] = symmetric_inverse(sections.at[g].stiffness);
     mean += Gauss3::weight[g] * sections.at[g].stiffness;
   }
   if (bending == BeamBending::constant) return mean;
@@ -58,7 +53,7 @@ Matrix6 element_stiffness(const ElementSections& sections, const BeamReference& 
       const Matrix6 A = equilibrium(reference.d0, reference.seen_from_B(z));
       sum += Gauss3::weight[g] / parts * A.transpose() * flexibility_at(S, z) * A;
     }
-  return inverse(sum);
+  return symmetric_inverse(sum);
 }
 
 }  // namespace
@@ -77,7 +72,7 @@ BeamElement::BeamElement(std::string name, BeamPlace place, int node_a, int node
       bending_(bending),
       stiffness_(element_stiffness(sections, reference, bending)),
       section_(sections.middle().stiffness),
-      flexibility_(inverse(section_)),
+      flexibility_(symmetric_inverse(section_)),
       mass_(L_ * sections.mean_mass()),
       stress_(sections.middle().stress),
       damping_(damping),

@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <array>
 
-#include <Eigen/Cholesky>
 #include <fmt/format.h>
 
 #include "mechanism/elements/beam/beam_section.hpp"
 #include "mechanism/math/gauss.hpp"
 #include "mechanism/math/so3.hpp"
+#include "reduce/common/dense_solves.hpp"
 #include "reduce/common/plausible.hpp"
 
 namespace bielle::mechanism {
@@ -35,7 +35,7 @@ Vector2 read_offset(const YamlValue& value, const std::string& what) {
   const auto offset = value.find("offset");
   if (!offset) return Vector2::Zero();
   const VectorX numbers = offset->vector();
-  if (numbers.size() != 2) offset->fail("expected " + what + " [y, z] from the node line");
+  if (numbers.size() != 2) offset->fail(fmt::format("expected {} [y, z] from the node line", what));
   return numbers;
 }
 
@@ -61,14 +61,13 @@ VectorX read_constants(const YamlValue& value) {
 
 void check_positive_definite(const YamlValue& value, const MatrixX& A, const std::string& what) {
   const double largest = A.cwiseAbs().maxCoeff();
-  if (!(A - A.transpose()).isZero(1e-9 * largest)) value.fail(what + " must be symmetric");
+  if (!(A - A.transpose()).isZero(1e-9 * largest)) value.fail(fmt::format("{} must be symmetric", what));
   // Scaled to a unit diagonal: translations and rotations have different units.
   const VectorX scale = A.diagonal().cwiseMax(0).cwiseSqrt();
   const bool positive =
       scale.minCoeff() > 0 &&
-      Eigen::LLT<MatrixX>(scale.cwiseInverse().asDiagonal() * A * scale.cwiseInverse().asDiagonal()).info() ==
-          Eigen::Success;
-  if (!positive) value.fail(what + " must be positive definite");
+      is_positive_definite(scale.cwiseInverse().asDiagonal() * A * scale.cwiseInverse().asDiagonal());
+  if (!positive) value.fail(fmt::format("{} must be positive definite", what));
 }
 
 void check_mass(const YamlValue& value, const Matrix6& M) {
@@ -103,7 +102,8 @@ VectorX read_matrices(const YamlValue& value) {
 /// The one key that says what the section is.
 std::string kind_of(const YamlValue& value) {
   std::vector<std::string> kinds = section_shape_names(), given;
-  kinds.insert(kinds.end(), {"EA", "stiffness"});
+  kinds.emplace_back("EA");
+  kinds.emplace_back("stiffness");
   std::copy_if(kinds.begin(), kinds.end(), std::back_inserter(given),
                [&](const std::string& k) { return value.has(k); });
   if (given.size() == 1) return given.front();
@@ -126,7 +126,7 @@ std::string kind_of(const YamlValue& value) {
 SectionLaw::Definition SectionLaw::read_shape(const std::string& kind, const YamlValue& value) {
   std::vector<std::string> keys = shape_keys;
   keys.push_back(kind);
-  value.check_keys(keys, "a section '" + kind + "'");
+  value.check_keys(keys, fmt::format("a section '{}'", kind));
   Definition d;
   d.kind = kind;
   d.numbers = read_shape_dimensions(kind, value.at(kind));

@@ -1,6 +1,7 @@
 #include "mechanism/elements/superelement/attached_point.hpp"
 
 #include "mechanism/math/so3.hpp"
+#include "reduce/spectral/dense_products.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -67,11 +68,11 @@ void AttachedPoint::add_tangent(int multiplier_row, const Matrix6X& frame, const
   Matrix6X change(6, target.cols());
   change.topRows<3>() = -force * frame.bottomRows<3>();
   change.bottomRows<3>() = (moment + Z) * delta.bottomRows<3>();
-  target.noalias() += node.transpose() * change;
+  add_transposed_product(target, node, change);
   // -U_c^T m on the frame: -[0; delta_u x m_u + Z delta_theta]
   change.topRows<3>().setZero();
   change.bottomRows<3>() = force * delta.topRows<3>() - Z * delta.bottomRows<3>();
-  target.noalias() += frame.transpose() * change;
+  add_transposed_product(target, frame, change);
 
   change = delta - shape;
   change.bottomRows<3>() = D_ * delta.bottomRows<3>() - shape.bottomRows<3>();

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 
-#include <Eigen/LU>
 #include <Eigen/SVD>
 #include <fmt/format.h>
 
+#include "mechanism/math/inverse.hpp"
 #include "reduce/common/error.hpp"
+#include "reduce/spectral/dense_products.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -17,8 +18,8 @@ constexpr double partial_weight = 1e-3;
 
 }  // namespace
 
-CorotatedFrame::CorotatedFrame(std::vector<BodyPoint> points, MatrixX6 A, double size)
-    : points_(std::move(points)), A_(std::move(A)), size_(size) {
+CorotatedFrame::CorotatedFrame(std::vector<BodyPoint> points, const MatrixX6& A, double size)
+    : points_(std::move(points)), At_(A.transpose()), size_(size) {
   Vector3 centre = Vector3::Zero();
   for (const BodyPoint& point : points_) centre += point.X / static_cast<double>(points_.size());
   double largest = 0;
@@ -103,27 +104,29 @@ std::string CorotatedFrame::misfit(const LocalState& state, CorotatedGeometry& g
 
 void CorotatedFrame::solve(const LocalState& state, CorotatedGeometry& geometry) const {
   const auto count = points_.size();
-  geometry.q.resize(A_.rows());
+  geometry.q.resize(At_.cols());
   geometry.q.tail(state.slots().amplitudes) = state.amplitude();
   geometry.y.resize(count);
   geometry.E.assign(count, Matrix3::Identity());
   geometry.D.assign(count, Matrix3::Zero());
-  geometry.V.setZero(A_.rows(), 6);
+  geometry.V.setZero(At_.cols(), 6);
   for (const BodyPoint& point : points_) geometry.V.block<3, 3>(point.u, 0).setIdentity();
-  geometry.Sigma.resize(6, A_.rows());
 
   geometry.frame = closest_placement(state);
   bool last = false;
   for (int iteration = 0; iteration < 50; ++iteration) {
     update(state, geometry);
-    const Matrix6 S = A_.transpose() * geometry.V;
-    const Eigen::PartialPivLU<Matrix6> factors(S);
+    Matrix6 S = Matrix6::Zero();
+    add_product(S, At_, geometry.V);
+    const Matrix6 S_inverse = inverse(S);
     if (last) {
-      const Matrix6 S_inverse = factors.inverse();
-      geometry.Sigma.noalias() = S_inverse * A_.transpose();
+      geometry.Sigma.setZero(6, At_.cols());
+      add_product(geometry.Sigma, S_inverse, At_);
       return;
     }
-    Vector6 step = factors.solve(Vector6(A_.transpose() * geometry.q));
+    Vector6 gap = Vector6::Zero();
+    add_product(gap, At_, geometry.q);
+    Vector6 step = S_inverse * gap;
     if (!step.allFinite()) break;
     // Newton converges from anywhere near; a step beyond half a radian is no linear matter any more.
     const double angle = step.tail<3>().norm();

@@ -61,10 +61,10 @@ class CorotatedFrame {
   /// @param points  their rows in q must not overlap
   /// @param A       (n,6); the modal amplitudes are the last rows of q
   /// @param size    of the body [m], where its interfaces coincide
-  CorotatedFrame(std::vector<BodyPoint> points, MatrixX6 A, double size);
+  CorotatedFrame(std::vector<BodyPoint> points, const MatrixX6& A, double size);
 
   const std::vector<BodyPoint>& points() const { return points_; }
-  const MatrixX6& A() const { return A_; }
+  const Matrix6X& A_transposed() const { return At_; }
 
   /// Solves the conditions for the nodes and amplitudes of `state` (node k is point k).
   /// @throws ComputationError when there is no such frame (the nodes are far from any rigid placement of the body)
@@ -78,7 +78,7 @@ class CorotatedFrame {
  private:
   void update(const LocalState& state, CorotatedGeometry& geometry) const;
   std::vector<BodyPoint> points_;
-  MatrixX6 A_;
+  Matrix6X At_;  ///< A^T
   double size_ = 1;  ///< [m]: scale of translations and lever of rotations
 };
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "reduce/common/error.hpp"
+#include "reduce/spectral/dense_products.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -27,7 +28,8 @@ MatrixX6 mean_conditions(const SuperelementMatrices& body) {
   for (const BodyPoint& point : body.points)
     if (point.theta >= 0) weights.segment<3>(point.theta).setConstant(rotation_weight(body));
   MatrixX6 A = MatrixX6::Zero(body.size(), 6);
-  A.topRows(rows) = weights.asDiagonal() * body.kept * body.U.topRows(rows);
+  const MatrixX weighted = weights.asDiagonal() * body.kept;
+  add_product(A.topRows(rows), weighted, body.U.topRows(rows));
   return A;
 }
 

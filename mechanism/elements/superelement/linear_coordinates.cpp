@@ -9,13 +9,6 @@ namespace {
 constexpr double last_step = 1e-9;
 constexpr int most_iterations = 25;
 
-/// x <- P x of the factors, then L U x = x: Eigen's own `solve` allocates where it permutes in place.
-template <typename Derived>
-void solve_permuted(const Eigen::PartialPivLU<MatrixX>& factors, Eigen::MatrixBase<Derived>& x) {
-  factors.matrixLU().triangularView<Eigen::UnitLower>().solveInPlace(x);
-  factors.matrixLU().triangularView<Eigen::Upper>().solveInPlace(x);
-}
-
 }  // namespace
 
 void LinearCoordinates::solve(const SuperelementMatrices& body, const VectorX& q) {
@@ -35,9 +28,7 @@ void LinearCoordinates::solve(const SuperelementMatrices& body, const VectorX& q
     factors_.compute(J_);
     // Beyond a zero of the determinant one q belongs to two eps, and this would be the wrong one.
     if (!(factors_.determinant() > 0)) break;
-    const auto& order = factors_.permutationP().indices();
-    for (Eigen::Index i = 0; i < b; ++i) step_[order[i]] = residual_[i];
-    solve_permuted(factors_, step_);
+    factors_.solve(residual_, step_);
     eps_.head(b) -= step_;
     if (!eps_.allFinite()) break;
     const double size = (eps_.head(b).array() * scale).matrix().norm();
@@ -45,9 +36,7 @@ void LinearCoordinates::solve(const SuperelementMatrices& body, const VectorX& q
     body.multiply_load_stiffness(eps_, gradient_);
     J_ = MatrixX::Identity(b, b) - gradient_.topRows(b).transpose();
     factors_.compute(J_);
-    J_.setZero();
-    for (Eigen::Index i = 0; i < b; ++i) J_(factors_.permutationP().indices()[i], i) = 1;
-    solve_permuted(factors_, J_);
+    factors_.set_inverse(J_);
     return;
   }
   throw ComputationError("it is deformed beyond what the theory of second order describes (bodies that bend or twist by more "

@@ -13,9 +13,8 @@
 //     epsdot = J qdot,   eps'' = J (qddot + G(epsdot) epsdot).
 #pragma once
 
-#include <Eigen/LU>
-
 #include "mechanism/elements/superelement/superelement_body_matrices.hpp"
+#include "reduce/common/dense_solves.hpp"
 
 namespace bielle::mechanism {
 
@@ -41,7 +40,7 @@ class LinearCoordinates {
  private:
   VectorX eps_, step_, residual_;
   MatrixX gradient_;  ///< G(eps)^T (n, rows)
-  Eigen::PartialPivLU<MatrixX> factors_;
+  LUFactors factors_;
   MatrixX J_;  ///< its block of the interfaces
   MatrixX excess_;
 };

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
 #include <fmt/format.h>
 
 #include "reduce/common/counted.hpp"
-#include "reduce/spectral/dense_products.hpp"
+#include "reduce/common/dense_solves.hpp"
 #include "reduce/common/error.hpp"
+#include "reduce/spectral/dense_products.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -62,22 +62,25 @@ SuperelementMatrices::SuperelementMatrices(const Superelement& body) : modes(sta
   K = symmetric(congruent(body.stiffness, P));
   C = symmetric(congruent(body.damping, P));
   M = symmetric(congruent(body.mass, P));
-  MU = M * U;
-  const Matrix6 rigid = U.transpose() * MU;
-  if (Eigen::LLT<Matrix6>(rigid).info() != Eigen::Success)
+  MU.setZero(n, 6);
+  add_product(MU, M, U);
+  Matrix6 rigid = Matrix6::Zero();
+  add_transposed_product(rigid, U, MU);
+  if (!is_positive_definite(rigid))
     throw InputError(fmt::format("superelement '{}': its mass matrix gives no positive mass and inertia", body.name));
   mass = rigid.topLeftCorner<3, 3>().trace() / 3;
   centre = skew_vector(rigid.bottomLeftCorner<3, 3>()) / mass;
   inertia = rigid.bottomRightCorner<3, 3>() + mass * skew(centre) * skew(centre);
 
   gyration = std::sqrt(inertia.trace() / mass);
-  mean_turning = rigid.ldlt().solve(MatrixX(MU.transpose())).bottomRows<3>();
+  mean_turning = solve_symmetric(rigid, MU.transpose()).bottomRows<3>();
   set_inertia(body, P);
   set_load_stiffness(body, P);
   for (const auto& [name, load] : body.loads) {
     Pattern pattern(n, 9);
+    pattern.setZero();
     for (int k = 0; k < 3; ++k)
-      pattern.middleCols<3>(3 * k) = P.transpose() * load.force[static_cast<std::size_t>(k)].transpose();
+      add_transposed_product(pattern.middleCols<3>(3 * k), P, load.force[static_cast<std::size_t>(k)].transpose());
     pattern_names.push_back(name);
     patterns.push_back(std::move(pattern));
   }
@@ -137,7 +140,10 @@ void SuperelementMatrices::set_inertia(const Superelement& body, const MatrixX& 
   const MatrixX& S_13 = S[4];
   const MatrixX& S_12 = S[5];
   G = {S_23.transpose() - S_23, S_13 - S_13.transpose(), S_12.transpose() - S_12};
-  for (std::size_t k = 0; k < 3; ++k) GU[k] = G[k] * U;
+  for (std::size_t k = 0; k < 3; ++k) {
+    GU[k].setZero(size(), 6);
+    add_product(GU[k], G[k], U);
+  }
   const MatrixX sum = S[0] + S[1] + S[2];
   for (std::size_t i = 0; i < 6; ++i) {
     H[i] = symmetric(i < 3 ? MatrixX(sum - S[i]) : MatrixX(-S[i]));

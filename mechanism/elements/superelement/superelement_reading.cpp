@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "mechanism/reading/names.hpp"
 #include "mechanism/reading/read_frame.hpp"
+#include "reduce/common/dense_solves.hpp"
 #include "reduce/common/plausible.hpp"
 #include "reduce/superelement/modal_damping.hpp"
 
@@ -85,7 +85,7 @@ Vector6 rigid_start_motion(const Model& model, const std::vector<int>& nodes, co
     right.tail<3>() += size * size * (node.frame.R * node.angular_velocity);
   }
   if (normal.isZero()) return Vector6::Zero();
-  return normal.ldlt().solve(right);
+  return solve_symmetric(normal, right);
 }
 
 void check_superelement_keys(const YamlValue& entry) {

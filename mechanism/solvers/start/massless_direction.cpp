@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "mechanism/solvers/constraints/mass_saddle.hpp"
+#include "reduce/common/symmetric_eigenpairs.hpp"
 
 namespace bielle::mechanism {
 
@@ -21,10 +21,10 @@ std::optional<Vector6> massless_direction(const System& system, const std::vecto
     }
   if (M.diagonal().minCoeff() <= 0) return {};
   const Vector6 scale = M.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(scale.asDiagonal() * M * scale.asDiagonal());
+  const SymmetricEigenpairs eigen = symmetric_eigenpairs(scale.asDiagonal() * M * scale.asDiagonal());
   constexpr double rounding = 1e-12;
-  if (eigen.eigenvalues()[0] > rounding) return {};
-  const Vector6 direction = scale.asDiagonal() * eigen.eigenvectors().col(0);
+  if (eigen.values[0] > rounding) return {};
+  const Vector6 direction = scale.asDiagonal() * eigen.vectors.col(0);
   Eigen::Index largest = 0;
   direction.tail<3>().cwiseAbs().maxCoeff(&largest);  // the sign is free
   return direction / std::copysign(direction.tail<3>().norm(), direction[3 + largest]);

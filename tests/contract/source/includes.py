@@ -10,7 +10,7 @@ import re
 
 # "" is the program's own folder: what stands beside main.
 FOLDERS = {
-    "reduce": ["common", "superelement", "spectral", "mesh", "fe", "reduction", ""],
+    "reduce": ["common", "spectral", "superelement", "mesh", "fe", "reduction", ""],
     "mechanism": ["math", "model", "reading", "measures",
                   "elements/beam", "elements/forces", "elements/rigid_body",
                   "elements/superelement/recovery", "elements/superelement",
@@ -18,7 +18,7 @@ FOLDERS = {
                   "system", "solvers/newton", "solvers/constraints", "solvers/start", "solvers/statics", "solvers/dynamics",
                   "session", "analyses", "io", ""],
 }
-SHARED = ["common", "superelement", "spectral"]
+SHARED = ["common", "spectral", "superelement"]
 COMPONENTS = [f for f in FOLDERS["mechanism"] if f.split("/")[0] in ("measures", "elements", "joints")]
 SOLVING = [f for f in FOLDERS["mechanism"] if f.split("/")[0] in ("system", "solvers")]
 

@@ -18,9 +18,9 @@ using bielle::test::message_of;
 
 namespace {
 
-std::string ended_by(void (*end)(), int seconds = 0) {
+std::string ended_by(void (*end)(), const ChildLimits& limits = {}) {
   return message_of<InputError>([&] {
-    in_child_process("a.msh: lost", seconds, [&] {
+    in_child_process("a.msh: lost", limits, [&] {
       end();
       return std::string("not lost");
     });
@@ -43,15 +43,15 @@ void exchange(Packing& packing, Part& part) {
 
 TEST_CASE("child process: what the work returns and throws arrives", "[common]") {
   const std::string long_text(3'000'000, 'x');
-  CHECK(in_child_process("lost", 0, [&] { return long_text; }) == long_text);
-  CHECK(in_child_process("lost", 0, [] { return std::string(); }).empty());
+  CHECK(in_child_process("lost", {}, [&] { return long_text; }) == long_text);
+  CHECK(in_child_process("lost", {}, [] { return std::string(); }).empty());
   CHECK(message_of<InputError>([] {
-          in_child_process("lost", 0, []() -> std::string { throw InputError("a.yaml:3: wrong"); });
+          in_child_process("lost", {}, []() -> std::string { throw InputError("a.yaml:3: wrong"); });
         }) == "a.yaml:3: wrong");
   CHECK(message_of<ComputationError>([] {
-          in_child_process("lost", 0, []() -> std::string { throw ComputationError("failed"); });
+          in_child_process("lost", {}, []() -> std::string { throw ComputationError("failed"); });
         }) == "failed");
-  CHECK_THROWS_AS(in_child_process("lost", 0, []() -> std::string { throw std::bad_alloc(); }), std::bad_alloc);
+  CHECK_THROWS_AS(in_child_process("lost", {}, []() -> std::string { throw std::bad_alloc(); }), std::bad_alloc);
 }
 
 TEST_CASE("child process: a crash is a sentence, however it comes", "[common]") {
@@ -65,7 +65,15 @@ TEST_CASE("child process: work without end is ended", "[common]") {
     for (volatile bool more = true; more;) {
     }
   };
-  CHECK(ended_by(endless, 1) == "a.msh: lost");
+  CHECK(ended_by(endless, {.seconds = 1}) == "a.msh: lost");
+}
+
+TEST_CASE("child process: an allocation beyond its limit of memory fails", "[common]") {
+  const auto allocate = [](std::uint64_t limit) {
+    return in_child_process("lost", {.memory = limit}, [] { return std::string(std::vector<char>(500'000'000).size() > 0 ? "there" : ""); });
+  };
+  CHECK(allocate(1'000'000'000) == "there");
+  CHECK_THROWS_AS(allocate(300'000'000), std::bad_alloc);
 }
 
 TEST_CASE("packing: all comes back as it was", "[common]") {

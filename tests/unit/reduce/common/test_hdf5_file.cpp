@@ -1,3 +1,4 @@
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -208,6 +209,20 @@ TEST_CASE("Files that cannot be read say why") {
   CHECK_THAT(why_unreadable([&] { file.read_integer_attribute("/data", "units"); }), Contains("is no whole number"));
   CHECK_THAT(message_of<ComputationError>([&] { Hdf5File::create(folder / "no/folder/a.h5"); }),
              Contains("cannot be created"));
+}
+
+TEST_CASE("Texts with damaged lengths are told before memory is spent on them") {
+  const TemporaryFolder folder;
+  Hdf5File::create(folder / "whole.h5").write_text("/text", "abc");
+  std::string bytes = bytes_of(folder / "whole.h5");
+  // A text is stored as its length (4 bytes) and the address of the heap (8 bytes) that holds it.
+  const std::uint64_t heap = bytes.find("GCOL");
+  REQUIRE(heap != std::string::npos);
+  const std::size_t address = bytes.find(std::string(reinterpret_cast<const char*>(&heap), sizeof heap));
+  REQUIRE(address != std::string::npos);
+  bytes.replace(address - 4, 4, "\xff\xff\xff\xf0");
+  CHECK_THAT(why_unreadable([&] { Hdf5File::open(folder.file("long.h5", bytes)); }),
+             Contains("long.h5: is damaged: a text at /text cannot be read"));
 }
 
 TEST_CASE("HDF5 itself prints nothing") {

@@ -1,0 +1,12 @@
+// Dense matrices as arguments of functions that are compiled once, for whole matrices and blocks of them of any type.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace bielle {
+
+using MatrixRef = Eigen::Ref<Eigen::MatrixXd>;
+/// Whole matrices and blocks of them by columns, of any type, are not copied.
+using ConstMatrixRef = Eigen::Ref<const Eigen::MatrixXd>;
+
+}  // namespace bielle
