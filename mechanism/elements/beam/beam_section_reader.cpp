@@ -41,7 +41,7 @@ Vector2 read_offset(const YamlValue& value, const std::string& what) {
 
 VectorX read_constants(const YamlValue& value) {
   std::vector<std::string> keys(constants_keys.begin(), constants_keys.end());
-  keys.insert(keys.end(), mass_keys.begin(), mass_keys.end());
+  for (const char* key : mass_keys) keys.emplace_back(key);
   keys.emplace_back("offset");
   value.check_keys(keys, "a section by constants");
   VectorX numbers = VectorX::Zero(10);
@@ -110,8 +110,8 @@ std::string kind_of(const YamlValue& value) {
   if (given.size() > 1)
     value.at(given[1]).fail(fmt::format("a section is given by one of `{}` and `{}`, not by both", given[0], given[1]));
   std::vector<std::string> others = shape_keys;
-  others.insert(others.end(), constants_keys.begin(), constants_keys.end());
-  others.insert(others.end(), mass_keys.begin(), mass_keys.end());
+  for (const char* key : constants_keys) others.emplace_back(key);
+  for (const char* key : mass_keys) others.emplace_back(key);
   others.emplace_back("mass");
   for (const auto& [key, item] : value.entries())
     if (std::find(others.begin(), others.end(), key) == others.end())
