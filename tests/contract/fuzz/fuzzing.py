@@ -1,8 +1,9 @@
 """Runs the programs on files that a seed has damaged. Whatever the file, a program ends by itself, with status 0, 1 or 2,
 and says what is wrong in a sentence that it foresaw.
 
-BIELLE_FUZZ_SEED chooses the damage (default 0), BIELLE_FUZZ_CASES multiplies the number of cases (default 1). A failure
-names the case, and its file is kept under BIELLE_FUZZ_KEEP where that is set.
+BIELLE_FUZZ_SEED chooses the damage (default 0), BIELLE_FUZZ_CASES multiplies the number of cases (default 1), and
+BIELLE_FUZZ_PATIENCE the time that a program may take (default 1; sanitizers need more). A failure names the case, and its
+file is kept under BIELLE_FUZZ_KEEP where that is set.
 """
 
 import os
@@ -22,6 +23,7 @@ from command import PROGRAMS  # noqa: E402
 
 SEED = int(os.environ.get("BIELLE_FUZZ_SEED", "0"))
 TIMES = int(os.environ.get("BIELLE_FUZZ_CASES", "1"))
+PATIENCE = float(os.environ.get("BIELLE_FUZZ_PATIENCE", "1"))
 KEEP = os.environ.get("BIELLE_FUZZ_KEEP")
 NEVER = ("unforeseen", "Traceback", "AddressSanitizer", "runtime error:", "terminate called", "Assertion")
 
@@ -29,7 +31,7 @@ NEVER = ("unforeseen", "Traceback", "AddressSanitizer", "runtime error:", "termi
 def ended(run, processor_seconds=20, seconds=200):
     """Whether a process ends within so much of its own time; a busy machine may give it that in many times as long."""
     clock = os.sysconf("SC_CLK_TCK")
-    until = time.monotonic() + seconds
+    until = time.monotonic() + PATIENCE * seconds
     while time.monotonic() < until:
         try:
             run.wait(timeout=2)
@@ -37,7 +39,7 @@ def ended(run, processor_seconds=20, seconds=200):
         except subprocess.TimeoutExpired:
             with open(f"/proc/{run.pid}/stat", encoding="utf-8") as file:
                 used = file.read().rsplit(")", 1)[1].split()[11:15]
-            if sum(map(int, used)) > processor_seconds * clock:
+            if sum(map(int, used)) > PATIENCE * processor_seconds * clock:
                 return False
     return False
 
