@@ -22,7 +22,9 @@ void solve_triangles(const Eigen::MatrixXd& LU, MatrixRef x) {
 }  // namespace
 
 bool is_positive_definite(const ConstMatrixRef& A) {
-  return Eigen::LLT<Eigen::MatrixXd>(A).info() == Eigen::Success;
+  const Eigen::LLT<Eigen::MatrixXd> factors(A);
+  // Eigen takes pivots that are no numbers for good ones.
+  return factors.info() == Eigen::Success && factors.matrixLLT().diagonal().allFinite();
 }
 
 Eigen::MatrixXd solve_symmetric(const ConstMatrixRef& A, const ConstMatrixRef& B) {
