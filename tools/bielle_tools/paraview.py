@@ -11,7 +11,6 @@ import contextlib
 import io
 import os
 import re
-import shutil
 
 import numpy as np
 
@@ -40,9 +39,10 @@ def export(results, folder, name, *, every=None, count=100, span=(None, None), s
         raise InputError(f"'{results.path}' records no nodes, beams or superelements")
 
     inside = os.path.join(folder, name)
-    if os.path.isdir(inside):
-        shutil.rmtree(inside)  # frames of an earlier export would mix with the new ones
-    os.makedirs(inside)
+    os.makedirs(inside, exist_ok=True)
+    for file in os.listdir(inside):  # frames of an earlier export would mix with the new ones; the folder may hold other things
+        if re.fullmatch(r".+_\d{4,}\.vtu", file):
+            os.remove(os.path.join(inside, file))
     lines = []
     for frame, row in enumerate(rows):
         for index, (part, mesh_at) in enumerate(parts):
