@@ -11,7 +11,9 @@ import traceback
 import warnings
 
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
-CRASHES = (signal.SIGSEGV, signal.SIGBUS, signal.SIGABRT, signal.SIGFPE, signal.SIGILL)
+# The last: reading never ends.
+CRASHES = (signal.SIGSEGV, signal.SIGBUS, signal.SIGABRT, signal.SIGFPE, signal.SIGILL, signal.SIGPROF)
+longest_reading = 0  # [s] of processor time in one call; 0: without limit. A process that crashes alone has one
 
 
 class InputError(Exception):
@@ -51,6 +53,17 @@ def run(name, main, crashing=False):
                 "where)")
 
 
+@contextlib.contextmanager
+def limited_reading():
+    """Ends a process that crashes alone (`run`) where reading never ends."""
+    before = signal.setitimer(signal.ITIMER_PROF, longest_reading)[0] if longest_reading else 0
+    try:
+        yield
+    finally:
+        if longest_reading:
+            signal.setitimer(signal.ITIMER_PROF, before)
+
+
 def _end(status, sentence=""):
     """Ends the process, without a word of streams that nobody reads any more."""
     with contextlib.suppress(OSError, AttributeError):
@@ -80,8 +93,10 @@ def _open_closed_streams():
 
 def _survive(name):
     """Goes on in a child; the parent waits for it, and says so when it crashes."""
+    global longest_reading
     child = os.fork()
     if not child:
+        longest_reading = 60
         return
     for number in (signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, lambda received, _: os.kill(child, received))

@@ -11,7 +11,7 @@ import os
 import h5py
 import numpy as np
 
-from .messages import InputError, counted, note
+from .messages import InputError, counted, limited_reading, note
 from .stacked_layout import StackedLayout
 
 # Dimensions after the rows of what the tools use; None: any number.
@@ -34,7 +34,8 @@ def reading(path, what):
     """Whatever the HDF5 library says of a damaged file, and what does not fit together in it, becomes one sentence.
     @raises InputError"""
     try:
-        yield
+        with limited_reading():
+            yield
     except (AttributeError, IndexError, KeyError, MemoryError, OSError, OverflowError, RuntimeError, TypeError, ValueError) as error:
         reason = "there is not enough memory for it" if isinstance(error, MemoryError) else "it is damaged"
         raise InputError(f"'{path}': '{what}' cannot be read: {reason}") from None
@@ -234,7 +235,8 @@ def open_hdf5(path, expected, meaning):
     if not os.access(path, os.R_OK):
         raise InputError(f"'{path}' cannot be read: Permission denied")
     try:
-        file = h5py.File(path, "r")
+        with limited_reading():
+            file = h5py.File(path, "r")
     except (OSError, RuntimeError, ValueError):
         raise InputError(f"'{path}' does not hold {meaning}: it is {_what_it_is(path)}") from None
     with reading(path, "/"):
