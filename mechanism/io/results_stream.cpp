@@ -5,7 +5,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "mechanism/io/results_datasets.hpp"
+#include "reduce/common/counted.hpp"
+#include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
 
@@ -64,10 +68,13 @@ void ResultsStream::begin(const std::string& group, std::size_t expected_rows) {
   expected_rows_ = expected_rows;
   recorded_ = 0;
   created_ = linked_ = false;
+  sums_.clear();
 }
 
 void ResultsStream::resume(const std::string& group, std::size_t recorded) {
+  std::vector<Checksum> sums = std::move(sums_);
   begin(group, 0);
+  sums_ = std::move(sums);
   recorded_ = recorded;
   prepare_columns();
   created_ = true;
@@ -78,6 +85,27 @@ void ResultsStream::check_datasets(const std::string& group) {
   begin(group, 0);
   prepare_columns();
   check_same_datasets(file_, group_, model_, rows_, layout_, columns_);
+}
+
+void ResultsStream::check_rows(std::size_t rows, std::int64_t sum) {
+  sums_.assign(datasets_.size() + 1, {});
+  for (std::size_t k = 0; k < sums_.size(); ++k) {
+    const std::size_t size = k < columns_.size() ? columns_[k].size : 1;
+    const std::size_t together = pieces_in(block_bytes, sizeof(double) * std::max<std::size_t>(size, 1), rows);
+    for (std::size_t first = 0; first < rows; first += together)
+      sums_[k].add(file_.read_rows(k < columns_.size() ? datasets_[k] : time_dataset_, first,
+                                   std::min(together, rows - first)));
+  }
+  if (sum_of_rows() != sum)
+    throw InputError(fmt::format(
+        "{}: {}: its first {} are not those that were written: the file is damaged, or was changed; run anew",
+        file_.path(), group_, counted(rows, "row")));
+}
+
+std::int64_t ResultsStream::sum_of_rows() const {
+  Checksum all;
+  for (const Checksum& sum : sums_) all.add(static_cast<double>(sum.value()));
+  return all.value();
 }
 
 void ResultsStream::make_room(const State& state) {
@@ -187,6 +215,8 @@ void ResultsStream::write_block() {
   for (std::size_t k = 0; k < datasets_.size(); ++k) {
     const ResultsColumn& column = columns_[k];
     const double* first = block_.values.data() + column.begin;
+    if (!sums_.empty())
+      for (std::size_t row = 0; row < block_.rows; ++row) sums_[k].add({first + row * rows_.size(), column.size});
     if (block_.rows == 1 || column.size >= large_column) {
       for (std::size_t row = 0; row < block_.rows; ++row)
         file_.append_rows(datasets_[k], {first + row * rows_.size(), column.size});
@@ -198,6 +228,7 @@ void ResultsStream::write_block() {
     file_.append_rows(datasets_[k], together_, block_.rows);
   }
   file_.flush();
+  if (!sums_.empty()) sums_.back().add({block_.times.data(), block_.rows});
   file_.append_rows(time_dataset_, {block_.times.data(), block_.rows}, block_.rows);
   file_.flush();
   block_.rows = 0;
@@ -226,6 +257,7 @@ void ResultsStream::create_columns() {
   file_.flush();
   file_.hold_back(false);
   rows_.restart();
+  sums_.assign(datasets_.size() + 1, {});
   created_ = true;
 }
 
