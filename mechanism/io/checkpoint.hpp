@@ -1,8 +1,8 @@
 // Points of a results file from which a run can go on.
 //
 // A results file holds, under /checkpoints/analysis_k, one row of `state` per checkpoint and, written after it, the
-// number of rows that the analysis had recorded, with a checksum of both and one of those rows: whatever happens to the program, every
-// checkpoint that `rows` counts is whole.
+// number of rows that the analysis had recorded, with a checksum of both and one of those rows: whatever happens to the
+// program, every checkpoint that `rows` counts is whole.
 #pragma once
 
 #include <cstddef>

@@ -93,8 +93,8 @@ void ResultsStream::check_rows(std::size_t rows, std::int64_t sum) {
     const std::size_t size = k < columns_.size() ? columns_[k].size : 1;
     const std::size_t together = pieces_in(block_bytes, sizeof(double) * std::max<std::size_t>(size, 1), rows);
     for (std::size_t first = 0; first < rows; first += together)
-      sums_[k].add(file_.read_rows(k < columns_.size() ? datasets_[k] : time_dataset_, first,
-                                   std::min(together, rows - first)));
+      sums_[k].add(
+          file_.read_rows(k < columns_.size() ? datasets_[k] : time_dataset_, first, std::min(together, rows - first)));
   }
   if (sum_of_rows() != sum)
     throw InputError(fmt::format(
@@ -210,13 +210,22 @@ std::size_t ResultsStream::make_rows(std::size_t first) {
   return count;
 }
 
+/// Row by row: the processor works on several columns at a time.
+void ResultsStream::add_to_sums() {
+  if (sums_.empty()) return;
+  for (std::size_t row = 0; row < block_.rows; ++row) {
+    const double* numbers = block_.values.data() + row * rows_.size();
+    for (std::size_t k = 0; k < columns_.size(); ++k) sums_[k].add({numbers + columns_[k].begin, columns_[k].size});
+  }
+  sums_.back().add({block_.times.data(), block_.rows});
+}
+
 /// The file never counts a row that is not whole: first the data, then the times.
 void ResultsStream::write_block() {
+  add_to_sums();
   for (std::size_t k = 0; k < datasets_.size(); ++k) {
     const ResultsColumn& column = columns_[k];
     const double* first = block_.values.data() + column.begin;
-    if (!sums_.empty())
-      for (std::size_t row = 0; row < block_.rows; ++row) sums_[k].add({first + row * rows_.size(), column.size});
     if (block_.rows == 1 || column.size >= large_column) {
       for (std::size_t row = 0; row < block_.rows; ++row)
         file_.append_rows(datasets_[k], {first + row * rows_.size(), column.size});
@@ -228,7 +237,6 @@ void ResultsStream::write_block() {
     file_.append_rows(datasets_[k], together_, block_.rows);
   }
   file_.flush();
-  if (!sums_.empty()) sums_.back().add({block_.times.data(), block_.rows});
   file_.append_rows(time_dataset_, {block_.times.data(), block_.rows}, block_.rows);
   file_.flush();
   block_.rows = 0;

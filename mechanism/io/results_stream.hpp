@@ -79,6 +79,7 @@ class ResultsStream {
   void create_columns();
   /// Makes rows of states from number `first` of the queue on, as many as the block takes. @returns how many
   std::size_t make_rows(std::size_t first);
+  void add_to_sums();
   void write_block();
   void write_until_told_to_stop();
   void check() const {

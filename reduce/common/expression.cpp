@@ -23,9 +23,8 @@ struct Expression::Implementation {
     std::string arguments;
     for (std::size_t i = 0; i < variables.size() && i < values.size(); ++i)
       arguments += fmt::format("{}{} = {}", i == 0 ? "" : ", ", variables[i], values[i]);
-    throw ComputationError(
-        fmt::format("{}{}formula '{}'{}{}: {}", place, place.empty() ? "" : ": ", shortened(text),
-                    arguments.empty() ? "" : " at ", arguments, message));
+    throw ComputationError(fmt::format("{}{}formula '{}'{}{}: {}", place, place.empty() ? "" : ": ", shortened(text),
+                                       arguments.empty() ? "" : " at ", arguments, message));
   }
   [[noreturn]] void fail_without_derivative(int order, std::span<const double> values) const {
     fail(fmt::format("there is no finite {} derivative", order == 1 ? "first" : "second"), values);
@@ -83,8 +82,7 @@ Expression::Expression(const FormulaText& text, const std::vector<std::string>& 
 }
 
 double Expression::operator()(std::span<const double> values) const {
-  const double value =
-      implementation_->evaluated(values, [&](const FormulaTree& tree) { return tree.value(values); });
+  const double value = implementation_->evaluated(values, [&](const FormulaTree& tree) { return tree.value(values); });
   implementation_->check_size(value, values);
   return value;
 }

@@ -37,8 +37,8 @@ Nodes read_nodes(double metres, const std::string& name) {
     nodes.number.emplace(tags[i], static_cast<int>(i));
     const auto x = nodes.points.col(static_cast<Eigen::Index>(i));
     if (!(x.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() < farthest))
-      throw InputError(fmt::format("'{}': node {} stands at ({:g}, {:g}, {:g}) m: no body reaches there", name, tags[i], x[0],
-                                   x[1], x[2]));
+      throw InputError(fmt::format("'{}': node {} stands at ({:g}, {:g}, {:g}) m: no body reaches there", name, tags[i],
+                                   x[0], x[1], x[2]));
   }
   return nodes;
 }
@@ -161,7 +161,9 @@ void open_model(GmshSession& session, const SourceFile& source) {
     gmsh::option::setString("Geometry.OCCTargetUnit", source.carries_unit ? "M" : "MM");
     gmsh::open(source.path);
     if (entities(0).empty() && entities(2).empty() && entities(3).empty())
-      throw InputError(fmt::format("'{}' cannot be read: gmsh finds nothing in it: is it a file of the kind that its ending says?", source.name));
+      throw InputError(
+          fmt::format("'{}' cannot be read: gmsh finds nothing in it: is it a file of the kind that its ending says?",
+                      source.name));
   });
 }
 

@@ -36,7 +36,8 @@ void check_file(const std::string& path) {
   }
   if (!fs::is_regular_file(path, failed)) throw InputError(fmt::format("'{}' is not a file", path));
   if (fs::file_size(path, failed) == 0) throw InputError(fmt::format("'{}' is empty", path));
-  if (access(path.c_str(), R_OK) != 0) throw InputError(fmt::format("'{}' cannot be read: {}", path, std::strerror(errno)));
+  if (access(path.c_str(), R_OK) != 0)
+    throw InputError(fmt::format("'{}' cannot be read: {}", path, std::strerror(errno)));
 }
 
 std::string ending_of(const std::string& path) {

@@ -127,8 +127,7 @@ void reserve_blas_memory(int threads) {
   measure_dgemm(256, threads, 1);  // OpenBLAS starts its threads, which keep a buffer each, and this one gets its own
   check((count - 1) * blas_buffer + count * of_thread);
 #pragma omp parallel num_threads(threads)
-  {
-  }
+  {}
   // The library keeps what is freed for the next who asks. It does not say in its headers that it has these.
   const auto take = reinterpret_cast<void* (*)(int)>(dlsym(RTLD_DEFAULT, "blas_memory_alloc"));
   const auto give_back = reinterpret_cast<void (*)(void*)>(dlsym(RTLD_DEFAULT, "blas_memory_free"));

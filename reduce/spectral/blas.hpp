@@ -21,8 +21,8 @@ class BlasThreads {
   int before_;
 };
 
-/// Takes the memory that OpenBLAS needs for each thread that calls it, and starts those threads, where the address space
-/// is limited (ulimit -v): OpenBLAS would try for ever where it does not get it later.
+/// Takes the memory that OpenBLAS needs for each thread that calls it, and starts those threads, where the address
+/// space is limited (ulimit -v): OpenBLAS would try for ever where it does not get it later.
 /// @throws std::bad_alloc when there is not enough
 void reserve_blas_memory(int threads);
 

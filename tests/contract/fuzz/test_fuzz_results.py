@@ -100,13 +100,13 @@ class Results(FuzzTest):
 
     def test_results(self):
         shutil.copy(self.path("sound_box.h5"), self.path("box.h5"))
-        for case, rng in self.cases(20):
+        for case, rng in self.cases(14):
             source = rng.choice(["sound.h5", "sound_stacked.h5"])
             self.judge_tools(case, f"{source} {self.damaged(rng, source, 'run.h5')}")
 
     def test_superelements(self):
         shutil.copy(self.path("sound.h5"), self.path("run.h5"))
-        for case, rng in self.cases(12):
+        for case, rng in self.cases(8):
             self.judge_tools(case, self.damaged(rng, "sound_box.h5", "box.h5"),
                              ["bielle-plot", "bielle-animate", "bielle-paraview"])
 

@@ -100,7 +100,7 @@ class Slips(CommandTest):
 
     def test_inertias_and_masses_in_other_units(self):
         # A steel bar of 1 kg and 0.1 m: 8.3e-4 kg m^2.
-        self.assertIn("model.yaml:6: elements.c.inertia: is this meant? 1 kg with so much inertia reach over some 101 m; "
+        self.assertIn("model.yaml:6: elements.c.inertia: is this meant? 1 kg with so much inertia reaches over some 101 m; "
                       "inertias are in kg m^2", self.doubts(CRANK, "[0.1, 0.1, 0.1]", "[10, 833, 833]"))
         self.assertEqual(self.doubts(CRANK, "[0.1, 0.1, 0.1]", "[1e-5, 8.3e-4, 8.3e-4]"), "")
         self.assertEqual(self.doubts(CRANK, "[0.1, 0.1, 0.1]", "[0, 30, 30]"), "")  # a rod of 19 m
