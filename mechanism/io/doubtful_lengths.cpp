@@ -63,10 +63,10 @@ void doubt_lengths(const Model& model, const YamlValue& root) {
     if (first.empty()) first = member.entry.name, distance = between, gyration = radius;
   }
   if (first.empty()) return;
-  const std::string doubt =
-      fmt::format("its joints are {:.3g} m apart, and its inertia is that of a body of {:.2g} m: is that meant? "
-                  "Positions are in metres, inertias in kg m^2",
-                  distance, 3.5 * gyration);
+  const std::string doubt = fmt::format(
+      "its joints are {:.3g} m apart, and its inertia is that of a body of {:.2g} m: is that meant? "
+      "Positions are in metres, inertias in kg m^2",
+      distance, 3.5 * gyration);
   root.at("elements").at(first).doubt(doubt);
 }
 

@@ -48,10 +48,12 @@ void check_signature(const std::string& path) {
   for (const Signature& format : signatures()) {
     if (std::find(format.endings.begin(), format.endings.end(), ending) == format.endings.end()) continue;
     if (part_of(path, 0).find(format.begin) == std::string::npos)
-      throw InputError(fmt::format("'{}' is no {} file: one begins with '{}'", path, format.format, format.begin));
+      throw InputError(fmt::format("'{}' cannot be read: it is no {} file: one begins with '{}'", path, format.format,
+                                   format.begin));
     const std::uintmax_t size = std::filesystem::file_size(path);
     if (part_of(path, size > 4096 ? size - 4096 : 0).find(format.end) == std::string::npos)
-      throw InputError(fmt::format("'{}' is cut off: a {} file ends with '{}'", path, format.format, format.end));
+      throw InputError(
+          fmt::format("'{}' cannot be read: it is cut off: a {} file ends with '{}'", path, format.format, format.end));
   }
 }
 
