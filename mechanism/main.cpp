@@ -60,6 +60,7 @@ int body(int argc, char** argv) {
 
   // Matrices of a mechanism are small, and its own threads share the elements: those of BLAS would only be in their way.
   const BlasThreads one(1);
+  reserve_blas_memory(common.threads);
   const MechanismFile file = read_mechanism_file(model_path, read_overrides(settings));
   Progress progress(common.quiet);
   for (const std::string& doubt : file.doubts) progress.warn(doubt);

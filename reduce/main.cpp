@@ -76,6 +76,7 @@ void reduce(const std::string& input, std::string output, const CommonOptions& c
     output = std::filesystem::path(input).replace_extension(".h5").string();
   }
   check_output(output, input, file.mesh.path);
+  reserve_blas_memory(common.threads);
   Progress progress(common.quiet);
   if (const std::string warning = blas_warning(); !warning.empty()) {
     progress.warn(warning);

@@ -205,22 +205,30 @@ Checkpoint read_checkpoint(const std::string& results_path, const Model& model) 
   checkpoint.rows = recorded_rows(file, checkpoint.analysis, rows);
   checkpoint.values = last_state(file, group, rows.size());
   check_sum(file, group, rows.size(), checkpoint);
+  if (file.has(group + "/rows_checksum")) {
+    const std::vector<double> sums = file.read(group + "/rows_checksum");
+    if (sums.size() < rows.size()) fail_damaged(file, group + "/rows_checksum is too short");
+    checkpoint.rows_sum = static_cast<std::int64_t>(sums[rows.size() - 1]);
+  }
   return checkpoint;
 }
 
 void append_checkpoint(Hdf5File& file, const Model& model, const Checkpoint& checkpoint) {
   const std::string group = root + analysis_name(checkpoint.analysis), state = group + "/state", rows = group + "/rows",
-                    sums = group + "/checksum";
+                    sums = group + "/checksum", rows_sums = group + "/rows_checksum";
   if (!file.has(root + "/model")) file.write_text(root + "/model", fingerprint(model));
   if (!file.has(rows)) {
     constexpr std::size_t together = 16;
     file.create_rows(state, {checkpoint.values.size()}, "-", "all that a run goes on from", together);
     file.create_rows(sums, {}, "-", "of each state and its number of rows", 1024);
+    file.create_rows(rows_sums, {}, "-", "of all rows of results that each checkpoint counts", 1024);
     file.create_rows(rows, {}, "-", "of the analysis's results that belong to each checkpoint", 1024);
   }
   file.append_rows(state, checkpoint.values);
   const auto sum = static_cast<double>(sum_of(checkpoint));
   if (file.has(sums)) file.append_rows(sums, {&sum, 1});
+  const auto rows_sum = static_cast<double>(checkpoint.rows_sum.value_or(0));
+  if (file.has(rows_sums)) file.append_rows(rows_sums, {&rows_sum, 1});
   file.flush();
   const auto count = static_cast<double>(checkpoint.rows);
   file.append_rows(rows, {&count, 1});
@@ -245,7 +253,7 @@ void rewind_to(Hdf5File& file, const Checkpoint& checkpoint) {
   });
   for (const std::string& dataset : of_the_end) file.remove(dataset);
   const std::string checkpoints = root + group;
-  for (const char* dataset : {"/state", "/checksum"})
+  for (const char* dataset : {"/state", "/checksum", "/rows_checksum"})
     if (file.has(checkpoints + dataset))
       file.truncate_rows(checkpoints + dataset, file.shape(checkpoints + "/rows")[0]);
   file.flush();

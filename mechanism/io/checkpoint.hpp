@@ -1,11 +1,13 @@
 // Points of a results file from which a run can go on.
 //
 // A results file holds, under /checkpoints/analysis_k, one row of `state` per checkpoint and, written after it, the
-// number of rows that the analysis had recorded, with a checksum of both: whatever happens to the program, every
-// checkpoint that `rows` counts is whole.
+// number of rows that the analysis had recorded, with a checksum of both and one of those rows: whatever happens to the
+// program, every checkpoint that `rows` counts is whole.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,7 @@ struct Checkpoint {
   int analysis = 0;            ///< 1-based, as in /analysis_1
   std::size_t rows = 0;        ///< of its results that were recorded
   std::vector<double> values;  ///< of the Archive
+  std::optional<std::int64_t> rows_sum = {};  ///< ResultsStream::sum_of_rows; nothing in files of before
 };
 
 /// What a checkpoint belongs to, one thing per line: the format of its numbers, how many of each kind the state has,

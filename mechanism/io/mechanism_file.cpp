@@ -9,6 +9,7 @@
 #include "mechanism/analyses/analysis_table.hpp"
 #include "mechanism/elements/superelement/body_points.hpp"
 #include "mechanism/io/component_table.hpp"
+#include "mechanism/io/doubtful_lengths.hpp"
 #include "mechanism/measures/input_measure.hpp"
 #include "mechanism/measures/measure_event.hpp"
 #include "mechanism/measures/read_measure.hpp"
@@ -163,6 +164,7 @@ MechanismFile read_mechanism(YamlValue root, const std::map<std::string, std::st
   if (const auto events = root.find("events"))
     for (const auto& [name, entry] : named_entries(*events)) read_event(name, entry, file.model);
   file.model.connect();
+  doubt_lengths(file.model, root);
   if (file.model.members().empty()) root.fail("the mechanism has no elements, joints or loads");
 
   if (const auto analyses = root.find("analysis"))

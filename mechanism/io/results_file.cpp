@@ -68,6 +68,7 @@ ResultsFile::ResultsFile(const std::string& path, const Model& model, const std:
     : stream_(extend(path, model, layout)), analysis_(checkpoint.analysis) {
   Hdf5File& file = stream_->file();
   stream_->check_datasets(group_of(analysis_));  // before anything is taken out
+  if (checkpoint.rows_sum) stream_->check_rows(checkpoint.rows, *checkpoint.rows_sum);
   rewind_to(file, checkpoint);
   stream_->resume(group_of(analysis_), checkpoint.rows);
   file.remove("/input");
@@ -128,7 +129,9 @@ void ResultsFile::note(const Event& event) {
 }
 
 void ResultsFile::checkpoint(Archive& archive) {
-  append_checkpoint(file(), stream_->model(), {analysis_, stream_->recorded(), archive.values()});
+  Hdf5File& written = file();
+  append_checkpoint(written, stream_->model(),
+                    {analysis_, stream_->recorded(), archive.values(), stream_->sum_of_rows()});
 }
 
 void ResultsFile::exchange(Archive& archive) {

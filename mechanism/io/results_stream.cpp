@@ -5,7 +5,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "mechanism/io/results_datasets.hpp"
+#include "reduce/common/counted.hpp"
+#include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
 
@@ -64,10 +68,13 @@ void ResultsStream::begin(const std::string& group, std::size_t expected_rows) {
   expected_rows_ = expected_rows;
   recorded_ = 0;
   created_ = linked_ = false;
+  sums_.clear();
 }
 
 void ResultsStream::resume(const std::string& group, std::size_t recorded) {
+  std::vector<Checksum> sums = std::move(sums_);
   begin(group, 0);
+  sums_ = std::move(sums);
   recorded_ = recorded;
   prepare_columns();
   created_ = true;
@@ -78,6 +85,27 @@ void ResultsStream::check_datasets(const std::string& group) {
   begin(group, 0);
   prepare_columns();
   check_same_datasets(file_, group_, model_, rows_, layout_, columns_);
+}
+
+void ResultsStream::check_rows(std::size_t rows, std::int64_t sum) {
+  sums_.assign(datasets_.size() + 1, {});
+  for (std::size_t k = 0; k < sums_.size(); ++k) {
+    const std::size_t size = k < columns_.size() ? columns_[k].size : 1;
+    const std::size_t together = pieces_in(block_bytes, sizeof(double) * std::max<std::size_t>(size, 1), rows);
+    for (std::size_t first = 0; first < rows; first += together)
+      sums_[k].add(
+          file_.read_rows(k < columns_.size() ? datasets_[k] : time_dataset_, first, std::min(together, rows - first)));
+  }
+  if (sum_of_rows() != sum)
+    throw InputError(fmt::format(
+        "{}: {}: its first {} are not those that were written: the file is damaged, or was changed; run anew",
+        file_.path(), group_, counted(rows, "row")));
+}
+
+std::int64_t ResultsStream::sum_of_rows() const {
+  Checksum all;
+  for (const Checksum& sum : sums_) all.add(static_cast<double>(sum.value()));
+  return all.value();
 }
 
 void ResultsStream::make_room(const State& state) {
@@ -182,8 +210,19 @@ std::size_t ResultsStream::make_rows(std::size_t first) {
   return count;
 }
 
+/// Row by row: the processor works on several columns at a time.
+void ResultsStream::add_to_sums() {
+  if (sums_.empty()) return;
+  for (std::size_t row = 0; row < block_.rows; ++row) {
+    const double* numbers = block_.values.data() + row * rows_.size();
+    for (std::size_t k = 0; k < columns_.size(); ++k) sums_[k].add({numbers + columns_[k].begin, columns_[k].size});
+  }
+  sums_.back().add({block_.times.data(), block_.rows});
+}
+
 /// The file never counts a row that is not whole: first the data, then the times.
 void ResultsStream::write_block() {
+  add_to_sums();
   for (std::size_t k = 0; k < datasets_.size(); ++k) {
     const ResultsColumn& column = columns_[k];
     const double* first = block_.values.data() + column.begin;
@@ -226,6 +265,7 @@ void ResultsStream::create_columns() {
   file_.flush();
   file_.hold_back(false);
   rows_.restart();
+  sums_.assign(datasets_.size() + 1, {});
   created_ = true;
 }
 

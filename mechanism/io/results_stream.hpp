@@ -3,6 +3,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <cstdint>
 #include <exception>
 #include <mutex>
 #include <optional>
@@ -12,6 +13,7 @@
 
 #include "mechanism/model/state.hpp"
 #include "mechanism/session/results_rows.hpp"
+#include "reduce/common/checksum.hpp"
 #include "reduce/common/hdf5_file.hpp"
 
 namespace bielle::mechanism {
@@ -35,6 +37,8 @@ class ResultsStream {
   void resume(const std::string& group, std::size_t recorded);
   /// Changes nothing in the file. @throws InputError when that analysis has other datasets than this run would write
   void check_datasets(const std::string& group);
+  /// After check_datasets. @throws InputError when the first rows of that analysis are not those that were written
+  void check_rows(std::size_t rows, std::int64_t sum);
   /// Copies a row's state. Waits while both queues are full. @throws what an earlier row failed with
   /// @param slots  of the model's members; must outlive the analysis
   void record(const State& state, const std::vector<Slots>& slots, const Environment& environment,
@@ -49,6 +53,7 @@ class ResultsStream {
   ResultsLayout layout() const { return layout_; }
   const std::string& group() const { return group_; }
   std::size_t recorded() const { return recorded_; }  ///< rows of the running analysis
+  std::int64_t sum_of_rows() const;                   ///< a checksum of these
 
  private:
   /// What a row is made of.
@@ -74,6 +79,7 @@ class ResultsStream {
   void create_columns();
   /// Makes rows of states from number `first` of the queue on, as many as the block takes. @returns how many
   std::size_t make_rows(std::size_t first);
+  void add_to_sums();
   void write_block();
   void write_until_told_to_stop();
   void check() const {
@@ -90,6 +96,7 @@ class ResultsStream {
   std::vector<std::string> datasets_;  ///< of the columns, with the group
   std::string time_dataset_;
   bool created_ = false, linked_ = false;
+  std::vector<Checksum> sums_;  ///< of the rows of each dataset, of the times last; empty: of a file without
   Queue taken_;
   Block block_;
   std::vector<ResultsInstant> views_;  ///< of the states that rows are made of

@@ -1,6 +1,7 @@
 #include "mechanism/io/run_analyses.hpp"
 
 #include <cstdint>
+#include <exception>
 #include <filesystem>
 #include <optional>
 
@@ -29,20 +30,44 @@ class ShownNotes : public Notes {
 /// A run that was killed at its very beginning leaves the head of an HDF5 file.
 constexpr std::uintmax_t bare_head = 96;
 
+bool holds_results(const std::string& path) {
+  try {
+    return Hdf5File::open(path).read_text_attribute("/", "format") == "bielle results";
+  } catch (const InputError&) {
+    return false;  // no HDF5 file at all, or none of ours
+  }
+}
+
 /// What stands where the results will go may be results only: never a model, a superelement or a table.
 void check_may_be_replaced(const std::string& path) {
   namespace fs = std::filesystem;
   std::error_code none;
   if (!fs::exists(path, none) || fs::file_size(path, none) == 0) return;
   if (fs::file_size(path, none) <= bare_head && Hdf5File::begins_like_one(path)) return;
-  try {
-    if (Hdf5File::open(path).read_text_attribute("/", "format") == "bielle results") return;
-  } catch (const InputError&) {
-    // no HDF5 file at all, or none of ours
-  }
+  if (holds_results(path)) return;
   throw InputError(fmt::format(
       "{}: exists and is no results file; the results would replace it: choose another name with -o", path));
 }
+
+/// What a run that fails leaves where there was nothing is removed if it holds no results: a full disk cuts files off.
+class Remains {
+ public:
+  explicit Remains(std::string path) : path_(std::move(path)), thrown_(std::uncaught_exceptions()) {
+    std::error_code none;
+    new_ = !std::filesystem::exists(path_, none) || std::filesystem::file_size(path_, none) == 0;
+  }
+  ~Remains() {
+    std::error_code none;
+    if (new_ && std::uncaught_exceptions() > thrown_ && !holds_results(path_)) std::filesystem::remove(path_, none);
+  }
+  Remains(const Remains&) = delete;
+  Remains& operator=(const Remains&) = delete;
+
+ private:
+  std::string path_;
+  int thrown_;
+  bool new_ = false;
+};
 
 /// The checkpoint to go on from, which is then in the results file. @throws InputError when there is none for this
 /// model
@@ -78,6 +103,7 @@ std::vector<AnalysisSummary> run_analyses(const MechanismFile& file, const std::
                                           Progress& progress, const std::string& restart, int threads) {
   check_output_file(results_path);
   check_may_be_replaced(results_path);
+  const Remains remains(results_path);
   std::optional<Checkpoint> checkpoint;
   if (!restart.empty()) checkpoint = take_checkpoint(file, restart, results_path);
   std::optional<Session> session;

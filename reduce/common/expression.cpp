@@ -17,16 +17,23 @@ struct Expression::Implementation {
   FormulaTree tree;
   std::string text;                    ///< as the user wrote it
   std::vector<std::string> variables;  ///< as the user calls them
+  std::string place = {};              ///< in a file; empty where it is not known
 
   [[noreturn]] void fail(const std::string& message, std::span<const double> values) const {
     std::string arguments;
     for (std::size_t i = 0; i < variables.size() && i < values.size(); ++i)
       arguments += fmt::format("{}{} = {}", i == 0 ? "" : ", ", variables[i], values[i]);
-    throw ComputationError(
-        fmt::format("formula '{}'{}{}: {}", shortened(text), arguments.empty() ? "" : " at ", arguments, message));
+    throw ComputationError(fmt::format("{}{}formula '{}'{}{}: {}", place, place.empty() ? "" : ": ", shortened(text),
+                                       arguments.empty() ? "" : " at ", arguments, message));
   }
   [[noreturn]] void fail_without_derivative(int order, std::span<const double> values) const {
     fail(fmt::format("there is no finite {} derivative", order == 1 ? "first" : "second"), values);
+  }
+
+  void check_size(double value, std::span<const double> values) const {
+    if (std::abs(value) > most)
+      fail(fmt::format("{:.3g} is larger than anything can be computed with", value),
+           tree.is_constant() ? std::span<const double>() : values);
   }
 
   template <class Evaluate>
@@ -58,7 +65,7 @@ Expression::Expression(const std::string& text, const std::vector<std::string>& 
     : Expression(FormulaText{text, text, {}}, variables, constants, folder) {}
 
 Expression::Expression(const FormulaText& text, const std::vector<std::string>& variables, const Parameters& constants,
-                       const std::string& folder) {
+                       const std::string& folder, const std::string& place) {
   std::vector<std::string> names = variables, shown = variables;
   for (const FormulaReference& reference : text.references) {
     names.push_back(reference.identifier);
@@ -66,7 +73,7 @@ Expression::Expression(const FormulaText& text, const std::vector<std::string>& 
   }
   try {
     implementation_ = std::make_shared<const Implementation>(
-        Implementation{parse_formula(text.replaced, names, shown, constants, folder), text.written, shown});
+        Implementation{parse_formula(text.replaced, names, shown, constants, folder), text.written, shown, place});
   } catch (const InputError& error) {
     throw InputError(fmt::format("in '{}': {}", shortened(text.written), error.what()));
   } catch (const ComputationError& error) {  // a table asked outside its range by constants
@@ -75,7 +82,9 @@ Expression::Expression(const FormulaText& text, const std::vector<std::string>& 
 }
 
 double Expression::operator()(std::span<const double> values) const {
-  return implementation_->evaluated(values, [&](const FormulaTree& tree) { return tree.value(values); });
+  const double value = implementation_->evaluated(values, [&](const FormulaTree& tree) { return tree.value(values); });
+  implementation_->check_size(value, values);
+  return value;
 }
 
 double Expression::derivative(std::span<const double> values, std::size_t argument, int order) const {
@@ -91,6 +100,7 @@ double Expression::value_and_gradient(std::span<const double> values, std::span<
       values, [&](const FormulaTree& tree) { return tree.value_and_gradient(values, gradient); });
   for (const double slope : gradient)
     if (!std::isfinite(slope)) implementation_->fail_without_derivative(1, values);
+  implementation_->check_size(value, values);
   return value;
 }
 

@@ -25,6 +25,9 @@ using Parameters = std::map<std::string, double>;
 /// throws InputError. An expression is immutable: copies share it, and any number of threads may evaluate it.
 class Expression {
  public:
+  /// Nothing in nature is larger: squares of it are still numbers.
+  static constexpr double most = 1e100;
+
   Expression();  ///< the constant 0
   explicit Expression(double constant);
   /// @param text       the formula
@@ -37,12 +40,13 @@ class Expression {
 
   /// A formula with references to other things, which are further arguments after the variables, in the order of
   /// `text.references`. Messages call them as the user does.
+  /// @param place  in a file, for messages: "crank.yaml:12: loads.push.force[3]"
   Expression(const FormulaText& text, const std::vector<std::string>& variables, const Parameters& constants = {},
-             const std::string& folder = ".");
+             const std::string& folder = ".", const std::string& place = {});
 
   /// @param values  one for each variable. No memory is allocated.
-  /// @throws ComputationError when the value, or any part of the formula that is needed for it, is not finite, naming
-  ///         the formula and the arguments
+  /// @throws ComputationError when the value, or any part of the formula that is needed for it, is not finite, or the
+  ///         value is beyond `most`, naming the formula and the arguments
   double operator()(std::span<const double> values) const;
   double operator()(double value) const { return (*this)(std::span<const double>(&value, 1)); }
 

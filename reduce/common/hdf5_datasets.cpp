@@ -153,6 +153,26 @@ std::vector<double> Hdf5File::read(const std::string& dataset) const {
   return values;
 }
 
+std::vector<double> Hdf5File::read_rows(const std::string& dataset, std::size_t first, std::size_t count) const {
+  const Hdf5Id opened = handle_->open_dataset(dataset);
+  handle_->check_class(opened, dataset, H5T_FLOAT);
+  const Shape size = handle_->shape(opened, dataset);
+  if (size.empty() || first + count > size[0]) handle_->fail(dataset, "has too few rows");
+  std::vector<hsize_t> start(size.size(), 0), block(size.begin(), size.end());
+  start[0] = first;
+  block[0] = count;
+  std::size_t numbers = count;
+  for (std::size_t k = 1; k < size.size(); ++k) numbers *= size[k];
+  std::vector<double> values(numbers);
+  if (values.empty()) return values;
+  const Hdf5Id memory(H5Screate_simple(static_cast<int>(block.size()), block.data(), nullptr), H5Sclose);
+  const Hdf5Id space(H5Dget_space(opened), H5Sclose);
+  H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr);
+  handle_->checked(H5Dread(opened, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()), dataset,
+                   "cannot be read: the file is damaged");
+  return values;
+}
+
 std::vector<std::int64_t> Hdf5File::read_integers(const std::string& dataset) const {
   const Hdf5Id opened = handle_->open_dataset(dataset);
   handle_->check_class(opened, dataset, H5T_INTEGER);

@@ -96,6 +96,8 @@ class Hdf5File {
                    const std::string& description = "", std::size_t rows_per_chunk = 256);
   /// Appends `rows` rows; `values` holds them one after the other.
   void append_rows(const std::string& dataset, std::span<const double> values, std::size_t rows = 1);
+  /// Of a dataset that grows: `count` rows from number `first` on, one after the other.
+  std::vector<double> read_rows(const std::string& dataset, std::size_t first, std::size_t count) const;
   /// Removes the rows after the first `rows`, if there are more.
   void truncate_rows(const std::string& dataset, std::size_t rows);
   /// `name` becomes another name of `target` within this file (a soft link), whatever it was a link to before.

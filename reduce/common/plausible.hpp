@@ -16,6 +16,8 @@ inline constexpr PlausibleRange plausible_modulus{1e6, 2e12,
 /// Densities from light foam to osmium (22590 kg/m^3).
 inline constexpr PlausibleRange plausible_density{25, 25000,
                                                   "Solids have 25 (foam) to 23000 kg/m^3 (osmium); steel has 7850"};
+/// Forces up to the weight of a mountain.
+inline constexpr PlausibleRange plausible_load{-1e12, 1e12, "Forces are in newtons, moments in newton metres"};
 inline constexpr PlausibleRange plausible_damping_ratio{
     0, 1, "1 is critical damping; joined structures have 0.005 to 0.05 (a ratio, no percentage)"};
 

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <exception>
 #include <new>
+#include <system_error>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -91,6 +92,10 @@ int run_program(const std::string& program, int (*body)(int argc, char** argv), 
     return report(error.what(), 2);
   } catch (const std::bad_alloc&) {
     return report("out of memory", 2);
+  } catch (const std::system_error& error) {
+    if (error.code() == std::errc::resource_unavailable_try_again)
+      return report("out of memory: no further thread can be started", 2);
+    return report(std::string("unforeseen failure: ") + error.what(), 2);
   } catch (const std::exception& error) {
     return report(std::string("unforeseen failure: ") + error.what(), 2);
   } catch (...) {

@@ -319,12 +319,23 @@ FormulaText YamlValue::formula_text(const std::vector<std::string>& variables,
 }
 
 Expression YamlValue::expression(const std::vector<std::string>& variables, const FormulaText& formula) const {
+  const auto read = [&] {
+    try {
+      return Expression(formula, variables, document_->parameters,
+                        std::filesystem::path(document_->file).parent_path().string(),
+                        fmt::format("{}:{}: {}", document_->file, line_, path_));
+    } catch (const InputError& error) {
+      fail(error.what());
+    }
+  };
+  Expression result = read();
+  if (!result.is_constant()) return result;
   try {
-    return Expression(formula, variables, document_->parameters,
-                      std::filesystem::path(document_->file).parent_path().string());
-  } catch (const InputError& error) {
-    fail(error.what());
+    result(std::vector<double>(variables.size() + formula.references.size(), 0.0));
+  } catch (const ComputationError& error) {  // names the place
+    throw InputError(error.what());
   }
+  return result;
 }
 
 std::string YamlValue::file_path() const {

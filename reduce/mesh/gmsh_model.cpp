@@ -22,14 +22,24 @@ struct Nodes {
   Eigen::Matrix3Xd points;
 };
 
-Nodes read_nodes(double metres) {
+// No body reaches farther. [m]
+constexpr double farthest = 1e12;
+
+// @throws InputError for coordinates that are no numbers
+Nodes read_nodes(double metres, const std::string& name) {
   Tags tags;
   std::vector<double> coordinates, parametric;
   gmsh::model::mesh::getNodes(tags, coordinates, parametric);
   Nodes nodes;
   nodes.number.reserve(tags.size());
   nodes.points = metres * Eigen::Map<Eigen::Matrix3Xd>(coordinates.data(), 3, coordinates.size() / 3);
-  for (std::size_t i = 0; i < tags.size(); ++i) nodes.number.emplace(tags[i], static_cast<int>(i));
+  for (std::size_t i = 0; i < tags.size(); ++i) {
+    nodes.number.emplace(tags[i], static_cast<int>(i));
+    const auto x = nodes.points.col(static_cast<Eigen::Index>(i));
+    if (!(x.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() < farthest))
+      throw InputError(fmt::format("'{}': node {} stands at ({:g}, {:g}, {:g}) m: no body reaches there", name, tags[i],
+                                   x[0], x[1], x[2]));
+  }
   return nodes;
 }
 
@@ -151,7 +161,9 @@ void open_model(GmshSession& session, const SourceFile& source) {
     gmsh::option::setString("Geometry.OCCTargetUnit", source.carries_unit ? "M" : "MM");
     gmsh::open(source.path);
     if (entities(0).empty() && entities(2).empty() && entities(3).empty())
-      throw InputError(fmt::format("'{}' cannot be read: gmsh finds nothing in it", source.name));
+      throw InputError(
+          fmt::format("'{}' cannot be read: gmsh finds nothing in it: is it a file of the kind that its ending says?",
+                      source.name));
   });
 }
 
@@ -204,7 +216,7 @@ double model_extent(GmshSession& session) {
 ExtractedModel extract_model(GmshSession& session, const std::string& name, double metres) {
   ExtractedModel model;
   session.read(fmt::format("'{}' cannot be read", name), [&] {
-    const Nodes nodes = read_nodes(metres);
+    const Nodes nodes = read_nodes(metres, name);
     read_solids(nodes, name, model);
     model.surfaces = read_triangles(nodes, name);
     model.groups = physical_groups();
@@ -217,7 +229,7 @@ std::map<int, std::vector<Triangle>> extract_surfaces(GmshSession& session, cons
                                                       Eigen::Matrix3Xd& points) {
   std::map<int, std::vector<Triangle>> surfaces;
   session.read(fmt::format("'{}' cannot be read", name), [&] {
-    const Nodes nodes = read_nodes(metres);
+    const Nodes nodes = read_nodes(metres, name);
     points = nodes.points;
     surfaces = read_triangles(nodes, name);
   });

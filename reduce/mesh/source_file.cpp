@@ -2,16 +2,20 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "reduce/common/error.hpp"
 #include "reduce/common/progress.hpp"
 #include "reduce/mesh/length_unit.hpp"
 #include "reduce/mesh/place.hpp"
+#include "reduce/mesh/signature.hpp"
 
 namespace bielle::reduce {
 
@@ -32,6 +36,8 @@ void check_file(const std::string& path) {
   }
   if (!fs::is_regular_file(path, failed)) throw InputError(fmt::format("'{}' is not a file", path));
   if (fs::file_size(path, failed) == 0) throw InputError(fmt::format("'{}' is empty", path));
+  if (access(path.c_str(), R_OK) != 0)
+    throw InputError(fmt::format("'{}' cannot be read: {}", path, std::strerror(errno)));
 }
 
 std::string ending_of(const std::string& path) {
@@ -84,7 +90,10 @@ void settle_unit(const MeshRequest& request, const std::string& ending, SourceFi
 }  // namespace
 
 SourceFile prepare_source(const MeshRequest& request, Progress& progress) {
-  placed(request.located, [&] { check_file(request.path); });
+  placed(request.located, [&] {
+    check_file(request.path);
+    check_signature(request.path);
+  });
   const std::string ending = ending_of(request.path);
   SourceFile source;
   source.name = source.path = request.path;

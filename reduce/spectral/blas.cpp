@@ -3,10 +3,15 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <fstream>
+#include <new>
 #include <vector>
 
 #include <cblas.h>
+#include <dlfcn.h>
 #include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 namespace bielle {
 
@@ -40,6 +45,16 @@ int processor_width() {
 #else
   return 0;
 #endif
+}
+
+/// Address space for one thread that calls OpenBLAS, and for its stack and heap.
+constexpr rlim_t blas_buffer = rlim_t{136} << 20, of_thread = rlim_t{80} << 20;
+
+rlim_t used_address_space() {
+  std::ifstream file("/proc/self/statm");
+  rlim_t pages = 0;
+  file >> pages;
+  return pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
 }
 
 }  // namespace
@@ -99,6 +114,27 @@ double measure_dgemm(int size, int threads, int repeats) {
     best = std::max(best, 2e-9 * size * size * size / seconds);
   }
   return best;
+}
+
+void reserve_blas_memory(int threads) {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return;
+  const auto check = [&](rlim_t needed) {
+    if (used_address_space() + needed > limit.rlim_cur) throw std::bad_alloc();
+  };
+  const auto count = static_cast<rlim_t>(threads);
+  check(count * blas_buffer);
+  measure_dgemm(256, threads, 1);  // OpenBLAS starts its threads, which keep a buffer each, and this one gets its own
+  check((count - 1) * blas_buffer + count * of_thread);
+#pragma omp parallel num_threads(threads)
+  {}
+  // The library keeps what is freed for the next who asks. It does not say in its headers that it has these.
+  const auto take = reinterpret_cast<void* (*)(int)>(dlsym(RTLD_DEFAULT, "blas_memory_alloc"));
+  const auto give_back = reinterpret_cast<void (*)(void*)>(dlsym(RTLD_DEFAULT, "blas_memory_free"));
+  if (take == nullptr || give_back == nullptr) return;
+  std::vector<void*> buffers;
+  for (int k = 0; k < threads; ++k) buffers.push_back(take(0));
+  for (void* buffer : buffers) give_back(buffer);
 }
 
 }  // namespace bielle

@@ -21,6 +21,11 @@ class BlasThreads {
   int before_;
 };
 
+/// Takes the memory that OpenBLAS needs for each thread that calls it, and starts those threads, where the address
+/// space is limited (ulimit -v): OpenBLAS would try for ever where it does not get it later.
+/// @throws std::bad_alloc when there is not enough
+void reserve_blas_memory(int threads);
+
 /// A dense matrix somewhere in memory: its columns (rows if `row_major`) are `stride` numbers apart.
 struct DenseBlock {
   const double* data;

@@ -308,8 +308,8 @@ void read_stress_origin(const Hdf5File& file, const Reader& reader, StressOrigin
 void check_sum(const Hdf5File& file, const Reader& reader, const Superelement& body) {
   if (!file.has_attribute("/", "checksum") || file.read_integer_attribute("/", "checksum") == sum_of(body)) return;
   reader.fail(
-      "its numbers are not those that were written: it is damaged, or was changed; run bielle-reduce again (who "
-      "changes numbers on purpose removes the attribute 'checksum')");
+      "its numbers are not those that were written: it is damaged, was changed, or has points of an earlier version; "
+      "run bielle-reduce again (who changes numbers on purpose removes the attribute 'checksum')");
 }
 
 /// What is wrong with the parts by themselves comes first.

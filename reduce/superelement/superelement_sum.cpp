@@ -59,6 +59,14 @@ std::int64_t sum_of(const Superelement& body) {
   add_numbers(sum, body.stress_nodes);
   for (const StressMaterial& material : body.stress_origin.materials) add(sum, material.elasticity);
   add_numbers(sum, body.stress_origin.material_of);
+  // Files without these have the sum that they had before these counted.
+  for (const auto& [name, point] : body.points) {
+    sum.add(name);
+    add(sum, point.position);
+    add(sum, point.shapes);
+    for (const bool exact : point.residual) sum.add(exact ? 1.0 : 0.0);
+  }
+  if (body.residual_vectors > 0) sum.add(static_cast<double>(body.residual_vectors));
   return sum.value();
 }
 

@@ -1,27 +1,113 @@
 """Errors that users see as one clear sentence, and how a command turns them into exit statuses."""
 
+import contextlib
 import difflib
+import errno
 import importlib.util
 import os
+import signal
 import sys
+import traceback
+import warnings
+
+FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
+# The last: reading never ends.
+CRASHES = (signal.SIGSEGV, signal.SIGBUS, signal.SIGABRT, signal.SIGFPE, signal.SIGILL, signal.SIGPROF)
+longest_reading = 0  # [s] of processor time in one call; 0: without limit. A process that crashes alone has one
 
 
 class InputError(Exception):
     """A wrong input: the message names the file, what was found and what to do."""
 
 
-def run(name, main):
-    """Runs a command's main(arguments) and exits: 0 on success, 1 with one sentence on a wrong input.
+def run(name, main, crashing=False):
+    """Runs a command's main(arguments) and exits: 0 on success, 1 with one sentence on a wrong input, 2 where a disk is full or
+    something failed that nobody foresaw (BIELLE_TRACEBACK=1 shows where).
 
-    name: of the command, put before the sentence; main: takes the arguments and returns nothing.
+    name: of the command, put before the sentence; main: takes the arguments and returns nothing; crashing: whether it uses a
+    library that damaged files make crash: it then runs in a process of its own.
     """
+    _open_closed_streams()
+    if crashing:
+        _survive(name)
+    warnings.simplefilter("ignore")  # of numpy and matplotlib, about numbers that the command has judged itself
     try:
         main(sys.argv[1:])
+        with contextlib.suppress(AttributeError):  # a stream that is closed
+            sys.stdout.flush()
     except InputError as error:
-        print(f"{name}: {error}", file=sys.stderr)
-        sys.exit(1)
+        _end(1, f"{name}: {error}")
     except BrokenPipeError:
-        sys.exit(0)
+        _end(0)
+    except KeyboardInterrupt:
+        _end(130)
+    except OSError as error:
+        full = error.errno in FULL or os.strerror(errno.ENOSPC) in str(error)  # the latter: of the HDF5 library
+        _end(2 if full else 1, f"{name}: {_what_failed(error)}")
+    except MemoryError:
+        _end(2, f"{name}: out of memory")
+    except Exception as error:  # pylint: disable=broad-except
+        if os.environ.get("BIELLE_TRACEBACK"):
+            traceback.print_exc()
+        _end(2, f"{name}: unforeseen: {type(error).__name__}: {error} (please report it with the file; BIELLE_TRACEBACK=1 shows "
+                "where)")
+
+
+@contextlib.contextmanager
+def limited_reading():
+    """Ends a process that crashes alone (`run`) where reading never ends."""
+    before = signal.setitimer(signal.ITIMER_PROF, longest_reading)[0] if longest_reading else 0
+    try:
+        yield
+    finally:
+        if longest_reading:
+            signal.setitimer(signal.ITIMER_PROF, before)
+
+
+def _end(status, sentence=""):
+    """Ends the process, without a word of streams that nobody reads any more."""
+    with contextlib.suppress(OSError, AttributeError):
+        if sentence:
+            print(sentence, file=sys.stderr)
+        sys.stdout.flush()
+    null = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(null, 1)
+    sys.exit(status)
+
+
+def _what_failed(error):
+    """Of an error of the operating system, in words."""
+    full = os.strerror(errno.ENOSPC)
+    reason = full if full in str(error) else error.strerror or str(error)
+    return f"'{error.filename}': {reason}" if error.filename else f"cannot write: {reason}" if error.errno in FULL else reason
+
+
+def _open_closed_streams():
+    """A file that is opened next must not get the number of a closed stream."""
+    for number in range(3):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)
+
+
+def _survive(name):
+    """Goes on in a child; the parent waits for it, and says so when it crashes."""
+    global longest_reading
+    child = os.fork()
+    if not child:
+        longest_reading = 60
+        return
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, lambda received, _: os.kill(child, received))
+    while True:
+        with contextlib.suppress(KeyboardInterrupt):  # the child gets it as well
+            _, status = os.waitpid(child, 0)
+            break
+    if os.WIFSIGNALED(status) and os.WTERMSIG(status) in CRASHES:
+        print(f"{name}: a file is damaged: the HDF5 library crashes on it", file=sys.stderr)
+        os._exit(1)
+    os._exit(128 + os.WTERMSIG(status) if os.WIFSIGNALED(status) else os.WEXITSTATUS(status))
 
 
 def require(*modules):

@@ -11,7 +11,6 @@ import contextlib
 import io
 import os
 import re
-import shutil
 
 import numpy as np
 
@@ -40,14 +39,18 @@ def export(results, folder, name, *, every=None, count=100, span=(None, None), s
         raise InputError(f"'{results.path}' records no nodes, beams or superelements")
 
     inside = os.path.join(folder, name)
-    if os.path.isdir(inside):
-        shutil.rmtree(inside)  # frames of an earlier export would mix with the new ones
-    os.makedirs(inside)
+    os.makedirs(inside, exist_ok=True)
+    for file in os.listdir(inside):  # frames of an earlier export would mix with the new ones; the folder may hold other things
+        if re.fullmatch(r".+_\d{4,}\.vtu", file):
+            os.remove(os.path.join(inside, file))
     lines = []
     for frame, row in enumerate(rows):
         for index, (part, mesh_at) in enumerate(parts):
             file = f"{_file_name(part)}_{frame:04d}.vtu"
-            _write(os.path.join(inside, file), mesh_at(row))
+            try:
+                _write(os.path.join(inside, file), mesh_at(row))
+            except (IndexError, ValueError):
+                raise InputError(f"'{results.path}' is damaged: what it holds of '{part}' does not fit together") from None
             lines.append(f'    <DataSet timestep="{results.time[row]:.9g}" part="{index}" name="{part}" file="{name}/{file}"/>')
     path = os.path.join(folder, f"{name}.pvd")
     with open(path, "w", encoding="utf-8") as pvd:
@@ -105,7 +108,7 @@ def _beams(results):
     names = results.elements_with("position", "rotation")
     if not names:
         return None
-    counts = [results.shape(f"elements/{name}/position")[1] for name in names]
+    counts = [len(results.rows(f"elements/{name}/position", 0)) for name in names]
     first = np.cumsum([0] + counts)
     lines = np.concatenate([np.column_stack([np.arange(n - 1), np.arange(1, n)]) + start for n, start in zip(counts, first)])
 
@@ -159,7 +162,7 @@ def _joints(results):
         return None
     vertices = np.arange(len(places))[:, None]
     driven = [joint for joint in places if results.has(f"joints/{joint}/drive_force")]
-    width = max((results.shape(f"joints/{joint}/drive_force")[1] for joint in driven), default=0)
+    width = max((len(results.rows(f"joints/{joint}/drive_force", 0)) for joint in driven), default=0)
 
     def mesh_at(row):
         points = np.array([results.rows(f"nodes/{node}/position", row) for node in places.values()])

@@ -8,6 +8,7 @@ import os
 import numpy as np
 
 from . import plot_style as style
+from .messages import InputError
 from .results_file import Results
 from .superelement_body import superelement_of
 
@@ -36,6 +37,9 @@ def draw_all(results, folder, extension="png", nodes=None, joints=None, superele
             written += solver(results, at)
     written += eigenvalues(results, at)
     written += frequency_response(results, at)
+    if not written:
+        raise InputError(f"'{results.path}' holds nothing to draw over time: "
+                         + ("it has one time only" if len(results.time) == 1 else "nothing in it changes or nothing is recorded"))
     return written
 
 
@@ -43,7 +47,7 @@ def energy(results: Results, at):
     """Stored energies and input; those that the large ones hide, on a scale of their own; what the balance misses."""
     values = {name: results.rows(f"energy/{name}") for name in ("kinetic", "elastic", "gravity", "dissipated", "input")
               if results.has(f"energy/{name}")}
-    reach = {name: np.ptp(v) for name, v in values.items()}
+    reach = {name: _reach(v) for name, v in values.items()}
     values = {name: v for name, v in values.items() if np.any(v != 0)}
     if not values:
         return []
@@ -80,7 +84,7 @@ def joint_motion(results, at, joints=None):
         for k, units in enumerate(column_units(results, f"joints/{joint}/coordinate")):
             kinds.setdefault(units, []).append(k)
         for units, columns in kinds.items():
-            moved = max(np.ptp(values[k]) for k in columns)
+            moved = max(_reach(values[k]) for k in columns)
             reach[units] = max(reach.get(units, 0), moved)
             panels.append((joint, units, columns, moved))
     panels = [(joint, units, columns) for joint, units, columns, moved in panels if joints or moved > max(1e-6 * reach[units], 1e-12)]
@@ -91,7 +95,7 @@ def joint_motion(results, at, joints=None):
         for panel, quantity, unit in zip(line, ("coordinate", "rate"), (units, f"{units}/s")):
             place = f"joints/{joint}/{quantity}"
             labels, values = column_names(results, place), _columns(results, place)
-            for k in columns if values else ():
+            for k in columns if len(values) > columns[-1] else ():
                 panel.plot(results.time, values[k], label=labels[k])
             panel.set_ylabel(style.label(quantity, unit))
             panel.set_title(joint)
@@ -125,7 +129,7 @@ def drives(results, at, joints=None):
         names = column_names(results, f"joints/{joint}/coordinate")
         for k, (units, values) in enumerate(zip(column_units(results, place), _columns(results, place))):
             if np.any(values != 0):
-                panels.setdefault(units, []).append((f"{joint} {names[k]}" if len(names) > 1 else joint, values))
+                panels.setdefault(units, []).append((f"{joint} {names[k]}" if 1 < len(names) > k else joint, values))
     if not panels:
         return []
     fig, axes = style.figure(len(panels), f"{results.title}: drives")
@@ -141,8 +145,8 @@ def drives(results, at, joints=None):
 def node_paths(results, at, nodes=None):
     """Paths in the inertial plane in which the nodes move most, and how far each goes over time."""
     names = nodes or results.names("nodes")
-    paths = {name: results.rows(f"nodes/{name}/position") for name in names if results.has(f"nodes/{name}")}
-    reach = {name: np.ptp(path, axis=0) for name, path in paths.items()}
+    paths = {name: results.rows(f"nodes/{name}/position") for name in names if results.has(f"nodes/{name}/position")}
+    reach = {name: np.array([_reach(column) for column in path.T]) for name, path in paths.items()}
     largest = max((r.max() for r in reach.values()), default=0)
     if nodes is None:
         paths = {name: path for name, path in paths.items() if reach[name].max() > 1e-6 * largest}
@@ -169,12 +173,15 @@ def bodies(results, at, superelements):
     for name in results.elements_with("frame", "coordinates"):
         body = superelement_of(results, name, superelements)
         q = results.rows(f"elements/{name}/coordinates")
-        largest, node = 0.0, 0
+        largest, row = 0.0, 0  # row: of the recovery, whose node moves most
         for block in body.blocks(results.frames(count=60)):
-            u = np.linalg.norm(body.local_displacement(q[block]), axis=-1).max(axis=0)
-            if u.max() > largest:
-                largest, node = u.max(), int(u.argmax())
-        row = int(np.flatnonzero(body.displaced == node)[0])
+            u = np.linalg.norm(body.local_displacement(q[block])[:, body.displaced], axis=-1)
+            u = np.where(np.isfinite(u), u, 0).max(axis=0, initial=0)
+            if u.max(initial=0) > largest:
+                largest, row = u.max(), int(u.argmax())
+        if not len(body.displaced):
+            continue
+        node = body.displaced[row]
         u = q @ body.displacement[3 * row:3 * row + 3].T
         has_stress = body.stress is not None and len(body.stress)
         fig, axes = style.figure(2 if has_stress else 1, f"{results.title}: {name}")
@@ -201,7 +208,9 @@ def beams(results, at):
         values = results.rows(f"elements/{name}/resultants")  # (nt,ne,6): N Qy Qz T My Mz
         quantities = {"axial force": values[:, :, 0], "|shear force|": np.linalg.norm(values[:, :, 1:3], axis=2),
                       "torque": values[:, :, 3], "|bending moment|": np.linalg.norm(values[:, :, 4:], axis=2)}
-        stressed = results.has(f"elements/{name}/von_mises")
+        stressed = results.has(f"elements/{name}/von_mises") and len(results.shape(f"elements/{name}/von_mises")) == 3
+        if not values.shape[1]:
+            continue
         fig, axes = style.figure(3 if stressed else 2, f"{results.title}: beam {name}")
         axes[0, 0].set_title("in the first element; dashed: in the last one")
         for index, (text, value) in enumerate(quantities.items()):
@@ -212,7 +221,7 @@ def beams(results, at):
         axes[1, 0].set_ylabel("moment [N m]")
         if stressed:
             stress = results.rows(f"elements/{name}/von_mises")  # (nt,ne,np)
-            axes[2, 0].plot(results.time, 1e-6 * stress.max(axis=(1, 2)), color="black")
+            axes[2, 0].plot(results.time, 1e-6 * stress.max(axis=(1, 2), initial=0), color="black")
             axes[2, 0].set_ylabel("von Mises [MPa]")
             axes[2, 0].set_title("highest von Mises stress at the section's stress points")
         axes[-1, 0].set_xlabel(results.axis)
@@ -276,6 +285,8 @@ def eigenvalues(results, at):
     if not results.has("eigen/frequency"):
         return []
     frequency = results.array("eigen/frequency")
+    if frequency.ndim != 1 or frequency.dtype.kind not in "fiu":
+        raise InputError(f"'{results.path}': 'eigen/frequency' is damaged: it is no list of numbers")
     fig, axes = style.figure(1, f"{results.title}: eigenfrequencies", height=3.2)
     panel = axes[0, 0]
     bars = panel.bar(np.arange(1, len(frequency) + 1), frequency, color=style.COLOURS[0])
@@ -291,6 +302,8 @@ def frequency_response(results, at):
         return []
     frequency = results.array("frequency_response/frequency")
     response = results.array("frequency_response/response")
+    if response.ndim != 4 or response.shape[-1] != 2 or frequency.shape != response.shape[:1]:
+        raise InputError(f"'{results.path}': 'frequency_response' is damaged: its frequencies and responses do not fit together")
     response = response[..., 0] + 1j * response[..., 1]  # (nf,outputs,inputs)
     fig, axes = style.figure(2, f"{results.title}: frequency response")
     for o in range(response.shape[1]):
@@ -318,7 +331,13 @@ def binned(time, values, most=150):
 
 def _varies(values):
     """Whether there is more than rounding to see: steps that meet a given time differ in their last digits."""
-    return len(values) > 0 and np.ptp(values) > 1e-6 * np.abs(values).max()
+    return len(values) > 0 and _reach(values) > 1e-6 * np.nanmax(np.abs(values))
+
+
+def _reach(values):
+    """Largest less smallest of the values that are numbers; 0 where there are none."""
+    values = values[np.isfinite(values)]
+    return np.ptp(values) if len(values) else 0.0
 
 
 def column_names(results, place):

@@ -7,6 +7,7 @@ import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import Normalize, to_rgb
 
+from .messages import InputError
 from .plot_style import COLOURS, plt
 from .rigid_bodies import rigid_bodies
 from .superelement_body import superelement_of
@@ -49,10 +50,12 @@ class Scene:
             points += [self._project(self.results.rows(f"elements/{b}/position", row)) for b in self.beams]
             points += [self._project(self.results.rows(f"nodes/{n}/position", row)[None]) for n in self.nodes]
             for p in points:
-                low, high = np.minimum(low, p[:, :2].min(axis=0)), np.maximum(high, p[:, :2].max(axis=0))
+                low, high = np.fmin(low, np.fmin.reduce(p[:, :2])), np.fmax(high, np.fmax.reduce(p[:, :2]))
             for _, values in self._bodies_at(row):
                 if values is not None:
-                    stress = max(stress, float(np.nanmax(values)))
+                    stress = max(stress, float(np.fmax.reduce(values)))
+        if not np.all(np.isfinite([low, high])):
+            raise InputError(f"'{self.results.path}' holds no positions that can be drawn")
         margin = 0.06 * max((high - low).max(), 1e-9)
         self.limits = low - margin, high + margin
         self.norm = Normalize(0, 1e-6 * stress if stress > 0 else 1)
@@ -129,7 +132,8 @@ def _view_axes(results, view):
     reach = np.zeros(3)
     paths = [results.rows(f"nodes/{n}/position") for n in results.names("nodes")]
     if paths:
-        reach = np.max([np.ptp(path, axis=0) for path in paths], axis=0)
+        reach = np.nanmax([np.fmax.reduce(path) - np.fmin.reduce(path) for path in paths], axis=0)
+        reach = np.where(np.isfinite(reach), reach, 0)
     towards = np.zeros(3)
     normal = int(np.argmin(reach))
     towards[normal] = -1 if normal == 1 else 1

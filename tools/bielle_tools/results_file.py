@@ -4,13 +4,50 @@ Only the rows of `/time` count: after an interruption other datasets may be long
 an entry is known by the same name, `joints/main/coordinate`.
 """
 
+import contextlib
+import functools
 import os
 
 import h5py
 import numpy as np
 
-from .messages import InputError, note
+from .messages import InputError, counted, limited_reading, note
 from .stacked_layout import StackedLayout
+
+# Dimensions after the rows of what the tools use; None: any number.
+SHAPES = {("nodes", "position"): (3,), ("nodes", "rotation"): (4,), ("nodes", "velocity"): (6,),
+          ("joints", "coordinate"): (None,), ("joints", "rate"): (None,), ("joints", "drive_force"): (None,),
+          ("joints", "reaction"): (6,), ("joints", "reaction_inertial"): (6,),
+          ("elements", "frame"): (7,), ("elements", "coordinates"): (None,), ("elements", "rotation"): (None, 4),
+          ("elements", "position"): (None, 3), ("elements", "resultants"): (None, 6)}
+LARGEST = 1e100  # no quantity is larger
+# What other files of Bielle are for.
+OTHERS = {"bielle superelement": "'bielle-reduce --inspect {0}' describes it",
+          "bielle cut body": "'bielle-reduce --inspect {0}' describes it",
+          "bielle study": "its runs are the groups /runs/1, /runs/2, ...; h5py and HDFView show them"}
+WORDS = {"bielle superelement": "a superelement", "bielle cut body": "a body in pieces", "bielle study": "a study",
+         "bielle results": "results of bielle-mechanism"}
+
+
+@contextlib.contextmanager
+def reading(path, what):
+    """Whatever the HDF5 library says of a damaged file, and what does not fit together in it, becomes one sentence.
+    @raises InputError"""
+    try:
+        with limited_reading():
+            yield
+    except (AttributeError, IndexError, KeyError, MemoryError, OSError, OverflowError, RuntimeError, TypeError, ValueError) as error:
+        reason = "there is not enough memory for it" if isinstance(error, MemoryError) else "it is damaged"
+        raise InputError(f"'{path}': '{what}' cannot be read: {reason}") from None
+
+
+def _told(method):
+    """A method whose first argument is a place in the file: what cannot be read there is told."""
+    @functools.wraps(method)
+    def reads(self, place, *arguments, **options):
+        with reading(self.path, place):
+            return method(self, place, *arguments, **options)
+    return reads
 
 
 class Results:
@@ -21,23 +58,39 @@ class Results:
         self.path = os.path.abspath(path)
         self.file = open_hdf5(path, "bielle results", "results of bielle-mechanism")
         self.root = self.file
-        if analysis is not None:
-            if f"analysis_{analysis}" not in self.file:
-                known = ", ".join(sorted(name[9:] for name in self.file if name.startswith("analysis_"))) or "none"
-                raise InputError(f"'{path}' holds no analysis {analysis} (it has {known})")
-            self.root = self.file[f"analysis_{analysis}"]
-        self._stacked = StackedLayout(self.root) if _text(self.file.attrs.get("layout", "named")) == "stacked" else None
-        if "time" not in self.root and "eigen" not in self.root and "frequency_response" not in self.root:
+        self._doubted = set()
+        with reading(self.path, "/"):
+            if analysis is not None:
+                if f"analysis_{analysis}" not in self.file:
+                    known = ", ".join(sorted(name[9:] for name in self.file if name.startswith("analysis_"))) or "none"
+                    raise InputError(f"'{path}' holds no analysis {analysis} (it has {known})")
+                self.root = self.file[f"analysis_{analysis}"]
+            self._stacked = StackedLayout(self.root) if _text(self.file.attrs.get("layout", "named")) == "stacked" else None
+            other = "eigen" in self.root or "frequency_response" in self.root
+            complete = bool(np.all(self.file.attrs.get("complete", True)))
+        self.time = self._times()
+        if not len(self.time) and not other:
             raise InputError(f"'{path}' holds no results yet: the run ended before its first step was recorded")
-        self.time = np.asarray(self.root["time"]) if "time" in self.root else np.zeros(0)
-        self.static = self._kind() == "static"  # then `time` is the load factor
-        if not self.file.attrs.get("complete", True):
-            note(f"{path}: the run was not completed; its {len(self.time)} recorded times are shown")
+        with reading(self.path, "/"):
+            self.static = self._kind() == "static"  # then `time` is the load factor
+        if not complete:
+            note(f"{path}: the run was not completed; {counted(len(self.time), 'recorded time')} of it can be shown")
+
+    def _times(self):
+        with reading(self.path, "time"):
+            if "time" not in self.root:
+                return np.zeros(0)
+            time = np.asarray(self.root["time"])
+            if time.ndim != 1 or time.dtype.kind not in "fiu":
+                raise TypeError
+        if not np.all(np.abs(time) < LARGEST):
+            raise InputError(f"'{self.path}': 'time' holds values that are no times: the file is damaged")
+        return time.astype(float)
 
     def _kind(self):
         """Type of the analysis whose time this is."""
         for name, analysis in self.file.items():
-            if name.startswith("analysis_") and "time" in analysis and "time" in self.root \
+            if name.startswith("analysis_") and isinstance(analysis, h5py.Group) and "time" in analysis and "time" in self.root \
                     and analysis["time"] == self.root["time"]:
                 return _text(analysis.attrs.get("type", ""))
         return ""
@@ -62,39 +115,46 @@ class Results:
         """Name of the mechanism, or of the file."""
         return self.text("/", "name") or os.path.splitext(os.path.basename(self.path))[0]
 
+    @_told
     def names(self, section):
         """Names under `nodes`, `joints`, `elements`, ...; empty when there are none."""
         stacked = self._stacked and self._stacked.names(section)
         if stacked is not None:
             return stacked
-        return list(self.root[section]) if section in self.root else []
+        group = self.root[section] if section in self.root else {}
+        return [name for name in group if group.get(name, getclass=True) is h5py.Group or section == "measures"]
 
+    @_told
     def has(self, place):
         found = self._found(place)
         return place in self.root if found is None else self._stacked.has(found)
 
+    @_told
     def array(self, place):
         """A dataset that is not over time, whole."""
         found = self._found(place)
-        return np.asarray(self.root[place]) if found is None else self._stacked.value(found)
+        return self._judged(place, np.asarray(self.root[place])) if found is None else self._stacked.value(found)
 
+    @_told
     def shape(self, place):
         """Of a dataset over time, (nt,...)."""
         found = self._found(place)
         return self.root[place].shape if found is None else self._stacked.shape(found)
 
+    @_told
     def datasets(self, place):
         """Names of the datasets in a group; empty where it is none."""
         found = self._found(place)
         if found is not None:
             return self._stacked.datasets(found) if self._stacked.has(found) else []
         group = self.root[place]
-        return [name for name in group if hasattr(group[name], "shape")] if hasattr(group, "keys") else []
+        return [name for name in group if group.get(name, getclass=True) is h5py.Dataset] if hasattr(group, "keys") else []
 
     def _found(self, place):
         """Where the stacked layout has what the layout by names calls `place`; None where it stands under its name."""
         return self._stacked.split(place) if self._stacked else None
 
+    @_told
     def text(self, place, attribute):
         """A text attribute of a group or dataset; empty when there is none."""
         found = self._found(place)
@@ -106,13 +166,42 @@ class Results:
         """The element of the mechanism file: of the piece `blade.2` of a body it is `blade`."""
         return element.rpartition(".")[0] if self.text(f"elements/{element}", "group") else element
 
+    @_told
     def rows(self, place, index=None):
-        """A dataset over time, clipped to the rows that count; `index` picks rows."""
+        """A dataset over time, clipped to the rows that count; `index` picks rows. What is no number, or beyond all bounds, is nan."""
         found = self._found(place)
+        if found == ():
+            raise KeyError(place)
+        data = self.root[place] if found is None else found[0][found[2]]
+        if not isinstance(data, h5py.Dataset) or data.dtype.kind not in "fiu":
+            raise InputError(f"'{self.path}': '{place}' holds no numbers")
+        shape = self.shape(place)
+        if not shape:
+            raise InputError(f"'{self.path}': '{place}' is no quantity over time")
+        words = place.strip("/").split("/")
+        expected = SHAPES.get((words[0], words[-1])) if len(words) > 2 else () if words[0] in ("energy", "solver") else None
+        if shape[0] < len(self.time) or expected is not None and (
+                len(shape) != 1 + len(expected) or any(want not in (None, have) for want, have in zip(expected, shape[1:]))):
+            each = " x ".join("n" if size is None else str(size) for size in expected or ())
+            raise InputError(f"'{self.path}': '{place}' is damaged: it has the shape {shape}, not {len(self.time)} rows"
+                             + (f" of {each}" if each else ""))
+        if 8 * np.prod(shape, dtype=float) > max(2.0**30, 1000 * os.path.getsize(self.path)):
+            raise InputError(f"'{self.path}': '{place}' is damaged: it is larger than the file")
         if found is not None:
-            return self._stacked.read(found, slice(0, len(self.time)) if index is None else index)
-        data = self.root[place]
-        return np.asarray(data[:len(self.time)] if index is None else data[index])
+            return self._judged(place, self._stacked.read(found, slice(0, len(self.time)) if index is None else index))
+        return self._judged(place, np.asarray(data[:len(self.time)] if index is None else data[index]))
+
+    def _judged(self, place, values):
+        """Numbers without those that nothing can be done with. Says once where there are some."""
+        if values.dtype.kind != "f":
+            return values
+        bad = ~(np.abs(values) < LARGEST)
+        if not bad.any():
+            return values
+        if place not in self._doubted and not place.endswith(("von_mises", "stress", "strain")):  # of nodes without, on purpose
+            self._doubted.add(place)
+            note(f"{self.path}: '{place}' holds values that are no numbers, or larger than {LARGEST:g}: they are left out")
+        return np.where(bad, np.nan, values)
 
     def units(self, place):
         return self.text(place, "units")
@@ -139,17 +228,45 @@ class Results:
 
 def open_hdf5(path, expected, meaning):
     """Opens an HDF5 file whose attribute `format` must be `expected`. @raises InputError"""
-    if not os.path.isfile(path):
+    if not os.path.exists(path):
         raise InputError(f"'{path}' does not exist")
+    if not os.path.isfile(path):
+        raise InputError(f"'{path}' is a folder or a device, not a file with {meaning}")
+    if not os.access(path, os.R_OK):
+        raise InputError(f"'{path}' cannot be read: Permission denied")
     try:
-        file = h5py.File(path, "r")
-    except OSError:
-        raise InputError(f"'{path}' is no HDF5 file, or it is damaged") from None
-    found = _text(file.attrs.get("format", ""))
+        with limited_reading():
+            file = h5py.File(path, "r")
+    except (OSError, RuntimeError, ValueError):
+        raise InputError(f"'{path}' does not hold {meaning}: it is {_what_it_is(path)}") from None
+    with reading(path, "/"):
+        found = _text(file.attrs.get("format", ""))
     if found != expected:
         file.close()
-        raise InputError(f"'{path}' does not hold {meaning}" + (f" but '{found}'" if found else ""))
+        advice = OTHERS.get(found, "").format(path)
+        raise InputError(f"'{path}' does not hold {meaning}" + (f" but {WORDS.get(found, repr(found))}" if found else "")
+                         + (f": {advice}" if advice else ""))
     return file
+
+
+def _what_it_is(path):
+    """Of a file that HDF5 does not open, in words."""
+    with open(path, "rb") as file:
+        head = file.read(4096)
+    if not head:
+        return "empty"
+    if head.startswith(b"\x89HDF\r\n\x1a\n"):
+        return "a damaged or truncated HDF5 file"
+    try:
+        text = head.decode("utf-8")
+    except UnicodeDecodeError:
+        return "no HDF5 file"
+    keys = {line.split(":")[0].strip() for line in text.splitlines() if line[:1].isalpha() and ":" in line}
+    if keys & {"nodes", "elements", "joints", "analysis", "mechanism"}:
+        return "no HDF5 file but text, a mechanism file: 'bielle-mechanism' makes results of it"
+    if keys & {"geometry", "interfaces", "materials"}:
+        return "no HDF5 file but text, a body file: 'bielle-reduce' makes a superelement of it"
+    return "no HDF5 file but text" if text.isprintable() or "\n" in text else "no HDF5 file"
 
 
 def _text(value):

@@ -6,7 +6,7 @@ a^2 = 5 (J_y + J_z - J_x) / (2 m): about the size of the body, a little larger w
 
 import numpy as np
 
-from .results_file import rotation_matrices
+from .results_file import LARGEST, reading, rotation_matrices
 
 
 class RigidBody:
@@ -33,18 +33,26 @@ def rigid_bodies(results):
     found = []
     for name in results.names("elements"):
         place = f"elements/{name}"
-        node, mass = results.text(place, "node"), results.text(place, "mass")
-        if not mass or not results.has(f"nodes/{node}"):
+        node = results.text(place, "node")
+        if not results.text(place, "mass") or not results.has(f"nodes/{node}"):
             continue
         xx, yy, zz, xy, xz, yz = _numbers(results, place, "inertia", 6)
         inertia = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-        found.append(RigidBody(name, node, float(mass), _numbers(results, place, "centre", 3), inertia))
+        mass, = _numbers(results, place, "mass", 1)
+        if mass > 0:
+            found.append(RigidBody(name, node, mass, _numbers(results, place, "centre", 3), inertia))
     return found
 
 
 def _numbers(results, place, attribute, count):
     words = results.text(place, attribute).split()
-    return np.array([float(word) for word in words]) if len(words) == count else np.zeros(count)
+    if len(words) != count:
+        return np.zeros(count)
+    with reading(results.path, f"{place}: {attribute}"):
+        numbers = np.array([float(word) for word in words])
+        if not np.all(np.abs(numbers) < LARGEST):
+            raise ValueError
+    return numbers
 
 
 def _sphere(around=16, along=8):

@@ -14,6 +14,7 @@ import numpy as np
 from .messages import InputError, counted
 
 TRIANGLES = {"triangle": 3, "triangle6": 6}
+FARTHEST = 1e15  # in whatever unit: no body reaches there
 TETRAHEDRA = {"tetra": 4, "tetra10": 10}
 # Cells that carry no volume and no surface: axes, springs, point masses, corner points.
 IGNORED = ("vertex", "line", "line3", "line4")
@@ -139,8 +140,11 @@ def _merge_blocks(raw, notes):
 
 
 def _check_numbers(points, cells):
-    if not np.isfinite(points).all():
-        raise InputError(f"point {int(np.argmin(np.isfinite(points).all(axis=1))) + 1} has a coordinate that is not finite")
+    sound = (np.abs(points) < FARTHEST).all(axis=1)
+    if not sound.all():
+        first = int(np.argmin(sound))
+        raise InputError(f"point {first + 1} has a coordinate that is not finite, or larger than {FARTHEST:g}: "
+                         f"({', '.join(f'{x:g}' for x in points[first])})")
     for kind, block in cells.items():
         if block.min() < 0 or block.max() >= len(points):
             raise InputError(f"a cell of type '{kind}' names a node that does not exist")

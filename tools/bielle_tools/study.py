@@ -10,6 +10,7 @@
 import concurrent.futures
 import csv
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -17,10 +18,10 @@ import tempfile
 import h5py
 import numpy as np
 
-from .messages import InputError, counted
+from .messages import InputError, counted, note
 
-KEPT = ["joints", "energy", "points", "eigen", "frequency_response", "hydraulics", "contacts"]
-GROUPS = [*KEPT, "nodes", "elements", "solver", "all"]  # what may be kept
+KEPT = ["joints", "measures", "energy", "events", "peaks"]
+GROUPS = [*KEPT, "nodes", "elements", "solver", "validity", "all"]  # what may be kept
 
 
 def read_table(path):
@@ -30,10 +31,14 @@ def read_table(path):
             rows = [(number, [cell.strip() for cell in row]) for number, row in enumerate(csv.reader(file), start=1)]
     except OSError as error:
         raise InputError(f"cannot read '{path}': {error.strerror}") from None
+    except (UnicodeDecodeError, csv.Error):
+        raise InputError(f"'{path}' is no table: text is expected, its columns separated by commas") from None
     rows = [(number, row) for number, row in rows if any(row) and not row[0].startswith("#")]
     if not rows:
         raise InputError(f"'{path}' is empty; its first line names parameters of the model, each further line is a run")
     number, names = rows[0]
+    if len(names) == 1 and len(re.split(r"[;\s]+", names[0])) > 1:
+        raise InputError(f"{path}:{number}: columns are separated by commas; found '{names[0]}'")
     for name in names:
         if not name or names.count(name) > 1:
             raise InputError(f"{path}:{number}: the column name '{name}' is " + ("missing" if not name else "there twice"))
@@ -43,6 +48,10 @@ def read_table(path):
                              f"{counted(len([c for c in row if c]), 'value')} for {counted(len(names), 'parameter')}")
     if len(rows) == 1:
         raise InputError(f"'{path}' has a header but no runs")
+    first = {}
+    for run, (_, row) in enumerate(rows[1:], start=1):
+        if first.setdefault(tuple(row), run) != run:
+            note(f"{path}: run {run} has the values of run {first[tuple(row)]}")
     return names, [row for _, row in rows[1:]]
 
 
@@ -53,11 +62,41 @@ def run_study(program, model, names, rows, output, *, jobs=1, keep=None, report=
             text = file.read()
     except OSError as error:
         raise InputError(f"cannot read '{model}': {error.strerror}") from None
+    _check_output(output)
     beside = output + ".part"
     try:
         study = h5py.File(beside, "w")
-    except OSError:
-        raise InputError(f"cannot write '{output}'") from None
+    except OSError as error:
+        raise InputError(f"cannot write '{output}': {os.strerror(error.errno) if error.errno else error}") from None
+    try:
+        failed = _run_all(study, program, model, text, names, rows, jobs, keep or KEPT, report)
+    except BaseException:
+        os.remove(beside)
+        raise
+    os.replace(beside, output)
+    return failed
+
+
+def _check_output(path):
+    """@raises InputError where something stands that is no study"""
+    folder = os.path.dirname(path) or "."
+    if not os.path.isdir(folder):
+        raise InputError(f"cannot write '{path}': there is no folder '{folder}'")
+    if not os.path.exists(path):
+        return
+    if not os.path.isfile(path):
+        raise InputError(f"cannot write '{path}': it is a folder or a device")
+    try:
+        with h5py.File(path, "r") as file:
+            known = file.attrs.get("format") == "bielle study"
+    except (OSError, RuntimeError):
+        known = False
+    if not known:
+        raise InputError(f"'{path}' exists and is no study: say with -o where the results of this one shall go, or remove it")
+
+
+def _run_all(study, program, model, text, names, rows, jobs, keep, report):
+    """@returns number of runs that failed"""
     failed = 0
     with study, tempfile.TemporaryDirectory(prefix="bielle-study-") as folder:
         study.attrs.update({"format": "bielle study", "version": 1, "model": os.path.abspath(model), "complete": False})
@@ -71,15 +110,21 @@ def run_study(program, model, names, rows, output, *, jobs=1, keep=None, report=
             settings = [word for name, value in zip(names, rows[index]) for word in ("--set", f"{name}={value}")]
             done = subprocess.run([program, model, "-o", target, "--quiet", "--threads", "1", *settings],
                                   capture_output=True, text=True, check=False)
-            return target, done.returncode, done.stderr.strip()
+            said = done.stderr.strip()
+            if done.returncode < 0:
+                said += f" ended by signal {-done.returncode}"
+            return target, done.returncode, said.strip()
 
         with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
             pending = {pool.submit(run, index): index for index in range(len(rows))}
             for count, future in enumerate(concurrent.futures.as_completed(pending), start=1):
                 index = pending[future]
                 target, status[index], messages[index] = future.result()
+                if "has no parameter" in messages[index]:  # no run can succeed
+                    pool.shutdown(cancel_futures=True)
+                    raise InputError(messages[index].rpartition("error: ")[2])
                 if os.path.exists(target):
-                    _keep(study, index + 1, target, keep or KEPT)
+                    _keep(study, index + 1, target, keep)
                     os.remove(target)
                 failed += status[index] != 0
                 values = ", ".join(f"{name} = {value}" for name, value in zip(names, rows[index]))
@@ -89,7 +134,6 @@ def run_study(program, model, names, rows, output, *, jobs=1, keep=None, report=
         study["status"].attrs["description"] = "exit status of each run: 0 done, 1 wrong input, 2 failed"
         _text(study, "message", messages)
         study.attrs["complete"] = True
-    os.replace(beside, output)
     return failed
 
 
@@ -112,11 +156,14 @@ def _keep(study, number, path, keep):
             group = study.create_group(f"runs/{number}")
             for key, value in results.attrs.items():
                 group.attrs[key] = value
-            names = list(results) if keep == ["all"] else ["time", *keep]
+            names = list(results) if keep == ["all"] else ["time", *keep, *(["crossings"] if "events" in keep else [])]
             for name in names:
-                if name in results and name != "input":
+                link = results.get(name, getlink=True)
+                if keep == ["all"] and isinstance(link, h5py.SoftLink):
+                    group[name] = h5py.SoftLink(f"{group.name}{link.path}")
+                elif name in results and name != "input":
                     results.copy(name, group, expand_soft=True)
-    except OSError as error:
+    except (OSError, RuntimeError, KeyError) as error:
         print(f"run {number} left no readable results: {error}", file=sys.stderr)
 
 

@@ -10,10 +10,11 @@ import os
 import numpy as np
 
 from .messages import InputError, counted
-from .results_file import open_hdf5, rotation_matrices
+from .results_file import LARGEST, open_hdf5, reading, rotation_matrices
 from .solid_mesh import boundary_faces, tetrahedron_faces
 
 GMSH_TYPES = {2: "triangle", 4: "tetra", 9: "triangle6", 11: "tetra10"}
+CORNERS = {"triangle": 3, "tetra": 4, "triangle6": 6, "tetra10": 10}
 GMSH_TO_VTK = {"tetra10": [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]}
 
 
@@ -23,24 +24,34 @@ class SuperelementBody:
     def __init__(self, path, group=""):
         """group: of a piece in the file of a body that is cut into pieces ("/pieces/2")."""
         self.path = path
-        with _open(path, group) as opened:
+        with _open(path, group) as opened, reading(path, group or "/"):
             file = opened[group] if group else opened
             if "mesh" not in file or "recovery/displacement" not in file:
                 raise InputError(f"'{path}' keeps no mesh or no displacements: set 'recovery: {{displacement: all}}' in its "
                                  "body file and reduce it again to see it move")
-            self.points = np.asarray(file["mesh/points"])
-            self.cells = {}
-            for name, cells in file["mesh/cells"].items():
-                kind = GMSH_TYPES[int(name)]
-                cells = np.asarray(cells, np.int64)
-                self.cells[kind] = cells[:, GMSH_TO_VTK[kind]] if kind in GMSH_TO_VTK else cells
-            recovery = file["recovery"]
-            self.displacement = np.asarray(recovery["displacement"])
-            self.displaced = _node_numbers(recovery, "displacement_nodes", len(self.displacement) // 3, len(self.points))
-            self.stress, self.stressed = None, np.zeros(0, np.int64)
-            if "stress" in recovery:
-                self.stress = np.asarray(recovery["stress"])
-                self.stressed = _node_numbers(recovery, "stress_nodes", len(self.stress) // 6, len(self.points))
+            with reading(path, "mesh"):
+                self._read_mesh(file)
+            with reading(path, "recovery"):
+                self._read_recovery(file["recovery"])
+
+    def _read_mesh(self, file):
+        self.points = _matrix(file["mesh/points"], 3)
+        self.cells = {}
+        for name, cells in file["mesh/cells"].items():
+            kind = GMSH_TYPES[int(name)]
+            cells = np.asarray(_matrix(cells, CORNERS[kind]), np.int64)
+            _check_numbers(cells, len(self.points))
+            self.cells[kind] = cells[:, GMSH_TO_VTK[kind]] if kind in GMSH_TO_VTK else cells
+        if not any(len(cells) for kind, cells in self.cells.items() if kind.startswith("tet")):
+            raise ValueError
+
+    def _read_recovery(self, recovery):
+        self.displacement = _matrix(recovery["displacement"])
+        self.displaced = _node_numbers(recovery, "displacement_nodes", len(self.displacement) / 3, len(self.points))
+        self.stress, self.stressed = None, np.zeros(0, np.int64)
+        if "stress" in recovery:
+            self.stress = _matrix(recovery["stress"], self.displacement.shape[1])
+            self.stressed = _node_numbers(recovery, "stress_nodes", len(self.stress) / 6, len(self.points))
 
     def surface(self):
         """Boundary triangles {type: (n,3 or 6)}, outward."""
@@ -85,30 +96,57 @@ def _open(path, group):
     if not group:
         return open_hdf5(path, "bielle superelement", "a superelement of bielle-reduce")
     file = open_hdf5(path, "bielle cut body", "the pieces of a body")
-    if group not in file:
+    with reading(path, group):
+        found = group in file
+    if not found:
         file.close()
         raise InputError(f"'{path}' has no piece '{group}', which the results name: was it reduced again with other cuts?")
     return file
 
 
+def _matrix(dataset, columns=None):
+    """@raises ValueError where a dataset is no matrix of finite numbers, or of another width"""
+    values = np.asarray(dataset)
+    if values.ndim != 2 or columns not in (None, values.shape[1]) or not np.all(np.abs(values) < LARGEST):
+        raise ValueError
+    return values
+
+
+def _check_numbers(numbers, points):
+    """@raises ValueError for numbers of nodes that the mesh does not have"""
+    if numbers.size and not 0 <= numbers.min() <= numbers.max() < points:
+        raise ValueError
+
+
 def _node_numbers(recovery, name, count, points):
     if name in recovery:
-        return np.asarray(recovery[name], np.int64)
+        numbers = np.asarray(recovery[name], np.int64)
+        _check_numbers(numbers, points)
+        if numbers.shape != (count,):
+            raise ValueError
+        return numbers
     if count != points:
-        raise InputError(f"the recovery has {counted(count, 'node')}, the mesh {points}, and '{name}' is missing")
+        raise InputError(f"the recovery has {counted(f'{count:g}', 'node')}, the mesh {points}, and '{name}' is missing")
     return np.arange(points)
 
 
 def superelement_of(results, element, given):
     """The superelement of an element of the results, or one piece of a body. given: as in find_superelement."""
-    return SuperelementBody(find_superelement(results, element, given), results.text(f"elements/{element}", "group"))
+    body = SuperelementBody(find_superelement(results, element, given), results.text(f"elements/{element}", "group"))
+    place = f"elements/{element}/coordinates"
+    recorded, needed = results.shape(place)[-1:] if results.has(place) else (), body.displacement.shape[1]
+    if recorded != (needed,):
+        raise InputError(f"'{body.path}' is not the superelement of '{element}': it has {counted(needed, 'coordinate')}, "
+                         f"'{place}' of the results {recorded[0] if recorded else 'none'}. Was it reduced again after the run?")
+    return body
 
 
 def find_superelement(results, element, given):
     """Path of the superelement file of an element of the results.
 
-    given: {element: path} from the command line, where an element stands for all its pieces. Otherwise the attribute `file` of the element; a file of that name beside
-    the results or in the current folder serves as well, so that results and superelements can be moved together.
+    given: {element: path} from the command line, where an element stands for all its pieces. Otherwise the attribute `file` of
+    the element; a file of that name beside the results or in the current folder serves as well, so that results and
+    superelements can be moved together.
     """
     for name in (element, results.entry_of(element)):
         if name in given:

@@ -9,6 +9,7 @@
 #include "mechanism/measures/read_measure.hpp"
 #include "mechanism/model/description.hpp"
 #include "mechanism/reading/names.hpp"
+#include "reduce/common/plausible.hpp"
 
 namespace bielle::mechanism {
 
@@ -19,8 +20,11 @@ void Load::read(const YamlValue& components, bool moment, Model& model) {
   if (!components.is_sequence() || components.size() != 3)
     components.fail("expected three components, numbers or expressions of t");
   (moment ? has_moment_ : has_force_) = true;
-  for (std::size_t k = 0; k < 3; ++k)
-    components_[(moment ? 3 : 0) + k] = read_state_formula(components.at(k), {"t"}, model, references_);
+  for (std::size_t k = 0; k < 3; ++k) {
+    StateFormula& component = components_[(moment ? 3 : 0) + k];
+    component = read_state_formula(components.at(k), {"t"}, model, references_);
+    if (component.is_constant()) doubt_outside(components.at(k), components.at(k).number(), plausible_load);
+  }
 }
 
 void Load::declare(Declaration& declaration) const {

@@ -42,6 +42,7 @@ class RigidBody final : public Component {
 
   void describe(const LocalState& state, Description& description) const override;
 
+  int node() const { return node_; }
   const MassProperties& properties() const { return properties_; }  ///< in the node's axes
 
  private:

@@ -68,6 +68,24 @@ void check_representable(const YamlValue& entry, const MassProperties& p) {
     entry.fail("the mass or the inertia is too large or too small for a number; lengths are in m, masses in kg");
 }
 
+/// Masses and inertias of another system of units. A compact body of mass m has its radius of gyration k with
+/// m/k^3 about 16 times its density; long and thin ones have less, those with inertias in kg mm^2 1e-9 of it.
+void doubt_units(const YamlValue& entry, const MassProperties& p) {
+  constexpr double heaviest = 1e7;   // [kg] as much steel as in the Eiffel tower
+  constexpr double lightest = 1e-3;  // m/k^3 [kg/m^3]: 1 kg over 35 m
+  const YamlValue mass = entry.at(entry.has("solid") ? "solid" : "mass");
+  if (p.mass > heaviest)
+    mass.doubt(fmt::format("are {:.3g} kg meant? Lengths are in metres, densities in kg/m^3, masses in kg", p.mass));
+  const auto inertia = entry.find("inertia");
+  if (!inertia) return;
+  const double gyration = std::sqrt(0.5 * p.inertia.trace() / p.mass);  // of a long body; less of others
+  if (p.mass < lightest * gyration * gyration * gyration)
+    inertia->doubt(
+        fmt::format("is this meant? {:.3g} kg with so much inertia reaches over some {:.3g} m; inertias are in "
+                    "kg m^2 (1e6 kg mm^2)",
+                    p.mass, 3.5 * gyration));
+}
+
 /// Further nodes that the body carries: they follow its node and must not be held or carried otherwise.
 void carry(const YamlValue& also, int carrier, const std::string& body, Model& model) {
   for (const YamlValue& item : also.items()) {
@@ -114,6 +132,7 @@ void read_rigid_body(const std::string& name, const YamlValue& entry, Model& mod
     p.inertia = read_inertia(entry, p.mass, p.centre);
   }
   check_representable(entry, p);
+  doubt_units(entry, p);
   if (const auto also = entry.find("also")) carry(*also, node, name, model);
   model.add(std::make_unique<RigidBody>("rigid_body", name, node, p, model.node(node).name),
             Entry{Section::elements, name});

@@ -109,6 +109,7 @@ void RateDrive::add_energy(const LocalState& state, Energy& energy) const {
 
 void ForceDrive::read(const YamlValue& law, Model& model) {
   law_ = read_state_formula(law, {"t"}, model, references());
+  if (law_.is_constant()) doubt_outside(law, law.number(), plausible_load);
 }
 
 double ForceDrive::force(const LocalState& state) const {

@@ -1,5 +1,6 @@
 """What people get wrong with bielle-mechanism: units, degrees, jumps, lists with the same name twice, parts joined to nothing."""
 
+import os
 import unittest
 
 from command import CommandTest
@@ -81,7 +82,61 @@ class Slips(CommandTest):
 
     def test_numbers_beyond_anything(self):
         self.refuse(BEAM, "-9.81", "1e300", "model.yaml:1: gravity: expected accelerations in m/s^2")
-        self.refuse(BEAM, "0.02", '"1e200*1e90"', "too large or too small")
+        self.refuse(BEAM, "0.02", '"1e200*1e90"', "model.yaml:3: elements.m.section.circle: ", "is larger than anything can be computed with")
+
+    def test_loads_beyond_anything_are_named(self):
+        load = "loads:\n  push: {node: NODE, force: [0, 0, FORCE]}\nanalysis:"
+        for model, node in ((BEAM, "b"), (CRANK, "c")):
+            loaded = model.replace("analysis:", load.replace("NODE", node))
+            place = f"model.yaml:{loaded[:loaded.index('push')].count(chr(10)) + 1}: loads.push.force[3]: "
+            self.refuse(loaded, "FORCE", "1e300", place + "formula '1e300': 1e+300 is larger than anything can be computed with")
+            self.write("model.yaml", loaded.replace("FORCE", "1e30"))
+            self.assertIn(f"warning: {place}is 1e+30 meant? Forces are in newtons", self.run_program("model.yaml").stderr)
+        self.write("model.yaml", loaded.replace("FORCE", '"1e300*step(t, 0, 0.005)"'))
+        self.expect_refusal(2, "model.yaml", says=[place + "formula '1e300*step(t, 0, 0.005)' at t = ", "is larger than anything"])
+        self.refuse(CRANK, 'angle: "0.5*t"', "torque: 1e300", "drives.m.torque: formula '1e300': 1e+300 is larger")
+        beam = BEAM.replace("section:", "distributed: {force: [0, 0, 1e300]}, section:")
+        self.refuse(beam, "1e300", "-1e300", "elements.m.distributed.force[3]: formula '-1e300': -1e+300 is larger")
+
+    def test_inertias_and_masses_in_other_units(self):
+        # A steel bar of 1 kg and 0.1 m: 8.3e-4 kg m^2.
+        self.assertIn("model.yaml:6: elements.c.inertia: is this meant? 1 kg with so much inertia reaches over some 101 m; "
+                      "inertias are in kg m^2", self.doubts(CRANK, "[0.1, 0.1, 0.1]", "[10, 833, 833]"))
+        self.assertEqual(self.doubts(CRANK, "[0.1, 0.1, 0.1]", "[1e-5, 8.3e-4, 8.3e-4]"), "")
+        self.assertEqual(self.doubts(CRANK, "[0.1, 0.1, 0.1]", "[0, 30, 30]"), "")  # a rod of 19 m
+        solid = "solid: {box: [0.1, 0.02, 0.02], density: 7850}"
+        self.assertEqual(self.doubts(CRANK, "mass: 1, inertia: [0.1, 0.1, 0.1]", solid), "")
+        self.assertIn("elements.c.solid: are 3.14e+08 kg meant? Lengths are in metres",
+                      self.doubts(CRANK, "mass: 1, inertia: [0.1, 0.1, 0.1]", solid.replace("[0.1, 0.02, 0.02]", "[100, 20, 20]")))
+
+    def test_positions_in_millimetres(self):
+        links = """\
+gravity: [0, 0, -9.81]
+nodes: {c: {position: [LENGTH, 0, 0]}, d: {position: [FAR, 0, 0]}}
+elements:
+  c: {type: rigid_body, node: c, mass: 1, inertia: [1e-5, 8.3e-4, 8.3e-4]}
+  d: {type: rigid_body, node: d, mass: 1, inertia: [1e-5, 8.3e-4, 8.3e-4]}
+joints:
+  g: {type: hinge, nodes: [ground, c], axis: [0, 1, 0], position: [0, 0, 0]}
+  h: {type: hinge, nodes: [c, d], axis: [0, 1, 0], position: [PIN, 0, 0]}
+analysis: [{type: dynamic, duration: 0.01, step: 1e-3}]
+"""
+        def lengths(half):
+            return links.replace("LENGTH", f"{half}").replace("PIN", f"{2 * half}").replace("FAR", f"{3 * half}")
+
+        self.assertIn("model.yaml:4: elements.c: its joints are 100 m apart, and its inertia is that of a body of 0.1 m: is that "
+                      "meant? Positions are in metres", self.doubts(lengths(50)))
+        self.assertEqual(self.doubts(lengths(0.05)), "")
+        # One body of the usual proportions says that the model is as it is meant.
+        self.assertEqual(self.doubts(lengths(50), "mass: 1, inertia: [1e-5, 8.3e-4, 8.3e-4]}\n  d",
+                                     "mass: 1000, inertia: [1, 8e5, 8e5]}\n  d"), "")
+
+    def test_no_example_is_doubted(self):
+        folder = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "mechanism", "examples")
+        for name in sorted(os.listdir(folder)):
+            if name.endswith(".yaml") and name != "slider_crank.yaml":  # which has a superelement and a test of its own
+                done = self.run_program(os.path.join(folder, name), "--check")
+                self.assertEqual((done.returncode, done.stderr), (0, ""), name)
 
     def test_a_long_formula_is_not_printed_whole(self):
         for term in ("sqrt(t-1)", "foo(t-1)"):

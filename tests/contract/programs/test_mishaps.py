@@ -50,6 +50,28 @@ class Files(CommandTest):
             file.create_dataset(last + "state", shape=(2**20, 2**20), chunks=(1024, 1024), dtype="f8")
         self.expect_refusal(1, "model.yaml", "--restart", "bad.h5", "-o", "on.h5", says=["larger than the file"])
 
+    def test_damaged_rows_of_results_are_noticed_before_a_run_goes_on_from_them(self):
+        self.write("model.yaml", MODEL)
+        self.assertEqual(self.run_program("model.yaml", "-o", "good.h5", "--quiet").returncode, 0)
+        with h5py.File(self.path("good.h5")) as file:
+            counted = int(file["checkpoints/analysis_1/rows"][-1])
+        for dataset, row, says in (("time", 3, 1), ("nodes/bob/position", counted - 1, 1), ("solver/step", 1, 1)):
+            shutil.copy(self.path("good.h5"), self.path("bad.h5"))
+            with h5py.File(self.path("bad.h5"), "r+") as file:
+                place = file[f"analysis_1/{dataset}"]
+                flat = place[row].copy().reshape(-1)
+                flat.view("u1")[0] ^= 1  # a bit of the last place
+                place[row] = flat.reshape(place[row].shape)
+            self.expect_refusal(says, "model.yaml", "--restart", "bad.h5", "-o", "on.h5",
+                                says=["analysis_1: its first ", "are not those that were written"])
+        self.write("model.yaml", MODEL.replace("duration: 0.1", "duration: 0.15"))
+        for source, target in (("good.h5", "on.h5"), ("on.h5", "on.h5"), ("on.h5", "further.h5")):  # sums go on
+            done = self.run_program("model.yaml", "--restart", source, "-o", target, "--quiet")
+            self.assertEqual(done.returncode, 0, done.stderr)
+        with h5py.File(self.path("further.h5"), "r+") as file:
+            del file["checkpoints/analysis_1/rows_checksum"]  # a file of before
+        self.assertEqual(self.run_program("model.yaml", "--restart", "further.h5", "-o", "old.h5", "--quiet").returncode, 0)
+
     def test_a_continued_run_replaces_no_other_results_by_default(self):
         self.write("model.yaml", MODEL)
         self.assertEqual(self.run_program("model.yaml", "--quiet").returncode, 0)

@@ -2,6 +2,7 @@
 
 import os
 import shutil
+import subprocess
 import sys
 import unittest
 
@@ -9,7 +10,7 @@ import h5py
 import meshio
 import numpy as np
 
-from command import CommandTest
+from command import PROGRAMS, CommandTest
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 MESHES = os.path.join(HERE, "..", "..", "..", "meshes")
@@ -217,6 +218,56 @@ def write_unv(path, points, cells, sides, dataset):
     lines += ["    -1", ""]
     with open(path, "w", encoding="utf-8") as file:
         file.write("\n".join(lines))
+
+
+class Unreadable(CommandTest):
+    program = "bielle-reduce"
+
+    def refuse(self, name, content, *says, mode="w"):
+        path = os.path.join(self.folder, name)
+        with open(path, mode) as file:
+            file.write(content)
+        self.write("body.yaml", BODY.format(file=name, region="all", surface=SIDE))
+        self.expect_refusal(1, "body.yaml", says=["body.yaml:2: geometry: ", f"'{name}'", *says])
+
+    def test_files_that_are_not_what_their_ending_says(self):
+        with open(os.path.join(MESHES, "conrod.step"), encoding="utf-8") as file:
+            step = file.read()
+        self.refuse("rod.step", "", "is empty")
+        self.refuse("rod.step", "a letter\n", "is no STEP file: one begins with 'ISO-10303-21;'")
+        self.refuse("rod.step", b"\x00\xff" * 3000, "is no STEP file", mode="wb")
+        for part in (3000, len(step) - 3000, len(step) - 40):
+            self.refuse("rod.step", step[:part], "is cut off: a STEP file ends with 'END-ISO-10303-21;'")
+        self.refuse("rod.brep", "a letter\n", "is no BREP file")
+        self.refuse("rod.msh", "a letter\n", "is no MSH file: one begins with '$'")
+        self.refuse("rod.unv", "a letter\n", "is it a file of the kind that its ending says?")
+
+    def test_a_file_that_may_not_be_read(self):
+        source = self.write("secret.geo", "a")
+        os.chmod(source, 0)
+        os.chmod(self.folder, 0o777)
+        self.write("body.yaml", BODY.format(file="secret.geo", region="all", surface=SIDE))
+        if os.geteuid() != 0:
+            self.expect_refusal(1, "body.yaml", says=["body.yaml:2: geometry: 'secret.geo' cannot be read: Permission denied"])
+            return
+        done = subprocess.run([os.path.join(PROGRAMS, self.program), "body.yaml", "-o", "out.h5"], cwd=self.folder, text=True,
+                              capture_output=True, timeout=120, user=65534, group=65534, extra_groups=[])
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("body.yaml:2: geometry: 'secret.geo' cannot be read: Permission denied", done.stderr)
+
+    def test_nodes_that_are_nowhere(self):
+        formats = {"box2.msh": {"file_format": "gmsh22", "binary": False}, "binary.msh": {"file_format": "gmsh", "binary": True},
+                   "box.inp": {"file_format": "abaqus"}}
+        for name, options in formats.items():
+            for wrong, says in ((np.nan, "nan"), (-np.inf, "-inf"), (1e300, "1e+300")):
+                points, cells = box(order=1)
+                points[5, 1] = wrong
+                meshio.write(os.path.join(self.folder, name), meshio.Mesh(points, [("tetra", cells)]), **options)
+                self.write("body.yaml", BODY.format(file=name, region="all", surface=SIDE))
+                foreign = name.endswith(".inp")
+                self.expect_refusal(1, "body.yaml", says=["body.yaml:2: geometry: ", f"'{name}'", says,
+                                                          "point 6 has a coordinate that is not finite" if foreign
+                                                          else "node 6 stands at"])
 
 
 if __name__ == "__main__":

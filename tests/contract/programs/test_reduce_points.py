@@ -102,6 +102,25 @@ class ReducePoints(BarTest):
         (without,) = self.displacements(MODEL, pad=PAD_PLACE)
         self.assertGreater(numpy.linalg.norm(without - exact), 1e-3 * numpy.linalg.norm(exact))
 
+    def test_points_that_were_changed_are_noticed(self):
+        self.reduce(BODY + POINTS + "recovery: {displacement: none, stress: none}\n")
+        path = os.path.join(self.folder, "body.h5")
+
+        def change(name, attribute, add):
+            with h5py.File(path, "r+") as file:
+                if attribute:
+                    file[name].attrs[attribute] += add
+                else:
+                    file[name][...] = file[name][()] + add
+
+        for name, attribute, add in (("points/pad/shapes", "", 1e-3), ("points/sensor/position", "", 1e-3),
+                                     ("modes", "residual_vectors", -1)):
+            change(name, attribute, add)
+            self.expect_refusal(1, "--inspect", "body.h5", says=["its numbers are not those that were written",
+                                                                 "run bielle-reduce again"])
+            change(name, attribute, -add) if attribute else self.reduce(BODY + POINTS + "recovery: {displacement: none}\n")
+        self.assertEqual(self.run_program("--inspect", "body.h5").returncode, 0)
+
     def test_pieces_have_the_points_that_lie_in_them(self):
         said = self.reduce(BODY + POINTS + "pieces: {planes: {axis: x, at: 0.1}, compare: false}\n").stdout
         self.assertIn("4 of modes, 2 of residual vectors, interfaces left, cut_1, points core, sensor", said)

@@ -9,16 +9,13 @@ import unittest
 
 import h5py
 
-from command import PROGRAMS, CommandTest
+from bar_body import BarTest
+from command import PROGRAMS
 from test_reduce import BAR, BODY
 
 
-class Slips(CommandTest):
-    program = "bielle-reduce"
-
-    def setUp(self):
-        super().setUp()
-        self.write("bar.geo", BAR)
+class Slips(BarTest):
+    geometry = BAR
 
     def path(self, name):
         return os.path.join(self.folder, name)
@@ -98,14 +95,12 @@ class Slips(CommandTest):
         self.expect_refusal(1, "body.yaml", "-o", "closed/body.h5", says=["no file can be written there"])
 
 
-class Interruptions(CommandTest):
-    program = "bielle-reduce"
+class Interruptions(BarTest):
+    geometry = BAR
 
     def setUp(self):
         super().setUp()
-        self.write("bar.geo", BAR)
-        self.write("body.yaml", BODY)
-        self.assertEqual(self.run_program("body.yaml", "--quiet").returncode, 0)
+        self.reduce(BODY)
         self.path = os.path.join(self.folder, "body.h5")
         with open(self.path, "rb") as file:
             self.good = file.read()

@@ -252,9 +252,110 @@ class Refusals(ResultsTool):
         for tool in ("bielle-paraview", "bielle-plot", "bielle-animate"):
             self.refuse(tool, [self.path("none.h5")], "none.h5", "does not exist")
             self.refuse(tool, [self.path("text.h5")], "text.h5", "no HDF5 file")
-            self.refuse(tool, [self.path("box.h5")], "results of bielle-mechanism", "bielle superelement")
+            self.refuse(tool, [self.path("box.h5")], "results of bielle-mechanism", "a superelement", "bielle-reduce --inspect")
             self.refuse(tool, [self.path("run.h5"), "--superelement", "rod"], "ELEMENT=FILE.h5")
             self.refuse(tool, [self.path("run.h5"), "--colour", "red"], "--colour")
+
+    TOOLS = {"bielle-paraview": [], "bielle-plot": [], "bielle-animate": [],
+             "bielle-rainflow": ["joints/main/reaction", "--component", "5"]}
+
+    def refuse_everywhere(self, *parts):
+        for tool, arguments in self.TOOLS.items():
+            self.refuse(tool, [self.path("run.h5"), *arguments], "run.h5", *parts)
+
+    def refuse_to_read(self, *parts):
+        """By the tool that starts fastest: all open results in the same way."""
+        self.refuse("bielle-rainflow", [self.path("run.h5"), *self.TOOLS["bielle-rainflow"]], "run.h5", *parts)
+
+    def test_other_files_are_told_with_what_reads_them(self):
+        def text(content):
+            with open(self.path("run.h5"), "w", encoding="utf-8") as file:
+                file.write(content)
+
+        text("nodes: {a: {}}\nanalysis: []\n")
+        self.refuse_everywhere("a mechanism file: 'bielle-mechanism' makes results of it")
+        text("body: rod\ngeometry: rod.step\n")
+        self.refuse_to_read("a body file: 'bielle-reduce' makes a superelement of it")
+        text("")
+        self.refuse_to_read("it is empty")
+        with h5py.File(self.path("run.h5"), "w") as file:
+            file.attrs["format"] = "bielle study"
+        self.refuse_to_read("but a study: its runs are the groups /runs/1, /runs/2")
+        os.remove(self.path("run.h5"))
+        os.mkdir(self.path("run.h5"))
+        self.refuse_to_read("is a folder")
+
+    def test_damaged_results(self):
+        with open(self.path("run.h5"), "r+b") as file:
+            file.truncate(5000)
+        self.refuse_to_read("a damaged or truncated HDF5 file")
+        synthetic.write_results(self.path("run.h5"), "box.h5", rows=0)
+        self.refuse_to_read("holds no results yet")
+        for place, values in (("time", np.zeros((41, 2))), ("joints/main/reaction", np.zeros(41))):
+            synthetic.write_results(self.path("run.h5"), "box.h5")
+            with h5py.File(self.path("run.h5"), "r+") as file:
+                del file[place]
+                file[place] = values
+            for tool in ("bielle-plot", "bielle-rainflow"):
+                self.refuse(tool, [self.path("run.h5"), *self.TOOLS[tool]], f"'{place}'", "damaged")
+
+    def test_a_library_that_crashes_takes_only_its_own_process_along(self):
+        script = "import os; from bielle_tools import messages; messages.run('tool', lambda _: os.abort(), crashing=True)"
+        done = subprocess.run(["/usr/bin/python3", "-B", "-c", script], cwd=os.path.join(REPOSITORY, "tools"), text=True,
+                              capture_output=True, timeout=60)
+        self.assertEqual((done.returncode, done.stderr), (1, "tool: a file is damaged: the HDF5 library crashes on it\n"))
+
+    def test_what_is_missing_or_no_number_is_left_out(self):
+        with h5py.File(self.path("run.h5"), "r+") as file:
+            for place in ("energy/kinetic", "joints/main/rate", "joints/main/reaction_inertial", "elements/shaft/von_mises"):
+                del file[place]
+            file["nodes/hub/position"][20:] = np.nan
+            file["elements/ram/pressure"][3, 0] = np.inf
+        self.assertIn("'nodes/hub/position' holds values that are no numbers", self.succeed("bielle-plot", self.path("run.h5")).stderr)
+        self.succeed("bielle-animate", self.path("run.h5"), "--frames", "4", "-o", self.path("run.png"))
+        self.succeed("bielle-paraview", self.path("run.h5"), "--frames", "4")
+        self.refuse("bielle-rainflow", [self.path("run.h5"), "elements/ram/pressure", "--component", "0"],
+                    "values that are no numbers, the first at t = 0.0075 s")
+
+    def test_results_with_one_time_only(self):
+        synthetic.write_results(self.path("run.h5"), "box.h5", rows=1)
+        for tool, says in (("bielle-plot", "one time only"), ("bielle-animate", "no motion"), ("bielle-rainflow", "does not change")):
+            self.refuse(tool, [self.path("run.h5"), *self.TOOLS[tool]], says)
+
+    def test_outputs_that_cannot_be_written(self):
+        with open(self.path("file"), "w", encoding="utf-8"):
+            pass
+        for tool, ending in (("bielle-paraview", ".pvd"), ("bielle-plot", ""), ("bielle-animate", ".png"), ("bielle-animate", ".gif")):
+            target = self.path("file/run" + ending)
+            self.refuse(tool, [self.path("run.h5"), "-o", target], "file/run", "Not a directory")
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            done = subprocess.run([os.path.join(REPOSITORY, "tools", "bielle-rainflow"), self.path("run.h5"), "joints/main/reaction",
+                                   "--component", "5"], stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
+        self.assertEqual((done.returncode, done.stderr), (2, "bielle-rainflow: cannot write: No space left on device\n"))
+
+    def test_a_reader_that_goes_away_and_closed_streams(self):
+        tool = f"'{os.path.join(REPOSITORY, 'tools', 'bielle-rainflow')}' '{self.path('run.h5')}' joints/main/reaction --component 5"
+        for streams in ("| true", "| head -1 >/dev/null", ">&-", "<&- >&- 2>&-"):
+            done = subprocess.run(["bash", "-c", f"{tool} {streams}; exit ${{PIPESTATUS[0]}}"], stderr=subprocess.PIPE, text=True,
+                                  timeout=60)
+            self.assertEqual((done.returncode, done.stderr), (0, ""), streams)
+
+    def test_a_folder_with_other_things_keeps_them(self):
+        os.mkdir(self.path("run"))
+        with open(self.path("run/notes.txt"), "w", encoding="utf-8") as file:
+            file.write("mine")
+        self.succeed("bielle-paraview", self.path("run.h5"), "--frames", "2")
+        self.assertTrue(os.path.exists(self.path("run/notes.txt")))
+
+    def test_a_superelement_of_another_reduction(self):
+        with h5py.File(self.path("box.h5"), "r+") as file:
+            for name in ("displacement", "stress"):
+                values = file[f"recovery/{name}"][()]
+                del file[f"recovery/{name}"]
+                file[f"recovery/{name}"] = np.column_stack([values, values])
+        for tool in ("bielle-plot", "bielle-paraview", "bielle-animate"):
+            self.refuse(tool, [self.path("run.h5")], "box.h5", "is not the superelement of 'rod': it has 4 coordinates",
+                        "the results 2. Was it reduced again after the run?")
 
     def test_superelement_without_recovery(self):
         with h5py.File(self.path("box.h5"), "a") as file:

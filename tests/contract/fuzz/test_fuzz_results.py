@@ -1,0 +1,115 @@
+"""The tools on results and superelement files with damaged bytes, structures and numbers."""
+
+import importlib.machinery
+import importlib.util
+import os
+import resource
+import shutil
+import sys
+import unittest
+
+from fuzzing import KEEP, NEVER, FuzzTest, damaged_bytes
+from test_fuzz_hdf5 import changed, near_structures
+import synthetic_results as synthetic
+from box_mesh import REPOSITORY
+
+TOOLS = os.path.join(REPOSITORY, "tools")
+sys.path.insert(0, TOOLS)
+from bielle_tools import messages, plot_style  # noqa: E402
+
+ARGUMENTS = {"bielle-plot": ["-o", "plots"], "bielle-animate": ["-o", "run.png", "--frames", "2"],
+             "bielle-paraview": ["-o", "run.pvd", "--frames", "2"],
+             "bielle-rainflow": ["joints/main/reaction", "--component", "5"]}
+
+
+def module_of(name):
+    """A tool as a module: it is imported once, and a process for each case is forked from here."""
+    loader = importlib.machinery.SourceFileLoader(name.replace("-", "_"), os.path.join(TOOLS, name))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
+    loader.exec_module(module)
+    return module
+
+
+class Results(FuzzTest):
+    @classmethod
+    def setUpClass(cls):
+        cls.modules = {name: module_of(name) for name in ARGUMENTS}
+        plot_style.plt.rcParams.update({"figure.dpi": 15, "savefig.dpi": 15, "figure.constrained_layout.use": False})
+
+    def setUp(self):
+        super().setUp()
+        synthetic.write_superelement(self.path("sound_box.h5"))
+        synthetic.write_results(self.path("sound.h5"), "box.h5", rows=7, analysis="dynamic")
+        shutil.copy(self.path("sound.h5"), self.path("sound_stacked.h5"))
+        synthetic.stack(self.path("sound_stacked.h5"))
+
+    def run_tool(self, name):
+        """@returns the exit status, negative for a signal, and what was said."""
+        said = os.open(self.path("said"), os.O_RDWR | os.O_CREAT | os.O_TRUNC)
+        child = os.fork()
+        if not child:
+            resource.setrlimit(resource.RLIMIT_CPU, (20, 20))
+            os.chdir(self.folder)
+            os.dup2(os.open(os.devnull, os.O_RDWR), 1)
+            os.dup2(said, 2)
+            sys.stdout, sys.stderr = os.fdopen(1, "w", closefd=False), os.fdopen(2, "w", closefd=False)
+            sys.argv = [name, "run.h5", *ARGUMENTS[name]]
+            status, messages.longest_reading = 0, 3
+            try:
+                messages.run(name, self.modules[name].main)
+            except SystemExit as end:
+                status = end.code or 0
+            sys.stderr.flush()
+            os._exit(status)
+        status = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+        os.close(said)
+        return status, self.read("said").decode(errors="replace")
+
+    def judge_tools(self, case, note, names=tuple(ARGUMENTS)):
+        note = f"{case} {note}"
+        for name in names:
+            if name == "bielle-plot" and case % 3:  # takes ten times as long as the others
+                continue
+            status, said = self.run_tool(name)
+            sentences = [line for line in said.splitlines() if line.startswith(name + ": ")]
+            # A crash of the HDF5 library becomes a sentence in the process that waits for this one.
+            fine = -status in messages.CRASHES or (status in (0, 1) and len(sentences) == status)
+            fine = fine and not any(word in said for word in NEVER)
+            if not fine and KEEP:
+                for file in ("run.h5", "box.h5"):
+                    shutil.copy(self.path(file), os.path.join(KEEP, f"{name}_{note.split()[0]}_{file}"))
+            with self.subTest(case=note):
+                self.assertTrue(fine, f"{name}: case {note}: status {status}: {said[-600:]}")
+
+    def damaged(self, rng, source, target):
+        way = rng.random()
+        if way < 0.6:
+            shutil.copy(self.path(source), self.path(target))
+            return changed(rng, self.path(target))
+        data, note = (near_structures if way < 0.8 else damaged_bytes)(rng, self.read(source))
+        self.write(target, data)
+        return note
+
+    def test_the_sound_files_are_shown(self):
+        shutil.copy(self.path("sound_box.h5"), self.path("box.h5"))
+        for source in ("sound.h5", "sound_stacked.h5"):
+            shutil.copy(self.path(source), self.path("run.h5"))
+            for name in ARGUMENTS:
+                status, said = self.run_tool(name)
+                self.assertEqual((status, said), (0, ""))
+
+    def test_results(self):
+        shutil.copy(self.path("sound_box.h5"), self.path("box.h5"))
+        for case, rng in self.cases(14):
+            source = rng.choice(["sound.h5", "sound_stacked.h5"])
+            self.judge_tools(case, f"{source} {self.damaged(rng, source, 'run.h5')}")
+
+    def test_superelements(self):
+        shutil.copy(self.path("sound.h5"), self.path("run.h5"))
+        for case, rng in self.cases(8):
+            self.judge_tools(case, self.damaged(rng, "sound_box.h5", "box.h5"),
+                             ["bielle-plot", "bielle-animate", "bielle-paraview"])
+
+
+if __name__ == "__main__":
+    unittest.main()

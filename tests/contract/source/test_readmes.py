@@ -1,0 +1,80 @@
+"""What the READMEs name is there: options of commands, files, headings that links lead to."""
+
+import glob
+import os
+import re
+import subprocess
+import unittest
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+REPOSITORY = os.path.abspath(os.path.join(HERE, "..", "..", ".."))
+PROGRAMS = os.environ["BIELLE_PROGRAMS"]
+TOOLS = ["bielle-plot", "bielle-animate", "bielle-paraview", "bielle-rainflow", "study", "install", "demo", "test", "convert_mesh.py"]
+OTHERS = {"--preset", "--build", "--install"}  # of CMake
+
+
+def readmes():
+    for folder, folders, files in os.walk(REPOSITORY):
+        folders[:] = [name for name in folders if name not in ("build", ".git") and not name.startswith(".")]
+        for name in files:
+            if name in ("README.md", "CONTRIBUTING.md"):
+                yield os.path.join(folder, name)
+
+
+def anchor(heading):
+    """As GitHub makes it of a heading."""
+    return re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-")
+
+
+class Readmes(unittest.TestCase):
+    def setUp(self):
+        self.texts = {}
+        for path in readmes():
+            with open(path, encoding="utf-8") as file:
+                self.texts[path] = file.read()
+
+    def help(self, command):
+        folder = PROGRAMS if command in ("bielle-reduce", "bielle-mechanism") else os.path.join(REPOSITORY, "tools")
+        done = subprocess.run([os.path.join(folder, command), "--help"], capture_output=True, text=True, timeout=60,
+                              stdin=subprocess.DEVNULL)
+        self.assertEqual((done.returncode, done.stderr), (0, ""), command)
+        return done.stdout
+
+    def test_options_are_those_of_the_commands(self):
+        known = set(OTHERS)
+        for command in ("bielle-reduce", "bielle-mechanism", *TOOLS):
+            known.update(re.findall(r"--[a-z][a-z-]*", self.help(command)))
+        for path, text in self.texts.items():
+            if os.sep + "tests" + os.sep in path:
+                continue
+            for code in re.findall(r"```(?:sh)?\n(.*?)```|`([^`\n]+)`", text, re.DOTALL):
+                for option in re.findall(r"(?<![\w-])--[a-z][a-z-]*", "".join(code)):
+                    self.assertIn(option, known, path)
+
+    def test_links_lead_somewhere(self):
+        for path, text in self.texts.items():
+            for target in re.findall(r"\]\(([^)\s]+)\)", text):
+                if re.match(r"\w+://", target):
+                    continue
+                name, _, heading = target.partition("#")
+                file = os.path.normpath(os.path.join(os.path.dirname(path), name)) if name else path
+                self.assertTrue(os.path.exists(file), f"{path}: {target}")
+                if heading:
+                    with open(file, encoding="utf-8") as opened:
+                        headings = re.findall(r"^#+ (.*)$", opened.read(), re.MULTILINE)
+                    self.assertIn(heading, [anchor(found) for found in headings], path)
+
+    def test_paths_exist(self):
+        folders = "|".join(name for name in os.listdir(REPOSITORY) if os.path.isdir(os.path.join(REPOSITORY, name))
+                           and name not in ("build", ".git"))
+        for path, text in self.texts.items():
+            for name in re.findall(rf"[`\s](?:\./)?((?:{folders})/[\w./-]+[A-Za-z0-9])(?![\w*<{{])", text):
+                beside = os.path.join(os.path.dirname(path), name)
+                if name.endswith(".h5"):  # made by commands
+                    continue
+                found = [place for start in (os.path.join(REPOSITORY, name), beside) for place in (start, *glob.glob(start + ".*"))]
+                self.assertTrue(any(map(os.path.exists, found)), f"{path}: {name}")
+
+
+if __name__ == "__main__":
+    unittest.main()
