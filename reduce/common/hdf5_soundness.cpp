@@ -16,7 +16,7 @@ namespace bielle {
 namespace {
 
 /// Of processor time: walking through the largest files takes a second or two.
-constexpr int longest_walk = 20;
+constexpr int longest_walk = 5;
 
 /// What a file is and when it was written last: device, inode, size, time.
 using Identity = std::array<std::int64_t, 5>;

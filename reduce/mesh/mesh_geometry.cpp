@@ -48,9 +48,10 @@ void doubt_sizes(GmshSession& session, const MeshRequest& request, const SourceF
   const double extent = source.metres * model_extent(session);
   const auto doubt = [&](const std::string& located, double size) {
     if (size > extent)
-      progress.warn(at_place(located, fmt::format("a size of {:.6g} m is more than the body, which is {} long: sizes are in "
-                                                  "metres, whatever the unit of the geometry; was {:.6g}e-3 meant?",
-                                                  size, length_name(extent), size)));
+      progress.warn(
+          at_place(located, fmt::format("a size of {:.6g} m is more than the body, which is {} long: sizes are in "
+                                        "metres, whatever the unit of the geometry; was {:.6g}e-3 meant?",
+                                        size, length_name(extent), size)));
   };
   if (request.size) doubt(request.mesh_located, *request.size);
   for (const auto& [name, wish] : request.sizes) doubt(wish.located, wish.size);

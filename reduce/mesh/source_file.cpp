@@ -110,8 +110,8 @@ ChildLoss loss_of(const SourceFile& source, const std::string& located) {
   const char* meshing =
       "cannot be read and meshed: gmsh crashes on it; where the file is sound, another mesh.size may help";
   ChildLoss loss(at_place(located, fmt::format("'{}' {}", source.name, source.geometry ? meshing : reading)));
-  loss.ended = at_place(located, fmt::format("'{}' ends gmsh before it is read to its end: remove 'Exit;' or 'Abort;'",
-                                             source.name));
+  loss.ended = at_place(
+      located, fmt::format("'{}' ends gmsh before it is read to its end: remove 'Exit;' or 'Abort;'", source.name));
   loss.forbidden = at_place(located, fmt::format("'{}' starts another program (SystemCall), which a geometry may not; "
                                                  "--allow-system-calls lets it, for files that you trust",
                                                  source.name));

@@ -91,9 +91,10 @@ MassProperties mass_properties(const Superelement& body) {
 void fail_when_a_check_does(const std::vector<Check>& checks, const std::string& what) {
   for (const Check& check : checks) {
     if (!check.passed()) {
-      throw ComputationError(fmt::format("{} fails the check '{}' by {:.2e}, at most {:.0e} is right; a very slender or "
-                                         "distorted mesh may be the cause",
-                                         what, check.meaning, check.value, check.limit));
+      throw ComputationError(
+          fmt::format("{} fails the check '{}' by {:.2e}, at most {:.0e} is right; a very slender or "
+                      "distorted mesh may be the cause",
+                      what, check.meaning, check.value, check.limit));
     }
   }
 }

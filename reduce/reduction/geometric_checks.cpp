@@ -123,9 +123,11 @@ void add_virial_checks(const Superelement& body, std::vector<Check>& checks) {
     const double unit = is_spin ? body.total_mass * length * length : std::max(1.0, length);
     (is_spin ? spin : load) = std::max(is_spin ? spin : load, error.cwiseAbs().maxCoeff() / unit);
   }
-  checks.push_back({"spin_stiffness_virial", spin, 1e-6, "turned as a whole, the spinning body does the work of its inertia"});
+  checks.push_back(
+      {"spin_stiffness_virial", spin, 1e-6, "turned as a whole, the spinning body does the work of its inertia"});
   if (!body.load_stiffness.empty()) {
-    checks.push_back({"load_stiffness_virial", load, 1e-6, "turned as a whole, the loaded body does the work of its loads"});
+    checks.push_back(
+        {"load_stiffness_virial", load, 1e-6, "turned as a whole, the loaded body does the work of its loads"});
   }
 }
 

@@ -121,12 +121,12 @@ Eigen::MatrixXd damping_matrix(const ReductionOptions& options, const Supereleme
 /// Those of every superelement, and those that only the mesh can tell.
 std::vector<Check> check_reduction(const Superelement& body, const ReducedStiffness& reduced, const Basis& basis) {
   std::vector<Check> checks = check_superelement(body);
-  checks.push_back({"rigid_motion_force_on_mesh", reduced.rigid_force, 1e-4,
-                    "moved as a whole, the mesh feels no force"});
   checks.push_back(
-      {"stiffness_coupling", reduced.coupling, 1e-4, "moving interfaces does not strain the modes"});
+      {"rigid_motion_force_on_mesh", reduced.rigid_force, 1e-4, "moved as a whole, the mesh feels no force"});
+  checks.push_back({"stiffness_coupling", reduced.coupling, 1e-4, "moving interfaces does not strain the modes"});
   if (basis.modes() > 0) {
-    checks.push_back({"mode_stiffness", reduced.mode_stiffness, 1e-4, "the energy of each mode is that of its frequency"});
+    checks.push_back(
+        {"mode_stiffness", reduced.mode_stiffness, 1e-4, "the energy of each mode is that of its frequency"});
   }
   if (basis.residuals.size() > 0) {
     checks.push_back({"mode_residual", basis.residuals.maxCoeff(), 1e-6, "each mode is one of the mesh"});

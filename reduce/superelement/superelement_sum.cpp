@@ -25,8 +25,8 @@ void add_numbers(Checksum& sum, const std::vector<int>& numbers) {
 }
 
 void add_adequacy(Checksum& sum, const Adequacy& adequacy) {
-  for (const Eigen::VectorXd* numbers : {&adequacy.frequencies, &adequacy.mode_error, &adequacy.mesh_error,
-                                         &adequacy.tie_error, &adequacy.stress_error})
+  for (const Eigen::VectorXd* numbers :
+       {&adequacy.frequencies, &adequacy.mode_error, &adequacy.mesh_error, &adequacy.tie_error, &adequacy.stress_error})
     add(sum, *numbers);
   add(sum, adequacy.worst_place);
   add(sum, adequacy.inertia_answer);

@@ -75,7 +75,8 @@ TEST_CASE("child process: one that may start no other program is ended when it t
       });
     });
   };
-  const bool able = in_child_process("lost", 0, [] { return std::string(forbid_other_programs() ? "able" : ""); }) == "able";
+  const bool able =
+      in_child_process("lost", 0, [] { return std::string(forbid_other_programs() ? "able" : ""); }) == "able";
   if (!able) {
     WARN("this system has no seccomp");
     return;
