@@ -21,6 +21,7 @@
 #include "reduce/spectral/blas.hpp"
 #include "reduce/summary.hpp"
 #include "reduce/summary_of_pieces.hpp"
+#include "reduce/verdict.hpp"
 
 namespace {
 
@@ -51,8 +52,8 @@ void reduce_whole(const Mesh& mesh, const BodyFile& file, const std::string& out
   write_superelement(body, output);
   progress.finish();
   if (!common.quiet) {
-    fmt::print("{}\n{}{}{}{}", summary(mesh), describe(body), describe(report.checks),
-               describe(report, progress.phases()), written(output));
+    fmt::print("{}\n{}{}{}{}{}", summary(mesh), describe(body), describe(report.checks),
+               describe(report, progress.phases()), verdict(body), written(output));
   }
 }
 
@@ -65,13 +66,14 @@ void reduce_in_pieces(const Mesh& mesh, const BodyFile& file, const std::string&
   write_cut_body(body, output);
   progress.finish();
   if (!common.quiet) {
-    fmt::print("{}\n{}{}{}{}", summary(mesh), describe(body), describe(checks), describe({}, progress.phases()),
-               written(output));
+    fmt::print("{}\n{}{}{}{}{}", summary(mesh), describe(body), describe(checks), describe({}, progress.phases()),
+               verdict(body), written(output));
   }
 }
 
-void reduce(const std::string& input, std::string output, const CommonOptions& common) {
-  const BodyFile file = read_body_file(input);
+void reduce(const std::string& input, std::string output, bool system_calls, const CommonOptions& common) {
+  BodyFile file = read_body_file(input);
+  file.mesh.system_calls = system_calls;
   if (output.empty()) {
     output = std::filesystem::path(input).replace_extension(".h5").string();
   }
@@ -106,7 +108,7 @@ void inspect(const Superelement& body, const std::string& path, const std::strin
   }
   for (const Check& check : checks) {
     if (!check.passed()) {
-      throw ComputationError(fmt::format("{}: the check {} fails: {}", path, check.name, check.meaning));
+      throw ComputationError(fmt::format("{}: the check {} fails: '{}'", path, check.name, check.meaning));
     }
   }
 }
@@ -114,17 +116,20 @@ void inspect(const Superelement& body, const std::string& path, const std::strin
 void inspect(const std::string& path) {
   if (!holds_pieces(path)) {
     const Superelement body = read_superelement(path);
-    return inspect(body, path, fmt::format("{}: {}\n", path, body.created_by));
+    inspect(body, path, fmt::format("{}: {}\n", path, body.created_by));
+    fmt::print("{}", verdict(body));
+    return;
   }
   const CutBody body = read_cut_body(path);
   fmt::print("{}: {}\n{}", path, body.created_by, describe(body));
   for (std::size_t k = 0; k < body.pieces.size(); ++k) {
     inspect(body.pieces[k], path + ": " + group_of_piece(k), fmt::format("\npiece {}\n", k + 1));
   }
+  fmt::print("{}", verdict(body));
 }
 
 /// @param path  a geometry, a mesh, or a body file that names one and its unit
-void list(const std::string& path, std::optional<std::string> length_unit) {
+void list(const std::string& path, std::optional<std::string> length_unit, bool system_calls) {
   GeometryFile geometry{path, length_unit};
   const std::string ending = std::filesystem::path(path).extension().string();
   if (ending == ".yaml" || ending == ".yml") {
@@ -134,13 +139,14 @@ void list(const std::string& path, std::optional<std::string> length_unit) {
     geometry = read_geometry_of(path);
   }
   Progress progress(true);
-  fmt::print("{}", describe_geometry(geometry.path, geometry.length_unit, progress));
+  fmt::print("{}", describe_geometry(geometry.path, geometry.length_unit, progress, system_calls));
 }
 
 int body(int argc, char** argv) {
   CLI::App app{"Reduces a solid body to the motions of its interfaces and its lowest modes.", "bielle-reduce"};
   std::string input, output, geometry, superelement;
   std::optional<std::string> length_unit;
+  bool system_calls = false;
   CommonOptions common;
   const auto* input_option = app.add_option("BODY", input, "body file (YAML)");
   const auto* output_option =
@@ -152,6 +158,8 @@ int body(int argc, char** argv) {
                                     "with --list: unit of a geometry that carries none: m mm cm um km in ft");
   const auto* inspect_option =
       app.add_option("--inspect", superelement, "show what is in a superelement file, check it again");
+  app.add_flag("--allow-system-calls", system_calls,
+               "let a .geo run shell commands (SystemCall): for files that you trust");
   add_common_options(app, common);
   if (!parse_command_line(app, argc, argv)) {
     return 0;
@@ -165,15 +173,18 @@ int body(int argc, char** argv) {
   if (unit->count() > 0 && list_option->count() == 0) {
     throw InputError("--length-unit goes with --list; a body file has its own length_unit");
   }
+  if (system_calls && inspect_option->count() > 0) {
+    throw InputError("--allow-system-calls goes with a body file or --list: --inspect reads no geometry");
+  }
   if (list_option->count() > 0) {
-    list(geometry, length_unit);
+    list(geometry, length_unit, system_calls);
     return 0;
   }
   if (inspect_option->count() > 0) {
     inspect(superelement);
     return 0;
   }
-  reduce(input, output, common);
+  reduce(input, output, system_calls, common);
   return 0;
 }
 

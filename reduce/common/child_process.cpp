@@ -117,9 +117,15 @@ int wait_for(pid_t process) {
   return status;
 }
 
+/// @param status  of `waitpid`
+const std::string& sentence_of(const ChildLoss& lost, int status) {
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGSYS) return lost.forbidden;
+  return WIFEXITED(status) ? lost.ended : lost.crashed;
+}
+
 }  // namespace
 
-std::string in_child_process(const std::string& lost, const ChildLimits& limits, const std::function<std::string()>& work) {
+std::string in_child_process(const ChildLoss& lost, const ChildLimits& limits, const std::function<std::string()>& work) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throw ComputationError(fmt::format("no pipe can be made: {}", std::strerror(errno)));
   std::fflush(nullptr);
@@ -134,11 +140,11 @@ std::string in_child_process(const std::string& lost, const ChildLimits& limits,
   const std::string answer = child < 0 ? "" : read_all(ends[0]);
   close(ends[0]);
   if (child < 0) throw ComputationError(fmt::format("no process can be started: {}", std::strerror(failed)));
-  wait_for(child);
+  const int status = wait_for(child);
   std::uint64_t size = 0;
   constexpr std::size_t head = 1 + sizeof size;
   if (answer.size() >= head) std::memcpy(&size, answer.data() + 1, sizeof size);
-  if (answer.size() < head || answer.size() - head != size) throw InputError(lost);
+  if (answer.size() < head || answer.size() - head != size) throw InputError(sentence_of(lost, status));
   std::string text = answer.substr(head);
   switch (answer[0]) {
     case value:

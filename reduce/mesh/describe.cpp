@@ -288,12 +288,15 @@ std::string describe_source(const std::string& path, const SourceFile& source) {
 }  // namespace
 
 std::string describe_geometry(const std::string& path, const std::optional<std::string>& length_unit,
-                              Progress& progress) {
+                              Progress& progress, bool system_calls) {
   MeshRequest request;
   request.path = path;
   request.length_unit = length_unit;
   const SourceFile source = prepare_source(request, progress);
-  return in_child_process(crash_sentence(source), {}, [&] { return describe_source(path, source); });
+  return in_child_process(loss_of(source), {}, [&] {
+    if (!system_calls) forbid_system_calls(source);
+    return describe_source(path, source);
+  });
 }
 
 }  // namespace bielle::reduce

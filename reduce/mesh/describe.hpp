@@ -16,9 +16,10 @@ namespace bielle::reduce {
 /// A geometry is not meshed: its shapes come from points on its surfaces, areas and volumes from OpenCASCADE
 /// (geometries of gmsh's own kernel have none). The boundary of a mesh is divided at edges where it turns by more than
 /// 40 degrees.
-/// @param length_unit  of a file that carries none; absent: m
+/// @param length_unit   of a file that carries none; absent: m
+/// @param system_calls  whether a script (.geo) may run shell commands
 /// @throws InputError when the file cannot be read
 std::string describe_geometry(const std::string& path, const std::optional<std::string>& length_unit,
-                              Progress& progress);
+                              Progress& progress, bool system_calls = false);
 
 }  // namespace bielle::reduce

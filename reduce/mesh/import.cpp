@@ -88,7 +88,8 @@ Mesh import_source(const MeshRequest& request, const SourceFile& source, Progres
 Mesh import_mesh(const MeshRequest& request, Progress& progress) {
   progress.start("reading " + std::filesystem::path(request.path).filename().string());
   const SourceFile source = prepare_source(request, progress);
-  Packing result(in_child_process(at_place(request.located, crash_sentence(source)), {}, [&] {
+  Packing result(in_child_process(loss_of(source, request.located), {}, [&] {
+    if (!request.system_calls) placed(request.located, [&] { forbid_system_calls(source); });
     Packing packing;
     Mesh mesh = import_source(request, source, progress);
     packing(mesh);

@@ -84,6 +84,7 @@ struct MeshRequest {
   std::string mesh_located;                ///< "rod.yaml:8: mesh"
   std::vector<SurfaceSelection> surfaces;
   std::vector<VolumeSelection> volumes;
+  bool system_calls = false;   ///< whether the file, where it is a script (.geo), may run shell commands
   std::vector<CutPlane> cuts;  ///< that faces of the elements shall lie in, where the geometry can be cut
 };
 

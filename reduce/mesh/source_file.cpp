@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "reduce/common/closed_process.hpp"
 #include "reduce/common/error.hpp"
 #include "reduce/common/progress.hpp"
 #include "reduce/mesh/length_unit.hpp"
@@ -113,11 +114,25 @@ SourceFile prepare_source(const MeshRequest& request, Progress& progress) {
   return source;
 }
 
-std::string crash_sentence(const SourceFile& source) {
+ChildLoss loss_of(const SourceFile& source, const std::string& located) {
   const char* reading = "cannot be read: gmsh crashes on it, the file is damaged";
   const char* meshing =
       "cannot be read and meshed: gmsh crashes on it; where the file is sound, another mesh.size may help";
-  return fmt::format("'{}' {}", source.name, source.geometry ? meshing : reading);
+  ChildLoss loss(at_place(located, fmt::format("'{}' {}", source.name, source.geometry ? meshing : reading)));
+  loss.ended = at_place(
+      located, fmt::format("'{}' ends gmsh before it is read to its end: remove 'Exit;' or 'Abort;'", source.name));
+  loss.forbidden = at_place(located, fmt::format("'{}' starts another program (SystemCall), which a geometry may not; "
+                                                 "--allow-system-calls lets it, for files that you trust",
+                                                 source.name));
+  return loss;
+}
+
+void forbid_system_calls(const SourceFile& source) {
+  if (!forbid_other_programs() && ending_of(source.name).starts_with(".geo"))
+    throw InputError(
+        fmt::format("'{}' is a script that could start other programs, which this system cannot prevent; "
+                    "--allow-system-calls reads it all the same",
+                    source.name));
 }
 
 }  // namespace bielle::reduce

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "reduce/common/child_process.hpp"
 #include "reduce/mesh/foreign_mesh.hpp"
 #include "reduce/mesh/mesh_request.hpp"
 
@@ -28,7 +29,13 @@ struct SourceFile {
 /// @throws InputError when the file is missing, no file, empty, or cannot be converted; when the unit is none
 SourceFile prepare_source(const MeshRequest& request, Progress& progress);
 
-/// What to tell the user when gmsh crashes on it.
-std::string crash_sentence(const SourceFile& source);
+/// What to tell the user when gmsh's process ends without an answer: it crashes on the file, or the file ends it or
+/// starts another program.
+/// @param located  "rod.yaml:3: geometry", put before it
+ChildLoss loss_of(const SourceFile& source, const std::string& located = "");
+
+/// A geometry may be a script that runs shell commands: from now on this process cannot start another program.
+/// @throws InputError when the file is a script and the system cannot prevent it
+void forbid_system_calls(const SourceFile& source);
 
 }  // namespace bielle::reduce

@@ -31,6 +31,15 @@ RowMatrix linear_inertia(const Solid& solid, const NodeMatrix& mass, const Eigen
   return result;
 }
 
+/// Keeps the first pairs, and the eigenvalue of the next.
+void keep_first(Eigenpairs& pairs, Eigen::Index count) {
+  if (count >= pairs.values.size()) return;
+  pairs.next = pairs.values(count);
+  pairs.values.conservativeResize(count);
+  pairs.vectors.conservativeResize(Eigen::NoChange, count);
+  pairs.residuals.conservativeResize(count);
+}
+
 Eigenpairs fixed_boundary_modes(const NodeMatrix& mass, const HeldBody& held, const ModeRequest& modes,
                                 Progress& progress, int threads) {
   if (!modes.count && !modes.below) {
@@ -53,8 +62,14 @@ Eigenpairs fixed_boundary_modes(const NodeMatrix& mass, const HeldBody& held, co
   options.on_solve = [&](int solves) {
     progress.update(std::min(0.99, solves / (1.5 * expected)), counted(solves, "solution"));
   };
+  const auto one_more = [&] {
+    return shift_invert_eigenpairs(problem, static_cast<int>(std::min<Eigen::Index>(*modes.count + 1, held.size())),
+                                   options);
+  };
   if (!modes.below) {
-    return shift_invert_eigenpairs(problem, *modes.count, options);
+    Eigenpairs pairs = one_more();
+    keep_first(pairs, *modes.count);
+    return pairs;
   }
   const double limit = std::pow(2 * std::numbers::pi * *modes.below, 2);
   if (!modes.count) {
@@ -65,15 +80,14 @@ Eigenpairs fixed_boundary_modes(const NodeMatrix& mass, const HeldBody& held, co
                                    error.what(), most_modes_below));
     }
   }
-  Eigenpairs pairs = shift_invert_eigenpairs(problem, *modes.count, options);
+  Eigenpairs pairs = one_more();
   const Eigen::Index below = (pairs.values.array() <= limit).count();
-  if (below == *modes.count) {
-    progress.note(fmt::format("modes: the count of {} is reached at {:.6g} Hz; there may be more below {:.6g} Hz",
-                              *modes.count, std::sqrt(pairs.values(below - 1)) / (2 * std::numbers::pi), *modes.below));
+  if (below > *modes.count) {
+    progress.note(fmt::format("modes: the count of {} leaves out modes below {:.6g} Hz, the first of them at {:.6g} Hz",
+                              *modes.count, *modes.below,
+                              std::sqrt(pairs.values(*modes.count)) / (2 * std::numbers::pi)));
   }
-  pairs.values.conservativeResize(below);
-  pairs.vectors.conservativeResize(Eigen::NoChange, below);
-  pairs.residuals.conservativeResize(below);
+  keep_first(pairs, std::min<Eigen::Index>(below, *modes.count));
   return pairs;
 }
 
@@ -127,6 +141,7 @@ Basis make_basis(const Solid& solid, const SymmetricMatrix& stiffness, const Nod
   basis.eigenvalues = pairs.values;
   basis.residuals = pairs.residuals;
   basis.solves = pairs.solves;
+  basis.next = pairs.next;
   Eigen::MatrixXd inside(held.size(), kept + pairs.values.size());
   inside.leftCols(kept) = solutions.leftCols(kept);
   if (pairs.vectors.cols() > 0) inside.rightCols(pairs.vectors.cols()) = pairs.vectors;

@@ -30,6 +30,7 @@ struct Basis {
   Eigen::VectorXd eigenvalues;  ///< omega^2 of Phi, then of the residual vectors [rad^2/s^2]
   Eigen::VectorXd residuals;    ///< of the eigenpairs, relative; residual vectors are none
   Eigen::Index residual_vectors = 0;  ///< so many of the modes, the last ones
+  std::optional<double> next;         ///< omega^2 of the first mode left out [rad^2/s^2]; absent: not sought, or none
   LinearFields linear;
   int solves = 0;  ///< single solutions of the eigenvalue iteration
 
@@ -47,6 +48,7 @@ struct ModeRequest {
 /// Radius of gyration of the body [m]: turns rotations into comparable displacements.
 double radius_of_gyration(const MassProperties& body);
 
+/// Where modes are wanted, one more is sought, to know where those left out begin.
 /// @throws InputError when more modes are wanted than the inside has freedoms; ComputationError when they do not
 /// converge
 Basis make_basis(const Solid& solid, const SymmetricMatrix& stiffness, const NodeMatrix& mass, const Ties& ties,

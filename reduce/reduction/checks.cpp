@@ -21,31 +21,31 @@ namespace {
 void add_stiffness_checks(const Superelement& body, std::vector<Check>& checks) {
   const Eigen::MatrixXd u = rigid_coordinates(body, body.centre);
   checks.push_back({"rigid_motion_force", relative_force(body.stiffness, body.mass, u), 1e-12,
-                    "rigid motions meet no force: |K~ U| in units of its terms"});
+                    "moved as a whole, the body feels no force"});
   // In coordinates of unit mass, so that amplitudes and displacements compare.
   const Eigen::VectorXd scale = body.mass.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::VectorXd values = symmetric_eigenpairs(scale.asDiagonal() * body.stiffness * scale.asDiagonal()).values;
   checks.push_back({"negative_energy", std::max(0.0, -values.minCoeff()) / std::max(values.maxCoeff(), 1e-300), 1e-9,
-                    "no deformation releases energy: least eigenvalue of K~ over the largest"});
+                    "no deformation releases energy"});
 }
 
 void add_mass_checks(const Superelement& body, std::vector<Check>& checks) {
   const ReducedMassProperties reduced = reduced_mass_properties(body);
-  checks.push_back({"mass_error", std::abs(reduced.mass / body.total_mass - 1), 1e-10, "mass of M~ against the mesh"});
+  checks.push_back({"mass_error", std::abs(reduced.mass / body.total_mass - 1), 1e-10, "its mass is that of the mesh"});
   checks.push_back({"centre_error", (reduced.centre - body.centre).norm() / radius_of_gyration(mass_properties(body)),
-                    1e-10, "centre of mass of M~ against the mesh, in radii of gyration"});
+                    1e-10, "its centre of mass is that of the mesh, in radii of gyration"});
   checks.push_back({"inertia_error", (reduced.inertia - body.inertia).norm() / body.inertia.norm(), 1e-10,
-                    "inertia of M~ against the mesh"});
+                    "its inertia is that of the mesh"});
   const Eigen::MatrixXd sum = body.inertia_components[0] + body.inertia_components[1] + body.inertia_components[2];
   const Eigen::VectorXd scale = body.mass.diagonal().cwiseSqrt().cwiseInverse();
   checks.push_back({"inertia_components_error",
                     (scale.asDiagonal() * (sum - body.mass) * scale.asDiagonal()).cwiseAbs().maxCoeff(), 1e-9,
-                    "S_11 + S_22 + S_33 against M~"});
+                    "the parts of its mass along x, y and z add up"});
   const Eigen::Index m = body.modes();
   if (m > 0) {
     const Eigen::MatrixXd modal = body.mass.bottomRightCorner(m, m);
     checks.push_back({"mode_orthogonality", (modal - Eigen::MatrixXd::Identity(m, m)).cwiseAbs().maxCoeff(), 1e-7,
-                      "fixed-boundary modes are orthonormal in the mass"});
+                      "no mode moves the mass of another"});
   }
 }
 
@@ -57,7 +57,7 @@ void add_recovery_checks(const Superelement& body, std::vector<Check>& checks) {
     const Eigen::MatrixXd error =
         body.displacement_recovery * u - Eigen::MatrixXd(rigid_motions(body.mesh.points, body.centre));
     checks.push_back({"rigid_motion_recovery", (error * scale.asDiagonal()).cwiseAbs().maxCoeff(), 1e-10,
-                      "displacements recovered from rigid motions"});
+                      "moved as a whole, the body shows that motion everywhere"});
   }
   const Eigen::Index m = body.modes(), directions = body.interface_directions();
   if (body.stress_recovery.size() > 0 && body.size() > 6) {
@@ -68,7 +68,7 @@ void add_recovery_checks(const Superelement& body, std::vector<Check>& checks) {
       largest = std::max(largest, std::sqrt(body.total_mass) * body.stress_recovery.rightCols(m).cwiseAbs().maxCoeff());
     }
     checks.push_back({"rigid_motion_stress", (body.stress_recovery * u).cwiseAbs().maxCoeff() / largest, 1e-8,
-                      "rigid motions recover no stress"});
+                      "moved as a whole, the body shows no stress"});
   }
 }
 
@@ -92,9 +92,10 @@ MassProperties mass_properties(const Superelement& body) {
 void fail_when_a_check_does(const std::vector<Check>& checks, const std::string& what) {
   for (const Check& check : checks) {
     if (!check.passed()) {
-      throw ComputationError(fmt::format("{} fails a check: {} is {:.2e}, at most {:.0e} is right; a very slender or "
-                                         "distorted mesh may be the cause",
-                                         what, check.meaning, check.value, check.limit));
+      throw ComputationError(
+          fmt::format("{} fails the check '{}' by {:.2e}, at most {:.0e} is right; a very slender or "
+                      "distorted mesh may be the cause",
+                      what, check.meaning, check.value, check.limit));
     }
   }
 }

@@ -149,6 +149,7 @@ GeometricStiffness geometric_stiffness(const Solid& solid, const NodeGraph& grap
     progress.update(static_cast<double>(first + width) / static_cast<double>(count));
   }
   result.rotations = second_order.rotations();
+  if (with_loads) result.load_fields = fields.rightCols(kept);
   return result;
 }
 

@@ -27,6 +27,7 @@ namespace bielle::reduce {
 struct GeometricStiffness {
   std::array<Eigen::MatrixXd, 6> spin;  ///< per unit Om_k Om_l: 11 22 33 23 13 12 [K~ s^2]
   std::vector<Eigen::MatrixXd> load;    ///< per unit load of each kept direction [K~/N, K~/(N m)]
+  RowMatrix load_fields;  ///< (3 points, directions) displacement of the free body under each of these loads
   std::vector<Eigen::MatrixXd> rotations;  ///< of each interface's surface, body axes (3,n); zero for free ties
 };
 

@@ -95,7 +95,7 @@ void add_objectivity_check(const Superelement& body, std::vector<Check>& checks)
     error = std::max(error, in_unit_mass(turned));
   }
   checks.push_back({"load_stiffness_objectivity", size > 0 ? error / size : 0, 1e-6,
-                    "elastic energy to third order does not depend on the body's frame"});
+                    "what loads do to its stiffness does not depend on the frame"});
 }
 
 /// Energy of the geometric stiffness in rigid translations (none) and rotations: tr(Q) I - sym(Q).
@@ -124,9 +124,11 @@ void add_virial_checks(const Superelement& body, std::vector<Check>& checks) {
     const double unit = is_spin ? body.total_mass * length * length : std::max(1.0, length);
     (is_spin ? spin : load) = std::max(is_spin ? spin : load, error.cwiseAbs().maxCoeff() / unit);
   }
-  checks.push_back({"spin_stiffness_virial", spin, 1e-6, "geometric stiffness of spins under rigid rotations"});
+  checks.push_back(
+      {"spin_stiffness_virial", spin, 1e-6, "turned as a whole, the spinning body does the work of its inertia"});
   if (!body.load_stiffness.empty()) {
-    checks.push_back({"load_stiffness_virial", load, 1e-6, "geometric stiffness of loads under rigid rotations"});
+    checks.push_back(
+        {"load_stiffness_virial", load, 1e-6, "turned as a whole, the loaded body does the work of its loads"});
   }
 }
 

@@ -68,6 +68,7 @@ struct ReductionOptions {
   std::vector<PointRequest> points;
   RecoveryExtent displacement_recovery = RecoveryExtent::all;
   RecoveryExtent stress_recovery = RecoveryExtent::surface;
+  bool judged = true;  ///< whether to measure what the reduction is good for
 };
 
 }  // namespace bielle::reduce

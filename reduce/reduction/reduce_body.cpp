@@ -9,6 +9,7 @@
 #include "reduce/fe/assembly.hpp"
 #include "reduce/mesh/checks.hpp"
 #include "reduce/mesh/place.hpp"
+#include "reduce/reduction/adequacy.hpp"
 #include "reduce/reduction/basis.hpp"
 #include "reduce/reduction/free_body.hpp"
 #include "reduce/reduction/load_patterns.hpp"
@@ -121,15 +122,15 @@ Eigen::MatrixXd damping_matrix(const ReductionOptions& options, const Supereleme
 /// Those of every superelement, and those that only the mesh can tell.
 std::vector<Check> check_reduction(const Superelement& body, const ReducedStiffness& reduced, const Basis& basis) {
   std::vector<Check> checks = check_superelement(body);
-  checks.push_back({"rigid_motion_force_on_mesh", reduced.rigid_force, 1e-4,
-                    "rigid motions meet no force: Psi^T K U as the mesh gives it"});
   checks.push_back(
-      {"stiffness_coupling", reduced.coupling, 1e-4, "constraint modes and fixed-boundary modes do not couple"});
+      {"rigid_motion_force_on_mesh", reduced.rigid_force, 1e-4, "moved as a whole, the mesh feels no force"});
+  checks.push_back({"stiffness_coupling", reduced.coupling, 1e-4, "moving interfaces does not strain the modes"});
   if (basis.modes() > 0) {
-    checks.push_back({"mode_stiffness", reduced.mode_stiffness, 1e-4, "energy of the modes against their frequencies"});
+    checks.push_back(
+        {"mode_stiffness", reduced.mode_stiffness, 1e-4, "the energy of each mode is that of its frequency"});
   }
   if (basis.residuals.size() > 0) {
-    checks.push_back({"mode_residual", basis.residuals.maxCoeff(), 1e-6, "residual of the fixed-boundary modes"});
+    checks.push_back({"mode_residual", basis.residuals.maxCoeff(), 1e-6, "each mode is one of the mesh"});
   }
   return checks;
 }
@@ -196,6 +197,12 @@ Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Prog
   body.loads = reduce_loads(solid, options.loads, basis.shapes);
   body.points = named_points(points, basis.shapes);
   add_recovery(solid, options, basis.shapes, threads, body);
+
+  if (options.judged) {
+    progress.start("what it is good for");
+    body.adequacy = measure_adequacy({solid, stiffness, mass, ties, held, basis}, body, geometric.load_fields, threads);
+    body.adequacy->wanted = options.modes_below.value_or(0);
+  }
 
   progress.start("checks");
   const std::vector<Check> checks = check_reduction(body, reduced, basis);

@@ -64,17 +64,19 @@ Superelement reduce_uncut(const Mesh& mesh, const ReductionOptions& options, Eig
   uncut.points.clear();
   uncut.damping_ratios.clear();
   uncut.rayleigh.reset();
+  uncut.judged = false;
   uncut.displacement_recovery = uncut.stress_recovery = RecoveryExtent::none;
   return reduce_quietly(mesh, uncut, threads);
 }
 
 std::vector<Check> check_masses(const Superelement& whole, const MassProperties& uncut) {
   const ReducedMassProperties found = reduced_mass_properties(whole);
-  return {{"mass_error", std::abs(found.mass / uncut.mass - 1), 1e-10, "mass of all pieces against the uncut mesh"},
-          {"centre_error", (found.centre - uncut.centre).norm() / radius_of_gyration(uncut), 1e-10,
-           "centre of mass of all pieces against the uncut mesh, in radii of gyration"},
-          {"inertia_error", (found.inertia - uncut.inertia).norm() / uncut.inertia.norm(), 1e-10,
-           "inertia of all pieces against the uncut mesh"}};
+  return {
+      {"mass_error", std::abs(found.mass / uncut.mass - 1), 1e-10, "the mass of all pieces is that of the uncut mesh"},
+      {"centre_error", (found.centre - uncut.centre).norm() / radius_of_gyration(uncut), 1e-10,
+       "their centre of mass is that of the uncut mesh, in radii of gyration"},
+      {"inertia_error", (found.inertia - uncut.inertia).norm() / uncut.inertia.norm(), 1e-10,
+       "their inertia is that of the uncut mesh"}};
 }
 
 }  // namespace

@@ -255,6 +255,7 @@ Eigenpairs shift_invert_eigenpairs_below(const ShiftInvertProblem& problem, doub
     const Eigen::Index found = pairs.values.size();
     const Eigen::Index below = (pairs.values.array() <= limit).count();
     if (below < found || found < count || count == all) {
+      if (below < found) pairs.next = pairs.values(below);
       pairs.values.conservativeResize(below);
       pairs.vectors.conservativeResize(Eigen::NoChange, below);
       pairs.residuals.conservativeResize(below);

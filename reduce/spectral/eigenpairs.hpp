@@ -6,6 +6,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include <Eigen/Core>
 
@@ -37,6 +38,8 @@ struct Eigenpairs {
   /// |phi - (lambda - shift) (K - shift M)^-1 M phi|_M for each pair: some eigenvalue of the pencil lies within this,
   /// relative to lambda - shift.
   Eigen::VectorXd residuals;
+  /// Of a search up to a limit: the least eigenvalue beyond it, where one was found.
+  std::optional<double> next;
   int solves = 0;    ///< single solutions that ARPACK asked for
   int restarts = 0;  ///< of the Lanczos iteration
 };

@@ -4,11 +4,14 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <Eigen/Core>
+
+#include "reduce/superelement/adequacy.hpp"
 
 namespace bielle {
 
@@ -98,6 +101,7 @@ struct Superelement {
   std::vector<int> stress_nodes;         ///< (s) node numbers of the rows of stress_recovery
   StressOrigin stress_origin;
   std::map<std::string, double> checks;  ///< numbers of every check that the reduction made, by name
+  std::optional<Adequacy> adequacy;      ///< what it is good for; absent in files of other programs
 
   Eigen::Index modes() const { return frequencies.size(); }
   Eigen::Index fixed_boundary_modes() const { return modes() - residual_vectors; }

@@ -7,6 +7,7 @@
 
 #include "reduce/common/atomic_output.hpp"
 #include "reduce/common/hdf5_file.hpp"
+#include "reduce/superelement/adequacy_in_file.hpp"
 #include "reduce/superelement/named_points.hpp"
 #include "reduce/superelement/physical_check.hpp"
 #include "reduce/superelement/superelement.hpp"
@@ -166,6 +167,7 @@ void write_all(Hdf5File& file, const Superelement& body) {
   write_mesh(file, body.mesh);
   write_recovery(file, body);
   for (const auto& [name, value] : body.checks) file.write("/checks/" + link_name(name), value, "SI");
+  if (body.adequacy) write_adequacy(*body.adequacy, file);
   file.write_attribute("/", "checksum", sum_of(body));
   file.write_attribute("/", "complete", std::int64_t{1});
 }
@@ -366,6 +368,7 @@ Superelement read_superelement(const Hdf5File& file) {
   }
   for (const std::string& link : reader.members("/checks"))
     body.checks[name_of_link(link)] = file.read_number("/checks/" + link);
+  body.adequacy = read_adequacy(file);
   if (const std::string fault = first_fault(body); !fault.empty()) reader.fail(fault);
   check_sum(file, reader, body);
   return body;

@@ -24,6 +24,18 @@ void add_numbers(Checksum& sum, const std::vector<int>& numbers) {
   for (const int number : numbers) sum.add(static_cast<double>(number));
 }
 
+void add_adequacy(Checksum& sum, const Adequacy& adequacy) {
+  for (const Eigen::VectorXd* numbers :
+       {&adequacy.frequencies, &adequacy.mode_error, &adequacy.mesh_error, &adequacy.tie_error, &adequacy.stress_error})
+    add(sum, *numbers);
+  add(sum, adequacy.worst_place);
+  add(sum, adequacy.inertia_answer);
+  for (const double number : {adequacy.next_mode, adequacy.wanted, static_cast<double>(adequacy.order),
+                              adequacy.one_element_thick, adequacy.least_jacobian})
+    sum.add(number);
+  for (const std::string& name : adequacy.rigid_ties) sum.add(name);
+}
+
 }  // namespace
 
 std::int64_t sum_of(const Superelement& body) {
@@ -67,6 +79,7 @@ std::int64_t sum_of(const Superelement& body) {
     for (const bool exact : point.residual) sum.add(exact ? 1.0 : 0.0);
   }
   if (body.residual_vectors > 0) sum.add(static_cast<double>(body.residual_vectors));
+  if (body.adequacy) add_adequacy(sum, *body.adequacy);
   return sum.value();
 }
 

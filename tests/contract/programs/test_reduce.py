@@ -117,7 +117,7 @@ class Reduce(CommandTest):
             file["reduced/mass"][...] *= 1.0005
             del file.attrs["checksum"]
         done = self.expect_refusal(2, "--inspect", "other.h5", says=["other.h5", "mass_error"])
-        self.assertIn("FAILED   5.0e-04 (at most 1e-10)  mass of M~ against the mesh", done.stdout)
+        self.assertIn("FAILED   5.0e-04 (at most 1e-10)  its mass is that of the mesh", done.stdout)
 
     def test_quiet_prints_no_summary(self):
         self.write("body.yaml", BODY)

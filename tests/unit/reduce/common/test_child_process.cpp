@@ -3,12 +3,14 @@
 #include <cstdlib>
 #include <new>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <catch2/catch.hpp>
 #include <unistd.h>
 
 #include "reduce/common/child_process.hpp"
+#include "reduce/common/closed_process.hpp"
 #include "reduce/common/error.hpp"
 #include "reduce/common/packing.hpp"
 #include "tests/support/messages.hpp"
@@ -58,6 +60,40 @@ TEST_CASE("child process: a crash is a sentence, however it comes", "[common]") 
   CHECK(ended_by([] { std::raise(SIGKILL); }) == "a.msh: lost");
   CHECK(ended_by([] { std::abort(); }) == "a.msh: lost");
   CHECK(ended_by([] { _exit(0); }) == "a.msh: lost");
+}
+
+TEST_CASE("child process: one that may start no other program is ended when it tries, and says so", "[common]") {
+  ChildLoss loss("crashed");
+  loss.ended = "ended";
+  loss.forbidden = "forbidden";
+  const auto end_of = [&](void (*work)()) {
+    return message_of<InputError>([&] {
+      in_child_process(loss, {}, [&] {
+        if (!forbid_other_programs()) return std::string();
+        work();
+        return std::string();
+      });
+    });
+  };
+  const bool able =
+      in_child_process("lost", {}, [] { return std::string(forbid_other_programs() ? "able" : ""); }) == "able";
+  if (!able) {
+    WARN("this system has no seccomp");
+    return;
+  }
+  CHECK(end_of([] { static_cast<void>(!std::system("true")); }) == "forbidden");
+  CHECK(end_of([] { static_cast<void>(!popen("true", "r")); }) == "forbidden");
+  CHECK(end_of([] { static_cast<void>(fork()); }) == "forbidden");
+  CHECK(end_of([] { execl("/bin/true", "true", nullptr); }) == "forbidden");
+  CHECK(end_of([] { std::raise(SIGSEGV); }) == "crashed");
+  CHECK(end_of([] { _exit(0); }) == "ended");
+  // Threads, files and memory are none of its business.
+  CHECK(in_child_process("lost", {}, [] {
+          forbid_other_programs();
+          std::string text;
+          std::thread([&] { text = "from a thread"; }).join();
+          return text;
+        }) == "from a thread");
 }
 
 TEST_CASE("child process: work without end is ended", "[common]") {

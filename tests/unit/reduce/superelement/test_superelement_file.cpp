@@ -312,6 +312,57 @@ TEST_CASE("Points are read without the rest of the file, and wrong ones are refu
              Contains("of 3 modes, 4 cannot be residual vectors"));
 }
 
+TEST_CASE("What a superelement is good for stands in its file, which may do without") {
+  const TemporaryFolder folder;
+  Superelement body = sample();
+  CHECK_FALSE(read_superelement(written(folder, body)).adequacy);
+  Adequacy found;
+  found.frequencies = Eigen::Vector3d(100, 200, 300);
+  found.mode_error = Eigen::Vector3d(0.001, 0.01, 0.1);
+  found.mesh_error = Eigen::Vector2d(0.002, 0.003);
+  found.tie_error = Eigen::Vector2d(0.02, 0.03);
+  found.stress_error = Eigen::VectorXd::Constant(10, 0.05);
+  found.worst_place = {1, 2, 3};
+  found.inertia_answer = {0.5, 0.9, 1};
+  found.next_mode = 400;
+  found.wanted = 250;
+  found.order = 1;
+  found.one_element_thick = 0.7;
+  found.least_jacobian = 0.02;
+  found.rigid_ties = {"big_end", "small_end"};
+  body.adequacy = found;
+  const std::string path = written(folder, body);
+  const std::optional<Adequacy> back = read_superelement(path).adequacy;
+  REQUIRE(back);
+  CHECK(back->frequencies == found.frequencies);
+  CHECK(back->mode_error == found.mode_error);
+  CHECK(back->mesh_error == found.mesh_error);
+  CHECK(back->tie_error == found.tie_error);
+  CHECK(back->stress_error == found.stress_error);
+  CHECK(back->worst_place == found.worst_place);
+  CHECK(back->inertia_answer == found.inertia_answer);
+  CHECK(back->next_mode == 400);
+  CHECK(back->wanted == 250);
+  CHECK(back->order == 1);
+  CHECK(back->one_element_thick == 0.7);
+  CHECK(back->least_jacobian == 0.02);
+  CHECK(back->rigid_ties == found.rigid_ties);
+  const auto refused_with = [&](const std::function<void(Hdf5File&)>& damage) {
+    write_superelement(body, path);
+    Hdf5File file = Hdf5File::open_to_extend(path);
+    damage(file);
+    file.close();
+    return message_of<InputError>([&] { read_superelement(path); });
+  };
+  CHECK_THAT(refused_with([](Hdf5File& file) { file.remove("/adequacy/mode_error"); }),
+             Contains("/adequacy/mode_error: expected one number for each of free_frequencies"));
+  CHECK_THAT(refused_with([](Hdf5File& file) {
+               file.remove("/adequacy/next_mode");
+               file.write("/adequacy/next_mode", 500.0, "Hz");
+             }),
+             Contains("its numbers are not those that were written"));
+}
+
 TEST_CASE("Values that no body can have are refused") {
   const auto stiffness_with = [](Eigen::Index i, Eigen::Index j, double value) {
     return [=](Hdf5File& file) {

@@ -1,0 +1,52 @@
+#include "reduce/reduction/enrichment.hpp"
+
+#include <Eigen/LU>
+
+#include "reduce/common/symmetric_eigenpairs.hpp"
+#include "reduce/reduction/checks.hpp"
+
+namespace bielle::reduce {
+
+namespace {
+
+constexpr double dependent = 1e-8;  // energy of a shape that the others leave, relative to its own
+
+/// The lowest eigenvalues of K x = mu M x, from M y = y / mu with y^T K y = 1: M may be singular.
+Eigen::VectorXd lowest_eigenvalues(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass, Eigen::Index count) {
+  const Eigen::VectorXd scale =
+      (stiffness.diagonal().array() > 0).select(stiffness.diagonal().array().rsqrt(), 0).matrix();
+  const SymmetricEigenpairs energies = symmetric_eigenpairs(scale.asDiagonal() * stiffness * scale.asDiagonal());
+  const Eigen::Index kept = (energies.values.array() > dependent).count();
+  const Eigen::MatrixXd unit = scale.asDiagonal() * energies.vectors.rightCols(kept) *
+                               energies.values.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
+  const Eigen::MatrixXd of_unit_energy = unit.transpose() * mass * unit;
+  const SymmetricEigenpairs flexibility = symmetric_eigenpairs(of_unit_energy);
+  return flexibility.values.tail(count).reverse().cwiseInverse();
+}
+
+}  // namespace
+
+Eigen::VectorXd enriched_eigenvalues(const FullModel& model, const Superelement& body, const FreeModes& free,
+                                     const RowMatrix& shapes, Eigen::Index count, int threads) {
+  const Eigen::Index old = free.omega.size(), more = shapes.cols();
+  const RowMatrix forces = model.stiffness.multiply(shapes, threads), momenta = model.mass.multiply(shapes, 3, threads);
+  const Eigen::MatrixXd coupling_forces = inner_products(model.basis.shapes, forces);
+  const Eigen::MatrixXd coupling_momenta = inner_products(model.basis.shapes, momenta);
+  // Free modes have no rigid motion; what the added shapes have of it moves along without energy.
+  const Eigen::MatrixXd rigid = rigid_coordinates(body, body.centre);
+  const Eigen::Matrix<double, 6, 6> rigid_mass = rigid.transpose() * body.mass * rigid;
+  const Eigen::MatrixXd rigid_momenta = rigid.transpose() * coupling_momenta;
+  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(old + more, old + more);
+  Eigen::MatrixXd mass = Eigen::MatrixXd::Identity(old + more, old + more);
+  stiffness.topLeftCorner(old, old) = free.omega.cwiseAbs2().asDiagonal();
+  stiffness.topRightCorner(old, more) = free.vectors.transpose() * coupling_forces;
+  stiffness.bottomRightCorner(more, more) = inner_products(shapes, forces);
+  mass.topRightCorner(old, more) = free.vectors.transpose() * coupling_momenta;
+  mass.bottomRightCorner(more, more) =
+      inner_products(shapes, momenta) - rigid_momenta.transpose() * (rigid_mass.inverse() * rigid_momenta);
+  stiffness.bottomLeftCorner(more, old) = stiffness.topRightCorner(old, more).transpose();
+  mass.bottomLeftCorner(more, old) = mass.topRightCorner(old, more).transpose();
+  return lowest_eigenvalues(stiffness, mass, count);
+}
+
+}  // namespace bielle::reduce
