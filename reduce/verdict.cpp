@@ -33,10 +33,10 @@ std::string hertz(double frequency) {
 }
 
 /// "0.042 %", "3.1 %", "14 %": two digits; estimates say nothing of less than 0.01 %.
-std::string percent(double part) { return fmt::format("{:.2g} %", std::max(100 * part, 0.01)); }
+std::string as_percent(double part) { return fmt::format("{:.2g} %", std::max(100 * part, 0.01)); }
 
 std::string in_percent(double least, double most) {
-  const std::string low = percent(least), high = percent(most);
+  const std::string low = as_percent(least), high = as_percent(most);
   return low == high ? low : fmt::format("{} to {}", low.substr(0, low.size() - 2), high);
 }
 
@@ -77,12 +77,12 @@ void judge_modes(const Superelement& body, const Adequacy& found, Findings& find
   std::string line;
   if (range.good > 0)
     line = fmt::format("free-free frequencies up to {} are at most {} too high, since modes are left out",
-                       hertz(range.limit), percent(found.mode_error.head(range.good).maxCoeff()));
+                       hertz(range.limit), as_percent(found.mode_error.head(range.good).maxCoeff()));
   if (!range.open) {
     const double bad = found.frequencies(range.good), error = found.mode_error(range.good);
-    line += range.good > 0 ? fmt::format("; the next, {}, is {} too high", hertz(bad), percent(error))
+    line += range.good > 0 ? fmt::format("; the next, {}, is {} too high", hertz(bad), as_percent(error))
                            : fmt::format("the first free-free frequency, {}, is {} too high, since modes are left out",
-                                         hertz(bad), percent(error));
+                                         hertz(bad), as_percent(error));
   }
   if (found.next_mode > 0) line += fmt::format("; the first mode left out is at {}", hertz(found.next_mode));
   findings.lines.emplace_back("modes: " + line);
@@ -116,10 +116,10 @@ void judge_mesh(const Adequacy& found, Findings& findings) {
   const Eigen::Index meshed = found.mesh_error.size();
   if (meshed > 0)
     parts.push_back(
-        fmt::format("the mesh makes the first free-free frequency about {} too high", percent(found.mesh_error(0))));
+        fmt::format("the mesh makes the first free-free frequency about {} too high", as_percent(found.mesh_error(0))));
   if (meshed > 1)
     parts.back() += fmt::format(", those up to {} up to {}", hertz(found.frequencies(meshed - 1)),
-                                percent(found.mesh_error.maxCoeff()));
+                                as_percent(found.mesh_error.maxCoeff()));
   if (found.stress_error.size() > 0)
     parts.push_back(fmt::format("stress under loads on the interfaces is off by about {} (energy norm), most at {}",
                                 in_percent(found.stress_error.minCoeff(), found.stress_error.maxCoeff()),
@@ -206,7 +206,7 @@ void judge_cuts(const CutBody& body, Findings& findings) {
   if (uncut.size() == 0 || body.free_frequencies.size() == 0) return;
   const double rise = body.free_frequencies(0) / uncut(0) - 1;
   findings.lines.emplace_back(fmt::format("cuts: the first free-free frequency is {} {} than in one piece",
-                                          percent(std::abs(rise)), rise > 0 ? "higher" : "lower"));
+                                          as_percent(std::abs(rise)), rise > 0 ? "higher" : "lower"));
   if (std::abs(rise) <= good_cuts) return;
   findings.faults.emplace_back("cuts that change the body");
   findings.changes.emplace_back("pieces: fewer cuts, or another tie; modes of the pieces: more of them");
