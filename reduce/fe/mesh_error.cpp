@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include "reduce/common/dense_solves.hpp"
 #include "reduce/fe/cell_geometry.hpp"
 #include "reduce/fe/elasticity.hpp"
 
@@ -171,7 +171,7 @@ class Estimate {
       const double size = normal.trace();
       normal.diagonal().tail(terms - 1).array() += 1e-12 * size;
       if constexpr (N == 10) normal.diagonal().tail(terms - 4).array() += 1e-9 * size;
-      result.coefficients.middleRows<terms>(v * terms) = normal.llt().solve(right);
+      result.coefficients.middleRows<terms>(v * terms) = solve_symmetric(normal, right);
       result.scale[v] = scale;
     }
     return result;
@@ -179,7 +179,8 @@ class Estimate {
 
   void compare(const Fields& fields, const FittedStress& fitted, int material, Fields& error, Fields& energy) const {
     const Eigen::Matrix<double, 6, 6> elasticity = solid_.materials[material].elasticity;
-    const Eigen::Matrix<double, 6, 6> compliance = elasticity.inverse();
+    const Eigen::Matrix<double, 6, 6> compliance =
+        solve_symmetric(elasticity, Eigen::MatrixXd::Identity(6, 6));
     const Surroundings& around = around_[material];
 #pragma omp parallel for num_threads(threads_) schedule(static)
     for (Eigen::Index e = 0; e < solid_.cells(); ++e) {

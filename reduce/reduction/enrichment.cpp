@@ -1,9 +1,9 @@
 #include "reduce/reduction/enrichment.hpp"
 
-#include <Eigen/LU>
-
+#include "reduce/common/dense_solves.hpp"
 #include "reduce/common/symmetric_eigenpairs.hpp"
 #include "reduce/reduction/checks.hpp"
+#include "reduce/spectral/dense_products.hpp"
 
 namespace bielle::reduce {
 
@@ -19,7 +19,7 @@ Eigen::VectorXd lowest_eigenvalues(const Eigen::MatrixXd& stiffness, const Eigen
   const Eigen::Index kept = (energies.values.array() > dependent).count();
   const Eigen::MatrixXd unit = scale.asDiagonal() * energies.vectors.rightCols(kept) *
                                energies.values.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
-  const Eigen::MatrixXd of_unit_energy = unit.transpose() * mass * unit;
+  const Eigen::MatrixXd of_unit_energy = congruent(mass, unit);
   const SymmetricEigenpairs flexibility = symmetric_eigenpairs(of_unit_energy);
   return flexibility.values.tail(count).reverse().cwiseInverse();
 }
@@ -34,16 +34,16 @@ Eigen::VectorXd enriched_eigenvalues(const FullModel& model, const Superelement&
   const Eigen::MatrixXd coupling_momenta = inner_products(model.basis.shapes, momenta);
   // Free modes have no rigid motion; what the added shapes have of it moves along without energy.
   const Eigen::MatrixXd rigid = rigid_coordinates(body, body.centre);
-  const Eigen::Matrix<double, 6, 6> rigid_mass = rigid.transpose() * body.mass * rigid;
-  const Eigen::MatrixXd rigid_momenta = rigid.transpose() * coupling_momenta;
+  const Eigen::MatrixXd rigid_mass = congruent(body.mass, rigid);
+  const Eigen::MatrixXd rigid_momenta = transposed_product(rigid, coupling_momenta);
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(old + more, old + more);
   Eigen::MatrixXd mass = Eigen::MatrixXd::Identity(old + more, old + more);
   stiffness.topLeftCorner(old, old) = free.omega.cwiseAbs2().asDiagonal();
-  stiffness.topRightCorner(old, more) = free.vectors.transpose() * coupling_forces;
+  stiffness.topRightCorner(old, more) = transposed_product(free.vectors, coupling_forces);
   stiffness.bottomRightCorner(more, more) = inner_products(shapes, forces);
-  mass.topRightCorner(old, more) = free.vectors.transpose() * coupling_momenta;
+  mass.topRightCorner(old, more) = transposed_product(free.vectors, coupling_momenta);
   mass.bottomRightCorner(more, more) =
-      inner_products(shapes, momenta) - rigid_momenta.transpose() * (rigid_mass.inverse() * rigid_momenta);
+      inner_products(shapes, momenta) - transposed_product(rigid_momenta, solve_symmetric(rigid_mass, rigid_momenta));
   stiffness.bottomLeftCorner(more, old) = stiffness.topRightCorner(old, more).transpose();
   mass.bottomLeftCorner(more, old) = mass.topRightCorner(old, more).transpose();
   return lowest_eigenvalues(stiffness, mass, count);

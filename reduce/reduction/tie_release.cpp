@@ -1,6 +1,7 @@
 #include "reduce/reduction/tie_release.hpp"
 
-#include <Eigen/LU>
+#include "reduce/common/dense_solves.hpp"
+#include "reduce/spectral/dense_products.hpp"
 
 namespace bielle::reduce {
 
@@ -17,7 +18,7 @@ class Surface {
     for (int axis = 0; axis < 6; ++axis)
       conditions_.col(axis) = spread_unit_load(surface.integrals, interface, axis).reshaped();
     for (int axis = 0; axis < 6; ++axis) conditions_.col(axis).normalize();
-    inverse_ = Eigen::Matrix<double, 6, 6>(conditions_.transpose() * conditions_).inverse();
+    normal_ = transposed_product(conditions_, conditions_);
     for (const int node : surface.nodes) rows_.insert(rows_.end(), {3 * node, 3 * node + 1, 3 * node + 2});
   }
 
@@ -26,14 +27,13 @@ class Surface {
   /// P x of the surface's rows of a field.
   Eigen::MatrixXd projected(const RowMatrix& field) const {
     const Eigen::MatrixXd x = field(rows_, Eigen::all);
-    const Eigen::MatrixXd means = inverse_ * (conditions_.transpose() * x);
-    return x - conditions_ * means;
+    return x - product(conditions_, solve_symmetric(normal_, transposed_product(conditions_, x)));
   }
 
  private:
   std::vector<int> rows_;
   Eigen::MatrixXd conditions_;  // C^T (3 nodes, 6)
-  Eigen::Matrix<double, 6, 6> inverse_;
+  Eigen::MatrixXd normal_;      // C C^T (6, 6)
 };
 
 /// What is left of a field on the surfaces, projected.
