@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -128,11 +129,16 @@ ChildLoss loss_of(const SourceFile& source, const std::string& located) {
 }
 
 void forbid_system_calls(const SourceFile& source) {
-  if (!forbid_other_programs() && ending_of(source.name).starts_with(".geo"))
-    throw InputError(
-        fmt::format("'{}' is a script that could start other programs, which this system cannot prevent; "
-                    "--allow-system-calls reads it all the same",
-                    source.name));
+  if (forbid_other_programs() || !ending_of(source.name).starts_with(".geo")) return;
+  // This system cannot keep gmsh from it: a script that could is told by its words.
+  std::ifstream file(source.path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  for (const char* word : {"SystemCall", "OnelabRun", "Include", "Merge"})
+    if (text.find(word) != std::string::npos)
+      throw InputError(
+          fmt::format("'{}' is a script with '{}' that could start other programs, which this system cannot prevent; "
+                      "--allow-system-calls reads it all the same",
+                      source.name, word));
 }
 
 }  // namespace bielle::reduce

@@ -35,7 +35,7 @@ SourceFile prepare_source(const MeshRequest& request, Progress& progress);
 ChildLoss loss_of(const SourceFile& source, const std::string& located = "");
 
 /// A geometry may be a script that runs shell commands: from now on this process cannot start another program.
-/// @throws InputError when the file is a script and the system cannot prevent it
+/// @throws InputError when the system cannot prevent it and the script has words that could
 void forbid_system_calls(const SourceFile& source);
 
 }  // namespace bielle::reduce
