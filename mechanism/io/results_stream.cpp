@@ -26,7 +26,7 @@ constexpr int wait_per_writing = 10;
 constexpr std::size_t queue_bytes = std::size_t{8} << 20, most_queued = 128;
 // Rows are written in blocks of at most so many bytes and rows.
 constexpr std::size_t block_bytes = std::size_t{32} << 20, most_block_rows = 512;
-// Rows of a column of so many numbers are written one by one: a call costs less than copying them beside each other.
+// Rows of a column of so many numbers are written one by one: a call costs less than copying them next to each other.
 constexpr std::size_t large_column = 8192;
 // The file grows by so many bytes of results, or by less when the number of rows is known.
 constexpr std::size_t known_growth_bytes = std::size_t{1} << 30, unknown_growth_bytes = std::size_t{4} << 20;

@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
-#include <fstream>
 #include <new>
 
 #include <fcntl.h>
@@ -16,6 +15,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "reduce/common/address_space.hpp"
 #include "reduce/common/error.hpp"
 
 namespace bielle {
@@ -44,13 +44,6 @@ std::string read_all(int source) {
     if (count <= 0) return text;
     text.append(buffer, static_cast<std::size_t>(count));
   }
-}
-
-/// Of this process [bytes].
-rlim_t address_space() {
-  std::uint64_t pages = 0;
-  std::ifstream("/proc/self/statm") >> pages;
-  return static_cast<rlim_t>(pages) * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
 }
 
 void send(int pipe, Outcome outcome, const std::string& text) {

@@ -14,6 +14,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "reduce/common/address_space.hpp"
 #include "reduce/common/error.hpp"
 
 namespace bielle {
@@ -22,9 +23,7 @@ namespace {
 
 // -- before the libraries begin, those of the sanitizers included
 
-/// OpenBLAS takes so much address space for each of its threads when it is loaded, and tries for ever where it does not
-/// get it.
-constexpr rlim_t blas_buffer = rlim_t{136} << 20, other_libraries = rlim_t{64} << 20;
+constexpr rlim_t other_libraries = rlim_t{64} << 20;
 
 [[gnu::no_sanitize("address", "undefined")]] rlim_t blas_threads() {
   for (const char* name : {"OPENBLAS_NUM_THREADS", "GOTO_NUM_THREADS", "OMP_NUM_THREADS"})
@@ -33,15 +32,6 @@ constexpr rlim_t blas_buffer = rlim_t{136} << 20, other_libraries = rlim_t{64} <
   cpu_set_t set;
   CPU_ZERO(&set);
   return sched_getaffinity(0, sizeof set, &set) == 0 ? static_cast<rlim_t>(CPU_COUNT(&set)) : 1;
-}
-
-/// Of this process, with what is loaded; nothing that could allocate is called. @returns 0 when it is not known
-[[gnu::no_sanitize("address", "undefined")]] rlim_t address_space() {
-  const int file = open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
-  char text[32] = {};
-  const ssize_t count = file < 0 ? 0 : read(file, text, sizeof text - 1);
-  if (file >= 0) close(file);
-  return count <= 0 ? 0 : static_cast<rlim_t>(std::atol(text)) * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
 }
 
 [[gnu::no_sanitize("address", "undefined")]] void check_address_space(int, char**, char**) {

@@ -1,9 +1,9 @@
 #include "reduce/fe/material.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <fmt/format.h>
 
+#include "reduce/common/dense_solves.hpp"
 #include "reduce/common/error.hpp"
 
 namespace bielle::reduce {
@@ -18,7 +18,7 @@ void check_density(double density) {
 
 /// Refuses constants with which some strain would release energy.
 void check_positive_definite(const Eigen::Matrix<double, 6, 6>& elasticity, const char* constants) {
-  if (!elasticity.allFinite() || elasticity.llt().info() != Eigen::Success) {
+  if (!elasticity.allFinite() || !is_positive_definite(elasticity)) {
     throw InputError(fmt::format(
         "{} are not those of a stable material (the elasticity matrix is not positive definite)", constants));
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
-#include <fstream>
 #include <new>
 #include <vector>
 
@@ -11,7 +10,8 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 #include <sys/resource.h>
-#include <unistd.h>
+
+#include "reduce/common/address_space.hpp"
 
 namespace bielle {
 
@@ -47,15 +47,8 @@ int processor_width() {
 #endif
 }
 
-/// Address space for one thread that calls OpenBLAS, and for its stack and heap.
-constexpr rlim_t blas_buffer = rlim_t{136} << 20, of_thread = rlim_t{80} << 20;
-
-rlim_t used_address_space() {
-  std::ifstream file("/proc/self/statm");
-  rlim_t pages = 0;
-  file >> pages;
-  return pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
-}
+/// Address space for the stack and the heap of a thread.
+constexpr rlim_t of_thread = rlim_t{80} << 20;
 
 }  // namespace
 
@@ -120,7 +113,7 @@ void reserve_blas_memory(int threads) {
   rlimit limit{};
   if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return;
   const auto check = [&](rlim_t needed) {
-    if (used_address_space() + needed > limit.rlim_cur) throw std::bad_alloc();
+    if (address_space() + needed > limit.rlim_cur) throw std::bad_alloc();
   };
   const auto count = static_cast<rlim_t>(threads);
   check(count * blas_buffer);

@@ -427,9 +427,9 @@ elements:
   return sample;
 }
 
-/// With nodes that ride on points inside, one on the body's axis and one beside it.
-/// @param inside, beside  "at: [..]", or "point: .." for those of the file
-Sample superelement_with_points(const std::string& variant, const std::string& inside, const std::string& beside) {
+/// With nodes that ride on points inside, one on the body's axis and one off it.
+/// @param inside, off_axis  "at: [..]", or "point: .." for those of the file
+Sample superelement_with_points(const std::string& variant, const std::string& inside, const std::string& off_axis) {
   Sample sample{Section::elements,
                 "superelement",
                 variant,
@@ -441,7 +441,7 @@ points:
   inside: {element: it, )yaml" +
                     inside + R"yaml(}
   beside: {element: it, )yaml" +
-                    beside + R"yaml(}
+                    off_axis + R"yaml(}
 elements:
   it: {type: superelement, file: body.h5, nodes: {a: tip}, frame: mean_axes}
 )yaml",

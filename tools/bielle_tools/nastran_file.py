@@ -1,4 +1,4 @@
-"""What a Nastran file holds beside its mesh: materials, rigid elements, point masses.
+"""What a Nastran file holds besides its mesh: materials, rigid elements, point masses.
 
 A superelement has no place for some of it. Nothing of it is passed over in silence: materials are told as lines of a body
 file, the nodes of RBE2 and RBE3 become sets that an interface can name, everything else is told with its numbers.

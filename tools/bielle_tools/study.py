@@ -63,17 +63,17 @@ def run_study(program, model, names, rows, output, *, jobs=1, keep=None, report=
     except OSError as error:
         raise InputError(f"cannot read '{model}': {error.strerror}") from None
     _check_output(output)
-    beside = output + ".part"
+    partial = output + ".part"
     try:
-        study = h5py.File(beside, "w")
+        study = h5py.File(partial, "w")
     except OSError as error:
         raise InputError(f"cannot write '{output}': {os.strerror(error.errno) if error.errno else error}") from None
     try:
         failed = _run_all(study, program, model, text, names, rows, jobs, keep or KEPT, report)
     except BaseException:
-        os.remove(beside)
+        os.remove(partial)
         raise
-    os.replace(beside, output)
+    os.replace(partial, output)
     return failed
 
 

@@ -145,7 +145,7 @@ def find_superelement(results, element, given):
     """Path of the superelement file of an element of the results.
 
     given: {element: path} from the command line, where an element stands for all its pieces. Otherwise the attribute `file` of
-    the element; a file of that name beside the results or in the current folder serves as well, so that results and
+    the element; a file of that name next to the results or in the current folder serves as well, so that results and
     superelements can be moved together.
     """
     for name in (element, results.entry_of(element)):

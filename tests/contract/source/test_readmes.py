@@ -69,10 +69,10 @@ class Readmes(unittest.TestCase):
                            and name not in ("build", ".git"))
         for path, text in self.texts.items():
             for name in re.findall(rf"[`\s](?:\./)?((?:{folders})/[\w./-]+[A-Za-z0-9])(?![\w*<{{])", text):
-                beside = os.path.join(os.path.dirname(path), name)
+                nearby = os.path.join(os.path.dirname(path), name)
                 if name.endswith(".h5"):  # made by commands
                     continue
-                found = [place for start in (os.path.join(REPOSITORY, name), beside) for place in (start, *glob.glob(start + ".*"))]
+                found = [place for start in (os.path.join(REPOSITORY, name), nearby) for place in (start, *glob.glob(start + ".*"))]
                 self.assertTrue(any(map(os.path.exists, found)), f"{path}: {name}")
 
 

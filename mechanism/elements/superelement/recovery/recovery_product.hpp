@@ -35,7 +35,7 @@ class FrameBlock {
 };
 
 /// values[frames_abreast * r + f] = row `begin + r` of the matrix times the coordinates of frame f. Sums run over the
-/// coordinates in their order, so that a frame's numbers are the same to the bit whichever frames stand beside it,
+/// coordinates in their order, so that a frame's numbers are the same to the bit whichever frames stand next to it,
 /// however the rows are divided, and with any number of threads.
 /// @param count  of rows, a multiple of 3
 void multiply_rows(const RecoveryMatrix& matrix, Eigen::Index begin, Eigen::Index count, const double* group,

@@ -148,7 +148,7 @@ TEST_CASE("a singular matrix names the same unknown, condensed or not") {
   MatrixX A = two_blocks(random);
   Both both(A);
   REQUIRE(both.factor(scale_of(1)) == FactorStatus::good);
-  const int without = GENERATE(3, block + 1, size - 1);  // in a block, beside them, in the other block
+  const int without = GENERATE(3, block + 1, size - 1);  // in a block, outside of them, in the other block
   A.col(without).setZero();
   both.sparse.set(A);
   CHECK(both.factor(scale_of(1)) == FactorStatus::singular);

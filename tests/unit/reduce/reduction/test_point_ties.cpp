@@ -22,10 +22,10 @@ TEST_CASE("A point on a surface moves as the node of an average tie does") {
   const Mesh mesh = test::twisted_block();
   const Solid solid = solid_of(mesh);
   const Eigen::Vector3d place(0.7, -0.2, 0.3);
-  for (const bool beside : {false, true}) {
+  for (const bool off_centre : {false, true}) {
     InterfaceRequest tie = test::interface("a", "y1", Tie::average);
     PointRequest request = test::point_on("pad", "y1");
-    if (beside) tie.position = request.position = place;
+    if (off_centre) tie.position = request.position = place;
     const Ties ties = make_ties(solid, {tie});
     const TiedPoint point = tie_points(solid, {request}, "box").front();
     CHECK(point.position == ties.interfaces.front().position);
@@ -36,7 +36,7 @@ TEST_CASE("A point on a surface moves as the node of an average tie does") {
 TEST_CASE("Points follow rigid motions exactly and pass loads on without loss") {
   const Mesh mesh = test::twisted_block();
   const Solid solid = solid_of(mesh);
-  // At a node, between nodes, and a little beside the surface.
+  // At a node, between nodes, and a little off the surface.
   std::vector<PointRequest> requests = {test::point_at("node", mesh.points.col(40)),
                                         test::point_at("inside", mass_properties(solid).centre),
                                         test::point_on("pad", "z1")};
