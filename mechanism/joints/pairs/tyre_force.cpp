@@ -44,7 +44,7 @@ TyreForce::Force TyreForce::calc(const LocalState& of_wheel) const {
       force.F.setZero();
       force.by_v.setZero();
       force.by_forward.setZero();
-      force.by_N = size > 0 ? Vector2(-*law_.friction * s / size) : Vector2::Zero();
+      force.by_N.setZero();
       return force;
     }
     const double psi = size / most;

@@ -22,7 +22,7 @@ constexpr double R = 0.03, e = 0.01, r = 0.008, speed = 20, m = 0.5, g = 9.81;
 std::string cam(const bielle::test::TemporaryFolder& folder, double start, const std::string& contact, double turns = 1) {
   const std::string path = folder.path() + "/circle.csv";
   std::ofstream out(path);
-  constexpr int n = 120;
+  constexpr int n = 720;  // the spline's curvature is right to (2 pi/n)^2/12 = 6e-6
   for (int k = 0; k < n; ++k) {
     // The distance from the shaft to the circle along the direction phi.
     const double phi = 2 * M_PI * k / n;
