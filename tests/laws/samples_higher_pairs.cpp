@@ -52,6 +52,9 @@ std::vector<Sample> higher_pair_samples() {
                          "springs"));
   list.push_back(higher_pair("constant_velocity", place + ", second_axis: [0, 1, -1]",
                              {bad_position, bad_axis, {"second_axis", "[1, 2, 3]", "parallel"}}));
+  list.push_back(variant(higher_pair("constant_velocity", "position: [0.5, 0.2, 0.1], axes: [[1, 2, 3], [0, 1, 1]]",
+                                     {bad_position, {"axes", "[1, 2, 3]", "two directions"}, {"axes", "[[1, 0, 0], [-1, 0, 0]]", "fold back"}}),
+                         "drawn bent"));
   list.push_back(
       higher_pair("screw", place + ", pitch: 0.8", {bad_position, bad_axis, {"pitch", "0", "take a hinge"}}));
   list.push_back(higher_pair("distance", points + ", length: 0.9", {bad_points, short_length}));

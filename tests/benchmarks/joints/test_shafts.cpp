@@ -133,3 +133,22 @@ drives:
   });
   CHECK(largest > 2.59);  // 148 degrees
 }
+
+TEST_CASE("a constant-velocity joint that is drawn bent knows its bend") {
+  const std::string text = R"yaml(
+nodes: {s1: {}, s2: {}}
+elements:
+  w1: {type: rigid_body, node: s1, mass: 1, inertia: [0.01, 0.01, 0.02]}
+  w2: {type: rigid_body, node: s2, mass: 1, inertia: [0.01, 0.01, 0.02]}
+joints:
+  in: {type: hinge, nodes: [ground, s1], axis: [0, 0, 1]}
+  out: {type: hinge, nodes: [ground, s2], axis: [0.6, 0, 0.8]}
+  rzeppa: {type: constant_velocity, nodes: [s1, s2], axes: [[0, 0, 1], [0.6, 0, 0.8]]}
+drives: {motor: {joint: in, angle: "8*t"}}
+)yaml";
+  move(text, 0.01, 2, [&](const Session& session) {
+    CHECK(session.read("joints/out/coordinate")[0] == Approx(8 * session.time()).margin(1e-9));
+    const std::vector<double> bend = session.read("joints/rzeppa/coordinate");
+    CHECK(std::hypot(bend[0], bend[1]) == Approx(std::acos(0.8)).epsilon(1e-9));
+  });
+}
