@@ -4,6 +4,7 @@
 
 #include "mechanism/elements/beam/beam.hpp"
 #include "mechanism/elements/forces/load.hpp"
+#include "mechanism/elements/forces/node_force.hpp"
 #include "mechanism/elements/forces/spring_damper.hpp"
 #include "mechanism/elements/rigid_body/rigid_body.hpp"
 #include "mechanism/elements/superelement/superelement_body.hpp"
@@ -30,6 +31,7 @@ const std::vector<ComponentType>& component_table() {
       {Section::elements, "beam", read_beam},
       {Section::elements, "superelement", read_superelement_body},
       {Section::elements, "spring_damper", read_spring_damper},
+      {Section::elements, "node_force", read_node_force},
       {Section::joints, "rigid", read_rigid},
       {Section::joints, "hinge", read_hinge},
       {Section::joints, "prismatic", read_prismatic},

@@ -126,6 +126,25 @@ std::vector<Sample> coupling_samples() {
     };
     list.push_back(*sample);
   }
+  for (const std::string axes : {"first", "second", "inertial"}) {
+    Sample force{Section::elements,
+                 "node_force",
+                 axes,
+                 "nodes:\n"
+                 "  a: {position: [-1.2, 0.1, -0.2], rotation_vector: [0.3, -0.5, 0.8]}\n"
+                 "  b: {position: [0.2, 1.7, 0.1], rotation_vector: [-0.7, 0.2, 0.4]}\n"
+                 "elements:\n"
+                 "  it: {type: node_force, nodes: [a, b], at: [0.2, -0.1, 0.3], axes: " +
+                     axes +
+                     ", force: [2, 1 + t, \"0.5*distance(a, b)\"], moment: [0.4, \"0.3*distance(a, b)^2\", -1]}\n",
+                 {{"nodes", "[a, a]", "two different nodes"},
+                  {"at", "[1]", ""},
+                  {"axes", "third", "first"},
+                  {"force", "[1, 2]", "three components"},
+                  {"moment", "[1, 2, 'x']", "x"}}};
+    force.inertial = axes == "inertial";
+    list.push_back(force);
+  }
   const std::vector<BadValue> bad_rope = {{"nodes", "[a]", "two or more"},
                                           {"nodes", "[a, b, b]", "follows itself"},
                                           {"nodes", "[a, b, d]", "no node 'd'"},
