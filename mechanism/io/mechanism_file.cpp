@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/analyses/analysis_table.hpp"
+#include "mechanism/elements/forces/support.hpp"
 #include "mechanism/elements/superelement/body_points.hpp"
 #include "mechanism/io/component_table.hpp"
 #include "mechanism/io/doubtful_lengths.hpp"
@@ -164,6 +165,7 @@ MechanismFile read_mechanism(YamlValue root, const std::map<std::string, std::st
   if (const auto events = root.find("events"))
     for (const auto& [name, entry] : named_entries(*events)) read_event(name, entry, file.model);
   file.model.connect();
+  add_supports(file.model);
   doubt_lengths(file.model, root);
   if (file.model.members().empty()) root.fail("the mechanism has no elements, joints or loads");
 

@@ -1,0 +1,109 @@
+#include "mechanism/elements/forces/support.hpp"
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <set>
+
+namespace bielle::mechanism {
+
+Support::Support(std::string name, int node, std::vector<int> carried, std::vector<const Component*> acting)
+    : Component("support", std::move(name)), node_(node), carried_(std::move(carried)), acting_(std::move(acting)) {}
+
+void Support::declare(Declaration& declaration) const {
+  declaration.passive = true;
+  declaration.references = acting_;
+}
+
+void Support::gather(const State& state, const Slots& slots, const Eigen::Ref<const VectorX>& r, int begin,
+                     Vector6& sum) const {
+  for (std::size_t k = 0; k < slots.nodes.size(); ++k) {
+    const int node = slots.nodes[k];
+    if (node != node_ && std::find(carried_.begin(), carried_.end(), node) == carried_.end()) continue;
+    const NodeState &here = state.nodes[static_cast<std::size_t>(node)], &held = state.nodes[static_cast<std::size_t>(node_)];
+    const Vector3 force = r.segment<3>(begin + 6 * static_cast<int>(k)),
+                  moment = here.R * r.segment<3>(begin + 6 * static_cast<int>(k) + 3);
+    sum.head<3>() += force;
+    sum.tail<3>() += moment + (here.x - held.x).cross(force);
+  }
+  for (std::size_t k = 0; k < slots.references.size(); ++k)
+    gather(state, *slots.references[k], r, begin + slots.reference_rows[k], sum);
+}
+
+Vector6 Support::reaction(const LocalState& state) const {
+  // Reactions as reported: where redundancy leaves them open, the smallest.
+  const State* reported = &state.global();
+  State smallest;
+  if (reported->reaction.size() > 0) {
+    smallest = *reported;
+    smallest.multiplier = smallest.reaction;
+    reported = &smallest;
+  }
+  Vector6 sum = Vector6::Zero();
+  VectorX r;
+  for (std::size_t k = 0; k < acting_.size(); ++k) {
+    const LocalState of(*reported, state.of(static_cast<int>(k)).slots(), state.environment());
+    r.setZero(of.slots().size());
+    acting_[k]->add_residual(of, r);
+    gather(*reported, of.slots(), r, 0, sum);
+  }
+  return sum;
+}
+
+std::vector<OutputField> Support::output_fields() const {
+  return {{"reaction", {6}, "N, N m", "force and moment about the node that its support exerts on it, inertial components"}};
+}
+
+void Support::write_output(const LocalState& state, double* values) const {
+  Eigen::Map<Vector6> result(values);
+  result = reaction(state);
+}
+
+namespace {
+
+/// The nodes of a component and of all that it refers to.
+const std::set<int>& nodes_of(const Component& component, std::map<const Component*, std::set<int>>& known) {
+  const auto found = known.find(&component);
+  if (found != known.end()) return found->second;
+  Declaration declaration;
+  component.declare(declaration);
+  std::set<int> nodes;
+  if (!declaration.passive) nodes.insert(declaration.nodes.begin(), declaration.nodes.end());
+  for (const Component* other : declaration.references)
+    if (const std::set<int>& more = nodes_of(*other, known); !declaration.passive) nodes.insert(more.begin(), more.end());
+  return known.emplace(&component, std::move(nodes)).first->second;
+}
+
+}  // namespace
+
+void add_supports(Model& model) {
+  std::map<int, int> held_by;  // of each node that is held, or carried by one that is
+  const int count = static_cast<int>(model.nodes().size());
+  for (int k = 1; k < count; ++k) {
+    int top = k;
+    while (const auto carrier = model.node(top).carrier) top = *carrier;
+    const auto& freedom = model.node(top).freedom;
+    if (top != 0 && !model.node(top).internal &&
+        std::any_of(freedom.begin(), freedom.end(), [](Freedom f) { return f != Freedom::free; }))
+      held_by[k] = top;
+  }
+  if (held_by.empty()) return;
+  std::map<int, std::vector<const Component*>> acting;
+  std::map<const Component*, std::set<int>> known;
+  for (const Member& member : model.members()) {
+    std::set<int> supports;
+    for (const int node : nodes_of(*member.component, known))
+      if (const auto held = held_by.find(node); held != held_by.end()) supports.insert(held->second);
+    for (const int support : supports) acting[support].push_back(member.component.get());
+  }
+  for (auto& [node, components] : acting) {
+    std::vector<int> carried;
+    for (const auto& [each, top] : held_by)
+      if (top == node && each != node) carried.push_back(each);
+    const std::string name = model.node(node).name;
+    model.add(std::make_unique<Support>(name, node, std::move(carried), std::move(components)),
+              Entry{Section::supports, name});
+  }
+}
+
+}  // namespace bielle::mechanism
