@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/elements/beam/beam.hpp"
+#include "mechanism/elements/control/state_reader.hpp"
 #include "mechanism/elements/forces/load.hpp"
 #include "mechanism/elements/forces/spring_damper.hpp"
 #include "mechanism/elements/rigid_body/rigid_body.hpp"
@@ -27,6 +28,7 @@ const std::vector<ComponentType>& component_table() {
       {Section::joints, "planar", read_planar},
       {Section::drives, "drive", read_drive},
       {Section::loads, "load", read_load},
+      {Section::states, "state", read_state},
   };
   return table;
 }

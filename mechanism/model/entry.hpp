@@ -7,8 +7,8 @@
 namespace bielle::mechanism {
 
 /// Sections of a mechanism file whose entries have names. Inputs are measures.
-enum class Section { nodes, elements, joints, drives, loads, measures, events };
-inline constexpr std::size_t section_count = 7;
+enum class Section { nodes, elements, joints, drives, loads, states, measures, events };
+inline constexpr std::size_t section_count = 8;
 
 const char* section_name(Section section);  ///< as in the file: "joints"
 const char* section_noun(Section section);  ///< what one of its entries is: "joint"

@@ -8,7 +8,9 @@
 #include "mechanism/session/unique_reactions.hpp"
 #include "mechanism/solvers/constraints/redundancy.hpp"
 #include "mechanism/solvers/start/assemble_positions.hpp"
+#include "mechanism/solvers/start/begin_first_order.hpp"
 #include "mechanism/solvers/start/consistent_velocities.hpp"
+#include "mechanism/solvers/statics/held_states.hpp"
 #include "mechanism/solvers/statics/statics.hpp"
 #include "reduce/common/error.hpp"
 
@@ -59,6 +61,7 @@ StartReport Session::assemble() {
   assemble_positions(system_, environment_, state_, report);
   MassSaddle saddle(system_);
   make_velocities_consistent(system_, environment_, state_, report, saddle);
+  begin_first_order(system_, environment_, state_);
   system_.accept(state_, environment_);
   loaded_.motions = 1;
   EnergyBalance books;
@@ -131,6 +134,7 @@ StaticsReport Session::statics(const StaticsOptions& options) {
     throw;
   }
   shown_ = &state_;
+  if (const std::vector<std::string> held = held_names(system_, state_); !held.empty()) note(describe_held(held));
   return report;
 }
 

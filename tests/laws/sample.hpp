@@ -54,5 +54,7 @@ const std::vector<Sample>& samples();
 // Parts of the list.
 std::vector<Sample> element_samples();
 std::vector<Sample> joint_samples();
+std::vector<Sample> drive_samples();
+std::vector<Sample> state_samples();
 
 }  // namespace bielle::laws
