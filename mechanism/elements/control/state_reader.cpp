@@ -227,7 +227,10 @@ void read_state(const std::string& name, const YamlValue& entry, Model& model) {
   std::optional<MatrixX> rest;
   if (setup.starts_at_rest) {
     rest = rest_of(setup.block);
-    if (!rest) entry.at("start").fail("this block has no equilibrium of its own: it integrates (its A is singular)");
+    if (!rest)
+      entry.at("start").fail(
+          "this block has no equilibrium of its own: it integrates (a root of its denominator is zero, its A is "
+          "singular)");
   }
   double scale = std::max(1.0, setup.start.cwiseAbs().maxCoeff());
   if (const auto given = entry.find("scale")) scale = given->positive_number();

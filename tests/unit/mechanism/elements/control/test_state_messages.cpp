@@ -52,7 +52,7 @@ TEST_CASE("a loop through direct feed-through is refused where it stands") {
 
 TEST_CASE("what has no equilibrium of its own does not start there") {
   CHECK_THAT(
-      message("states: {sum: {transfer_function: {numerator: [1], denominator: [1, 0]}, input: main.angle, start: "
+      message("states: {total: {transfer_function: {numerator: [1], denominator: [1, 0]}, input: main.angle, start: "
               "equilibrium}}\n"),
-      Contains("states.sum.start") && Contains("it integrates"));
+      Contains("states.total.start") && Contains("it integrates"));
 }

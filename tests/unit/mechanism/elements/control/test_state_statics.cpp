@@ -32,9 +32,9 @@ struct Told final : Notes {
 
 const std::string integral_control = R"yaml(
 states:
-  sum: {rate: "0.4 - main.angle", scale: 0.1}
+  total: {rate: "0.4 - main.angle", scale: 0.1}
   seen: {filter: main.angle, frequency: 5}
-drives: {motor: {joint: main, torque: "30*(0.4 - seen) + 50*sum - 4*main.angle.rate"}}
+drives: {motor: {joint: main, torque: "30*(0.4 - seen) + 50*total - 4*main.angle.rate"}}
 )yaml";
 const double holding = 2 * 9.81 * 0.5 * std::cos(0.4);  // [N m]
 
@@ -49,13 +49,13 @@ TEST_CASE("in statics a controller's integral is what keeps the joint at its tar
   session.statics(options);
   CHECK(session.read("joints/main/coordinate")[0] == Approx(0.4).epsilon(1e-9));
   CHECK(session.read("measures/seen")[0] == Approx(0.4).epsilon(1e-9));
-  CHECK(session.read("measures/sum")[0] == Approx(holding / 50).epsilon(1e-8));
+  CHECK(session.read("measures/total")[0] == Approx(holding / 50).epsilon(1e-8));
   CHECK(told.all.empty());
   // From there nothing moves.
   Motion motion = session.dynamics(steps_of(0.5, 0.01));
   motion.finish();
   CHECK(session.read("joints/main/coordinate")[0] == Approx(0.4).epsilon(1e-8));
-  CHECK(session.read("measures/sum")[0] == Approx(holding / 50).epsilon(1e-7));
+  CHECK(session.read("measures/total")[0] == Approx(holding / 50).epsilon(1e-7));
 }
 
 TEST_CASE("a motion that starts in equilibrium starts with its states there") {
@@ -63,7 +63,7 @@ TEST_CASE("a motion that starts in equilibrium starts with its states there") {
   DynamicsOptions options = steps_of(0.2, 0.01);
   options.equilibrium = true;
   Motion motion = session.dynamics(options);
-  CHECK(session.read("measures/sum")[0] == Approx(holding / 50).epsilon(1e-8));
+  CHECK(session.read("measures/total")[0] == Approx(holding / 50).epsilon(1e-8));
   CHECK(motion.start().held.empty());
   motion.finish();
   CHECK(session.read("joints/main/coordinate")[0] == Approx(0.4).epsilon(1e-8));

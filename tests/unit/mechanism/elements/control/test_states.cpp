@@ -118,7 +118,7 @@ TEST_CASE("a motor that follows a filtered angle moves its joint as the equation
   const std::string text = rotor(R"yaml(
 states: {seen: {filter: main.angle, time_constant: 0.01}}
 drives: {motor: {joint: main, torque: "-50*(seen - 1) - 2*main.angle.rate"}}
-measures: {angle: main.angle, speed: main.angle.rate}
+measures: {turned: main.angle, speed: main.angle.rate}
 )yaml");
   Eigen::Vector3d z(0, 0, 0);
   const auto rate = [](const Eigen::Vector3d& at) {
@@ -127,12 +127,12 @@ measures: {angle: main.angle, speed: main.angle.rate}
   advance_by_runge_kutta(z, 0.6, 20000, rate);
   check_second_order(
       [&](double h) {
-        const Eigen::VectorXd end = at_end(text, 0.6, h, {"angle", "speed", "seen"});
+        const Eigen::VectorXd end = at_end(text, 0.6, h, {"turned", "speed", "seen"});
         return Eigen::Vector3d(end[0] - z[0], (end[1] - z[1]) / 10, end[2] - z[2]);
       },
       0.005, 4);
   // Steps that follow the error: the bound of the manual, tolerance^(2/3).
-  const Eigen::VectorXd end = at_end(text, 0.6, 1e-4, {"angle", "speed", "seen"}, 1e-8);
+  const Eigen::VectorXd end = at_end(text, 0.6, 1e-4, {"turned", "speed", "seen"}, 1e-8);
   CHECK(std::abs(end[0] - z[0]) < std::pow(1e-8, 2.0 / 3));
   CHECK(std::abs(end[2] - z[2]) < std::pow(1e-8, 2.0 / 3));
 }
