@@ -163,9 +163,10 @@ class Component {
   /// says otherwise (a rod between two points turns with the line between them).
   virtual double turning_rate(const LocalState& state) const;
 
-  /// Where the first analysis of a model begins, positions and velocities known: adds what start values of first-order
-  /// unknowns, its own or those of components that it refers to, have to change (a filter begins at its input). Asked
-  /// again until nothing changes, until a state is accepted: what has begun is for the component's memory to tell.
+  /// Where an analysis begins, positions and velocities known: adds what start values of first-order unknowns, its own or
+  /// those of components that it refers to, have to change (a filter begins at its input). Asked again until nothing
+  /// changes. A motion goes on with the values of the one before: what has begun is for the component's memory to tell.
+  /// In a static analysis they are where the search begins.
   /// @param change  of the component's local layout
   virtual void add_start_values(const LocalState& /*state*/, Eigen::Ref<VectorX> /*change*/) const {}
 

@@ -94,7 +94,7 @@ void StateEquation::describe(const LocalState& /*state*/, Description& descripti
   for (const StateFormula& each : inputs_) texts.push_back(each.text());
   description.add(fmt::format("{} {}", about_, fmt::join(texts, ", ")));
   if (rest_)
-    description.add("starts at rest, where its rates are zero");
+    description.add(type() == "filter" ? "starts at its input" : "starts in equilibrium");
   else
     description.add(fmt::format("starts at {:.6g}", fmt::join(unknowns_.start(), ", ")));
 }

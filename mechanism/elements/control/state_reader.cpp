@@ -171,9 +171,12 @@ void read_units(const YamlValue& entry, StateSetup& setup) {
     units->fail(fmt::format("expected {}, one for each output, found {}", recorded, setup.units->size()));
 }
 
+std::string per_second(const std::string& units) { return units == "-" ? "1/s" : units + "/s"; }
+
 /// Units of the k-th output.
 std::string units_of_output(const StateSetup& setup, std::size_t k) {
   if (!setup.units || setup.units->empty()) return "";
+  if (!setup.outputs[k].recorded && setup.type == "filter") return per_second(setup.units->front());
   if (!setup.outputs[k].recorded) return setup.units->size() == 1 ? setup.units->front() : "-";
   return setup.units->size() == 1 ? setup.units->front() : (*setup.units)[k];
 }
@@ -196,7 +199,9 @@ void announce_outputs(const Entry& entry, const StateSetup& setup, const StateUn
                                                    std::move(through), units);
       StateOutput& added = *measure;
       model.add_measure_of(entry, std::move(measure), output.recorded);
-      if (as_input && output.recorded) added.set_units(units_of_formula(*as_input, model));
+      if (!as_input) return;
+      const std::string of_input = units_of_formula(*as_input, model);
+      added.set_units(output.recorded || of_input.empty() ? of_input : per_second(of_input));
     });
   }
 }

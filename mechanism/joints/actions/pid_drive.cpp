@@ -36,6 +36,7 @@ void PidDrive::declare(Declaration& declaration) const {
     integral.equation_units = units;
     integral.holdable = true;
     declaration.first_order.push_back(std::move(integral));
+    declaration.starts_by_state = true;
   }
   if (filters()) {
     Declaration::Scalar filtered{"filtered error", units};
@@ -179,8 +180,17 @@ void PidDrive::add_tangent(const LocalState& state, LocalTangent& tangent) const
 }
 
 void PidDrive::add_start_values(const LocalState& state, Eigen::Ref<VectorX> change) const {
-  if (!filters() || state.memory()[actuator_memory()] != 0) return;
-  change[filter_row()] += loop(state).error - state.first_order()[filter_row()];
+  const bool statics = state.environment().statics;
+  const double error = loop(state).error;
+  if (filters() && (statics || state.memory()[actuator_memory()] == 0))
+    change[filter_row()] += error - state.first_order()[filter_row()];
+  if (!statics || !integrates() || keeps_integral(state)) return;
+  // The search sets off between the limits: at one of them nothing answers to the position.
+  const double u = gains_.proportional * error + gains_.integral * state.first_order()[0], side = this->side(state, u);
+  if (side == 0) return;
+  const bool both = limit().has_lower() && limit().has_upper();
+  const double within = both ? 0.5 * (limit().lower + limit().upper) : 2 * limited(side, u) - u;
+  change[0] += (within - u) / gains_.integral;
 }
 
 void PidDrive::accept(const LocalState& /*state*/, Eigen::Ref<VectorX> memory) const {

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "mechanism/solvers/newton/linear_step.hpp"
+#include "mechanism/solvers/start/begin_first_order.hpp"
 #include "reduce/common/dense_solves.hpp"
 
 namespace bielle::mechanism {
@@ -104,16 +105,18 @@ std::vector<Eigen::Index> find_determined(const Answers& answers) {
 
 }  // namespace
 
-void hold_undetermined(const System& system, const Environment& environment, State& state) {
+void begin_states(const System& system, const Environment& environment, State& state) {
   state.held.clear();
-  const std::vector<int>& some = system.holdable();
-  if (some.empty()) return;
-  state.held.assign(static_cast<std::size_t>(system.first_orders()), 0);
-  const std::optional<Answers> answers = calc_answers(system, environment, state);
-  if (!answers) return;  // then it is not for the states that there is no equilibrium
-  for (const int k : some) state.held[static_cast<std::size_t>(k)] = 1;
-  for (const Eigen::Index k : find_determined(*answers))
-    state.held[static_cast<std::size_t>(some[static_cast<std::size_t>(k)])] = 0;
+  if (const std::vector<int>& some = system.holdable(); !some.empty()) {
+    state.held.assign(static_cast<std::size_t>(system.first_orders()), 0);
+    // Where there are no answers, it is not for the states that there is no equilibrium.
+    if (const std::optional<Answers> answers = calc_answers(system, environment, state)) {
+      for (const int k : some) state.held[static_cast<std::size_t>(k)] = 1;
+      for (const Eigen::Index k : find_determined(*answers))
+        state.held[static_cast<std::size_t>(some[static_cast<std::size_t>(k)])] = 0;
+    }
+  }
+  begin_first_order(system, environment, state);
 }
 
 std::vector<std::string> held_names(const System& system, const State& state) {

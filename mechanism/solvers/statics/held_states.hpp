@@ -15,8 +15,10 @@
 
 namespace bielle::mechanism {
 
-/// Sets `held` of a state at rest. @param environment  of statics, under the whole load
-void hold_undetermined(const System& system, const Environment& environment, State& state);
+/// Begins a static analysis: sets `held` of a state at rest, and moves the other first-order unknowns to where their
+/// components say that the search begins (Component::add_start_values).
+/// @param environment  of statics, under the whole load
+void begin_states(const System& system, const Environment& environment, State& state);
 
 /// Names of the unknowns that are held: "value of state 'way'".
 std::vector<std::string> held_names(const System& system, const State& state);

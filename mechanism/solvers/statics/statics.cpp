@@ -16,7 +16,7 @@ void solve_statics(const System& system, const Environment& environment, const L
                    const std::function<void(const State&, double, int)>& record) {
   const LoadRamp ramp(system, environment, steps.start);
   ramp.set_off(state);
-  hold_undetermined(system, ramp.environment(1), state);
+  begin_states(system, ramp.environment(1), state);
   Equilibrium equilibrium(ramp, options);
   const double begin = ramp.begin();
   // Parts of the way from there to the full load.
@@ -62,7 +62,7 @@ std::optional<int> loose_unknown(const System& system, const Environment& enviro
 void relax(const System& system, const Environment& environment, const NewtonOptions& options, State& state) {
   const LoadRamp ramp(system, environment, {1, 1});
   ramp.set_off(state);
-  hold_undetermined(system, ramp.environment(1), state);
+  begin_states(system, ramp.environment(1), state);
   Equilibrium equilibrium(ramp, options);
   if (equilibrium.relax(1, state) < 0)
     throw ComputationError(fmt::format(

@@ -228,15 +228,17 @@ TEST_CASE("a check describes states, their starts and units") {
   const MechanismFile file = read_mechanism_text(rotor(R"yaml(
 states:
   lag: {filter: main.angle, time_constant: 0.15}
+  smooth: {filter: lag, frequency: 3}
   way: {rate: "lag - 0.1*way", start: 0.2, units: m}
   plant: {state_space: {A: [[-1]], B: [[1]]}, inputs: [way]}
 )yaml"),
                                                  "model.yaml");
   const std::string said = describe_model(file);
   using Catch::Contains;
-  CHECK_THAT(said, Contains("states       3 (filter 1, state 1, state_space 1)"));
+  CHECK_THAT(said, Contains("states       4 (filter 2, state 1, state_space 1)"));
   CHECK_THAT(said, Contains("state 'lag' (filter)") && Contains("first-order filter, 0.15 s, of main.angle") &&
-                       Contains("starts at rest") && Contains("lag [rad]"));
+                       Contains("starts at its input") && Contains("lag [rad]"));
+  CHECK_THAT(said, Contains("smooth.rate [rad/s]"));
   CHECK_THAT(said, Contains("state 'way'") && Contains("rate lag - 0.1*way") && Contains("starts at 0.2") &&
                        Contains("way [m]"));
   CHECK_THAT(said, Contains("state space of order 1 of way"));

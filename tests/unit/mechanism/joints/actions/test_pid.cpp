@@ -233,6 +233,25 @@ drives: {motor: {joint: main, pid: {target: 0.4, kp: 20, ki: 30, kd: 2)yaml" +
   CHECK(4 * low == Approx(6 - 2 * 9.81 * 0.5 * std::cos(low)).epsilon(1e-8));
 }
 
+TEST_CASE(
+    "in statics a controller reaches a target from where its torque is at the limit, whatever else holds the joint") {
+  for (const std::string limit : {"15", "[~, 15]"}) {
+    CAPTURE(limit);
+    Session session(read_mechanism_text(R"yaml(
+gravity: [0, -9.81, 0]
+nodes: {arm: {position: [0.5, 0, 0]}}
+elements: {arm: {type: rigid_body, node: arm, mass: 2, inertia: [0.1, 0.1, 0.1]}}
+joints: {main: {type: hinge, nodes: [ground, arm], position: [0, 0, 0], axis: [0, 0, 1]}}
+drives: {motor: {joint: main, pid: {target: 0.9, kp: 1000, ki: 500, kd: 20, filter: 0.01, limit: )yaml" +
+                                            limit + "}}}\n",
+                                        "model.yaml")
+                        .model);
+    session.statics({});
+    CHECK(session.read("joints/main/coordinate")[0] == Approx(0.9).epsilon(1e-9));
+    CHECK(session.read("joints/main/drive_force")[0] == Approx(9.81 * std::cos(0.9)).epsilon(1e-8));
+  }
+}
+
 TEST_CASE("a run with a controller goes on from a save to the last bit, before its limit and at it") {
   const std::string text = rotor(
       "drives: {motor: {joint: main, pid: {target: \"step(t, 0.1, 0.2)\", kp: 60, ki: 90, kd: 6, filter: 0.01, "
