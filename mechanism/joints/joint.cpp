@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/measures/pair_rotation.hpp"
+#include "mechanism/measures/turns.hpp"
 #include "mechanism/model/description.hpp"
 #include "mechanism/reading/names.hpp"
 
@@ -37,22 +38,25 @@ CoordinateRate Joint::principal_coordinate(std::size_t index, const LocalState& 
     const PairRotation rotation(first, second, A.R, B.R);
     return {rotation.psi()[coordinate.axis], rotation.omega(first, second)[coordinate.axis]};
   }
+  if (coordinate.axis == JointCoordinate::by_type) {
+    const PairMeasure m = calc_own_coordinate(index, state);
+    return {m.value, m.rate(pair_rate(first, second))};
+  }
   const auto [value, rate] = coordinate.kind == JointCoordinate::Kind::displacement
                                  ? measure_position_rate(first, second, A.R.col(coordinate.axis), A.x, B.x)
                                  : measure_angle_rate(first, second, A.R, B.R);
   return {value, rate};
 }
 
+PairMeasure Joint::calc_own_coordinate(std::size_t index, const LocalState& /*state*/) const {
+  throw std::logic_error(fmt::format("a {} does not define its coordinate '{}'", type(), coordinates_[index].name));
+}
+
 double Joint::counted(std::size_t index, const LocalState& state, const CoordinateRate& principal) const {
   if (coordinates_[index].kind != JointCoordinate::Kind::angle) return principal.value;
   const auto memory = state.memory();
   const auto at = 2 * static_cast<Eigen::Index>(index);
-  const double time_before = memory[memory.size() - 1];
-  // Before the first step: as far as statics have brought the drive that starts elsewhere than drawn.
-  const double expected = std::isnan(time_before)
-                              ? state.motion_factor() * memory[at]
-                              : memory[at] + 0.5 * (memory[at + 1] + principal.rate) * (state.time() - time_before);
-  return unwrap_angle(principal.value, expected);
+  return counted_angle(principal, {memory[at], memory[at + 1]}, memory[memory.size() - 1], state);
 }
 
 CoordinateRate Joint::coordinate(std::size_t index, const LocalState& state) const {
@@ -69,7 +73,8 @@ void Joint::calc_coordinate(std::size_t index, const LocalState& state, Coordina
     PairRotation(first, second, A.R, B.R).calc(coordinate.axis, first, second, jet);
     return;
   }
-  const PairMeasure m = coordinate.kind == JointCoordinate::Kind::angle
+  const PairMeasure m = coordinate.axis == JointCoordinate::by_type ? calc_own_coordinate(index, state)
+                        : coordinate.kind == JointCoordinate::Kind::angle
                             ? measure_angle(first, second, A.R, B.R)
                             : measure_position(first, second, A.R.col(coordinate.axis), A.x, B.x);
   jet.g().head<12>() = jet.w().head<12>() = m.gradient;
@@ -144,7 +149,8 @@ void Joint::describe(const LocalState& state, Description& description) const {
 
 std::vector<std::string> joint_frame_keys() { return {"type", "nodes", "position", "axis", "second_axis"}; }
 
-JointFrames read_joint_frames(const YamlValue& entry, const Model& model, AxisNeed need) {
+JointFrames read_joint_frames(const YamlValue& entry, const Model& model, AxisNeed need,
+                              const std::string& axis_key) {
   JointFrames frames;
   const std::vector<int> nodes = nodes_named_by(entry.at("nodes"), 2, model);
   frames.first = nodes[0];
@@ -153,9 +159,9 @@ JointFrames read_joint_frames(const YamlValue& entry, const Model& model, AxisNe
   const Frame &first = model.node(nodes[0]).frame, &second = model.node(nodes[1]).frame;
   Frame joint;
   joint.x = entry.has("position") ? entry.at("position").vector3() : second.x;
-  if (need == AxisNeed::required || entry.has("axis") || entry.has("second_axis")) {
+  if (need == AxisNeed::required || entry.has(axis_key) || entry.has("second_axis")) {
     const Vector3 z =
-        need == AxisNeed::required || entry.has("axis") ? Vector3(entry.at("axis").direction()) : Vector3::UnitZ();
+        need == AxisNeed::required || entry.has(axis_key) ? Vector3(entry.at(axis_key).direction()) : Vector3::UnitZ();
     Vector3 x;
     if (entry.has("second_axis")) {
       x = entry.at("second_axis").direction();

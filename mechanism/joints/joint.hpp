@@ -72,6 +72,8 @@ class Joint : public Component {
   std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const override;
 
  protected:
+  /// A coordinate that the type defines (JointCoordinate::by_type): an angle in (-pi, pi].
+  virtual PairMeasure calc_own_coordinate(std::size_t index, const LocalState& state) const;
   /// A coordinate's value, angles in (-pi, pi], and its rate.
   virtual CoordinateRate principal_coordinate(std::size_t index, const LocalState& state) const;
 
@@ -90,7 +92,9 @@ class Joint : public Component {
 enum class AxisNeed { required, optional };
 
 /// Reads `nodes`, `position`, `axis`, `second_axis` of a joint's entry.
-JointFrames read_joint_frames(const YamlValue& entry, const Model& model, AxisNeed need);
+/// @param axis_key  in place of `axis`, where the type calls it otherwise (`normal` of a plane)
+JointFrames read_joint_frames(const YamlValue& entry, const Model& model, AxisNeed need,
+                              const std::string& axis_key = "axis");
 
 /// The keys that `read_joint_frames` reads, with `type`.
 std::vector<std::string> joint_frame_keys();
