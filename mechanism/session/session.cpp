@@ -62,7 +62,9 @@ StartReport Session::assemble() {
   MassSaddle saddle(system_);
   make_velocities_consistent(system_, environment_, state_, report, saddle);
   begin_first_order(system_, environment_, state_);
+  const VectorX memory = state_.memory;
   system_.accept(state_, environment_);
+  count_as_not_begun(system_, memory, state_);
   loaded_.motions = 1;
   EnergyBalance books;
   books.start(state_.time, system_.energy(state_, environment_));

@@ -7,27 +7,13 @@ namespace bielle::mechanism {
 void ActuatorDrive::declare_actuator(Declaration& declaration) const {
   declare_drive(declaration);
   declaration.damping = reads_state();
-  if (!limit_.limits()) return;
-  declaration.memory.push_back(0);  // side
-  const auto add = [&](const char* end) {
-    Crossing crossing{fmt::format("{} {} at its {} limit", coordinate().name,
-                                  coordinate().kind == JointCoordinate::Kind::displacement ? "force" : "torque", end)};
-    crossing.begins_on = -1;
-    declaration.crossings.push_back(std::move(crossing));
-  };
-  if (limit_.has_upper()) add("upper");
-  if (limit_.has_lower()) add("lower");
-}
-
-double ActuatorDrive::side(const LocalState& state, double u) const {
-  if (!limit_.limits()) return 0;
-  return state.environment().statics ? side_of(u) : state.memory()[own_memory()];
+  declaration.kinks = limit_.limits();
 }
 
 double ActuatorDrive::force(const LocalState& state) const {
   if (released(state)) return 0;
   const double u = effort(state);
-  return state.environment().load_factor * limited(side(state, u), u);
+  return state.environment().load_factor * limited(side(u), u);
 }
 
 void ActuatorDrive::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
@@ -41,7 +27,7 @@ void ActuatorDrive::add_tangent(const LocalState& state, LocalTangent& tangent) 
   if (released(state) || (!tangent.wants_K && !(tangent.wants_C && reads_state()))) return;
   thread_local Effort effort;
   calc_effort(state, effort);
-  const double factor = state.environment().load_factor, side = this->side(state, effort.value);
+  const double factor = state.environment().load_factor, side = this->side(effort.value);
   CoordinateJet& jet = calc(state);
   const int at = row(state);
   const auto n = jet.w().size();
@@ -56,33 +42,6 @@ void ActuatorDrive::add_energy(const LocalState& state, Energy& energy) const {
 }
 
 // -- limits
-
-void ActuatorDrive::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const {
-  Drive::calc_crossings(state, values);
-  if (!limit_.limits()) return;
-  Eigen::Index k = own_crossings();
-  if (released(state)) {  // they stay on the side that they were on
-    const double before = state.memory()[own_memory()];
-    if (limit_.has_upper()) values[k++] = before > 0 ? 1 : -1;
-    if (limit_.has_lower()) values[k] = before < 0 ? 1 : -1;
-    return;
-  }
-  const double u = effort(state);
-  if (limit_.has_upper()) values[k++] = u - limit_.upper;
-  if (limit_.has_lower()) values[k] = limit_.lower - u;
-}
-
-void ActuatorDrive::begin_branch(const LocalState& state, std::span<const int> crossed,
-                                 Eigen::Ref<VectorX> memory) const {
-  Drive::begin_branch(state, crossed, memory);
-  if (!limit_.limits() || (can_release() && memory[0] != 0)) return;
-  memory[own_memory()] = side_of(effort(state));
-}
-
-bool ActuatorDrive::leaves_branch(const LocalState& state) const {
-  if (Drive::leaves_branch(state)) return true;
-  return limit_.limits() && !released(state) && side_of(effort(state)) != state.memory()[own_memory()];
-}
 
 std::string ActuatorDrive::limit_text() const {
   if (!limit_.limits()) return {};

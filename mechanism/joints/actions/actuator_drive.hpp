@@ -2,8 +2,9 @@
 // pulled.
 //
 //     Q = s min(max(u, lower), upper),    u what the law asks for (an effort),  s the load factor of a static analysis
-// At the limits the law changes: steps end there (crossings). Which branch a step is computed on, between the limits
-// or at one of them, stands in the memory; static analyses take it from u itself.
+// At the limits Q is continuous and its slope jumps: such a kink costs a step O(h^2) of the velocity, once, and leaves
+// the order of the scheme. No step ends there: the velocities that u depends on are corrected where a branch begins
+// (solvers/README.md), which may lead back across the limit.
 #pragma once
 
 #include <limits>
@@ -35,9 +36,6 @@ class ActuatorDrive : public Drive {
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   void add_energy(const LocalState& state, Energy& energy) const final;
-  void calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const final;
-  void begin_branch(const LocalState& state, std::span<const int> crossed, Eigen::Ref<VectorX> memory) const final;
-  bool leaves_branch(const LocalState& state) const final;
 
  protected:
   virtual double effort(const LocalState& state) const = 0;
@@ -48,17 +46,14 @@ class ActuatorDrive : public Drive {
 
   void declare_actuator(Declaration& declaration) const;
   const ForceLimit& limit() const { return limit_; }
-  /// -1 at the lower limit, 1 at the upper one, 0 between them. @param u  the effort
-  double side(const LocalState& state, double u) const;
+  /// -1 beyond the lower limit, 1 beyond the upper one, 0 between them. @param u  the effort
+  double side(double u) const { return u > limit_.upper ? 1 : u < limit_.lower ? -1 : 0; }
   double limited(double side, double u) const { return side > 0 ? limit_.upper : side < 0 ? limit_.lower : u; }
-  /// How many numbers of the memory are taken.
-  Eigen::Index actuator_memory() const { return own_memory() + (limit_.limits() ? 1 : 0); }
   double force(const LocalState& state) const final;
   /// "within -5 to 5", or nothing.
   std::string limit_text() const;
 
  private:
-  double side_of(double u) const { return u > limit_.upper ? 1 : u < limit_.lower ? -1 : 0; }
   ForceLimit limit_;
 };
 

@@ -32,9 +32,9 @@ class Drive : public CoordinateAction {
   void write_output(const LocalState& state, double* values) const final { write_force(force(state), values); }
   void describe(const LocalState& state, Description& description) const final;
   void add_break_points(std::vector<double>& times) const final;
-  void calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const override;
-  void begin_branch(const LocalState& state, std::span<const int> crossed, Eigen::Ref<VectorX> memory) const override;
-  bool leaves_branch(const LocalState& state) const override;
+  void calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const final;
+  void begin_branch(const LocalState& state, std::span<const int> crossed, Eigen::Ref<VectorX> memory) const final;
+  bool leaves_branch(const LocalState& state) const final;
 
  protected:
   virtual double force(const LocalState& state) const = 0;  ///< along the coordinate [N] or [N m]
@@ -50,9 +50,8 @@ class Drive : public CoordinateAction {
   void declare_drive(Declaration& declaration) const;
   bool can_release() const { return release_measure_ || release_time_ < std::numeric_limits<double>::infinity(); }
   bool released(const LocalState& state) const { return can_release() && state.memory()[0] != 0; }
-  /// How many numbers of the memory, and crossings, are taken.
+  /// How many numbers of the memory are taken.
   Eigen::Index own_memory() const { return can_release() ? 1 : 0; }
-  Eigen::Index own_crossings() const { return release_measure_ ? 1 : 0; }
 
  private:
   double release_time_ = std::numeric_limits<double>::infinity();  ///< [s]

@@ -140,7 +140,7 @@ void PidDrive::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) cons
   const Loop now = loop(state);
   if (integrates() && !keeps_integral(state)) {
     r[0] += state.first_order_rate()[0];
-    if (!released(state)) r[0] -= now.error + windup_rate(side(state, now.effort), now.effort);
+    if (!released(state)) r[0] -= now.error + windup_rate(side(now.effort), now.effort);
   }
   if (filters()) r[filter_row()] += state.first_order_rate()[filter_row()] - now.derivative;
 }
@@ -158,7 +158,7 @@ void PidDrive::add_tangent(const LocalState& state, LocalTangent& tangent) const
       if (tangent.wants_K) tangent.K.dense().row(0) -= error.by_position.transpose();
       if (tangent.wants_C) tangent.C.dense().row(0) -= error.by_rate.transpose();
       calc_effort(state, effort);
-      if (side(state, effort.value) != 0) {
+      if (side(effort.value) != 0) {
         const double factor = 1 / (gains_.integral * gains_.tracking_time);
         if (tangent.wants_K) tangent.K.dense().row(0) += factor * effort.by_position.transpose();
         if (tangent.wants_C) tangent.C.dense().row(0) += factor * effort.by_rate.transpose();
@@ -182,11 +182,11 @@ void PidDrive::add_tangent(const LocalState& state, LocalTangent& tangent) const
 void PidDrive::add_start_values(const LocalState& state, Eigen::Ref<VectorX> change) const {
   const bool statics = state.environment().statics;
   const double error = loop(state).error;
-  if (filters() && (statics || state.memory()[actuator_memory()] == 0))
+  if (filters() && (statics || state.memory()[own_memory()] == 0))
     change[filter_row()] += error - state.first_order()[filter_row()];
   if (!statics || !integrates() || keeps_integral(state)) return;
   // The search sets off between the limits: at one of them nothing answers to the position.
-  const double u = gains_.proportional * error + gains_.integral * state.first_order()[0], side = this->side(state, u);
+  const double u = gains_.proportional * error + gains_.integral * state.first_order()[0], side = this->side(u);
   if (side == 0) return;
   const bool both = limit().has_lower() && limit().has_upper();
   const double within = both ? 0.5 * (limit().lower + limit().upper) : 2 * limited(side, u) - u;
@@ -194,7 +194,7 @@ void PidDrive::add_start_values(const LocalState& state, Eigen::Ref<VectorX> cha
 }
 
 void PidDrive::accept(const LocalState& /*state*/, Eigen::Ref<VectorX> memory) const {
-  if (filters()) memory[actuator_memory()] = 1;
+  if (filters()) memory[own_memory()] = 1;
 }
 
 Drive::LawText PidDrive::law_text() const {

@@ -21,15 +21,22 @@ bool move_first_order(const Slots& slots, const double* local, State& state) {
   return moved;
 }
 
-}  // namespace
-
-bool begin_first_order(const System& system, const Environment& environment, State& state) {
+/// Members that have start values to give.
+std::vector<std::size_t> find_beginning(const System& system) {
   std::vector<std::size_t> beginning;
+  if (system.first_orders() == 0) return beginning;
   for (std::size_t m = 0; m < system.slots().size(); ++m) {
     Declaration declaration;
     system.model().members()[m].component->declare(declaration);
     if (declaration.starts_by_state) beginning.push_back(m);
   }
+  return beginning;
+}
+
+}  // namespace
+
+bool begin_first_order(const System& system, const Environment& environment, State& state) {
+  const std::vector<std::size_t> beginning = find_beginning(system);
   bool moved = false;
   // Each pass settles one more of a chain.
   for (std::size_t pass = 0; pass <= beginning.size(); ++pass) {
@@ -44,6 +51,13 @@ bool begin_first_order(const System& system, const Environment& environment, Sta
     moved = true;
   }
   return moved;
+}
+
+void count_as_not_begun(const System& system, const VectorX& memory, State& state) {
+  for (const std::size_t m : find_beginning(system)) {
+    const Slots& slots = system.slots()[m];
+    state.memory.segment(slots.memory_begin, slots.memories) = memory.segment(slots.memory_begin, slots.memories);
+  }
 }
 
 }  // namespace bielle::mechanism

@@ -183,6 +183,8 @@ joints: {main: {type: hinge, nodes: [ground, rotor], axis: [0, 0, 1], second_axi
 states: {load: {filter: main.reaction.x, time_constant: 0.1}}
 )yaml";
   Session session = session_of(text);
+  session.assemble();  // which knows no reactions
+  CHECK(session.read("measures/load")[0] == 0);
   Motion motion = session.dynamics(steps_of(0.1, 0.01));
   CHECK(session.read("measures/load")[0] == Approx(9.81).epsilon(1e-11));
   motion.finish();
