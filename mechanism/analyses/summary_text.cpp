@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "mechanism/session/unique_reactions.hpp"
+#include "mechanism/solvers/statics/held_states.hpp"
 #include "mechanism/system/loose_parts.hpp"
 #include "reduce/common/counted.hpp"
 
@@ -18,6 +19,7 @@ std::string format_start(const StartReport& start) {
                         start.largest_displacement, start.largest_rotation);
   if (start.settled > 0)
     text += fmt::format("  static equilibrium moved node '{}' by {:.3g} m\n", start.settled_node, start.settled);
+  if (!start.held.empty()) text += fmt::format("  {}\n", describe_held(start.held));
   if (start.balanced > 1e-9)
     text += fmt::format(
         "  node '{}', which has no mass, stood out of the balance of its forces: it was moved there, by {:.3g} m\n",
@@ -47,8 +49,9 @@ std::string describe_loose(const System& system) {
   if (nodes.empty()) return {};
   std::vector<std::string> names;
   for (std::size_t k = 0; k < std::min(most, nodes.size()); ++k) names.push_back(system.model().node(nodes[k]).name);
-  return fmt::format("joined to nothing that is held: {} '{}'{}", nodes.size() == 1 ? "the part of node" : "the parts of nodes",
-                     fmt::join(names, "', '"), nodes.size() > most ? fmt::format(" and {} more", nodes.size() - most) : "");
+  return fmt::format("joined to nothing that is held: {} '{}'{}",
+                     nodes.size() == 1 ? "the part of node" : "the parts of nodes", fmt::join(names, "', '"),
+                     nodes.size() > most ? fmt::format(" and {} more", nodes.size() - most) : "");
 }
 
 std::string format_mobility(const Session& session) {
@@ -60,7 +63,8 @@ std::string format_mobility(const Session& session) {
   for (const std::string& name : session.redundant()) text += fmt::format("  redundant: {}; set aside\n", name);
   for (const std::string& name : mobility.nearly_redundant)
     text += fmt::format(
-        "  nearly redundant: {} differs from what others hold by less than a thousandth; as it is, it takes a degree of "
+        "  nearly redundant: {} differs from what others hold by less than a thousandth; as it is, it takes a degree "
+        "of "
         "freedom away and may bear any force: are axes and positions exact?\n",
         name);
   if (const auto joints = joints_not_unique(session.system(), session.acting(), session.state()); !joints.empty())

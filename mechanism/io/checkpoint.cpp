@@ -53,7 +53,8 @@ State displaced(const System& system, const State& start) {
     if (system.kind(i) == Kind::translation) dq[i] *= length;
   system.displace(state, start, dq);
   system.set_rates(state, 100 * dq, 1e4 * dq);
-  state.first_order *= 1.01;
+  for (int i = 0; i < system.first_orders(); ++i)
+    state.first_order[i] = 1.01 * state.first_order[i] + 0.01 * system.scale(n + i) * std::cos(2 + 2.4 * i);
   state.multiplier.setOnes();
   return state;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/elements/beam/beam.hpp"
+#include "mechanism/elements/control/state_reader.hpp"
 #include "mechanism/elements/forces/load.hpp"
 #include "mechanism/elements/forces/node_force.hpp"
 #include "mechanism/elements/forces/spring_damper.hpp"
@@ -58,6 +59,7 @@ const std::vector<ComponentType>& component_table() {
       {Section::joints, "cable", read_cable},
       {Section::drives, "drive", read_drive},
       {Section::loads, "load", read_load},
+      {Section::states, "state", read_state},
   };
   return table;
 }

@@ -10,8 +10,8 @@
 namespace bielle::mechanism {
 
 struct ComponentType {
-  Section section;   ///< elements, joints, drives or loads
-  const char* name;  ///< the entry's `type`; drives and loads have one type each and no `type` key
+  Section section;   ///< elements, joints, drives, loads or states
+  const char* name;  ///< the entry's `type`; drives, loads and states have one type each and no `type` key
   ComponentReader read;
 };
 

@@ -17,8 +17,8 @@
 namespace bielle::mechanism {
 namespace {
 
-constexpr std::array described_sections = {Section::elements, Section::joints,   Section::drives,
-                                           Section::loads,    Section::measures, Section::events};
+constexpr std::array described_sections = {Section::elements, Section::joints,   Section::drives, Section::loads,
+                                           Section::states,   Section::measures, Section::events};
 
 /// What formulas have made for themselves is no entry of the file.
 bool is_own(const Member& member) {
@@ -165,13 +165,14 @@ std::string describe_model(const MechanismFile& file) {
   text += fmt::format("  unknowns     {}, {} of first order, {}\n",
                       counted(system.dofs(), "displacement or amplitude", "displacements and amplitudes"),
                       system.first_orders(), counted(system.multipliers(), "multiplier"));
-  text += fmt::format("  freedom      {} after {}\n",
-                      counted(mobility.degrees, "degree of freedom", "degrees of freedom"),
-                      counted(mobility.independent, "independent constraint"));
+  text +=
+      fmt::format("  freedom      {} after {}\n", counted(mobility.degrees, "degree of freedom", "degrees of freedom"),
+                  counted(mobility.independent, "independent constraint"));
   text += format_start(report);
   for (const std::string& names : name_constraints(system, redundant))
     text += fmt::format("  redundant    {}: set aside\n", names);
-  if (const std::string loose = describe_loose(system); !loose.empty()) text += fmt::format("  loose        {}\n", loose);
+  if (const std::string loose = describe_loose(system); !loose.empty())
+    text += fmt::format("  loose        {}\n", loose);
   for (const std::string& names : mobility.nearly_redundant)
     text += fmt::format("  nearly       redundant: {}\n", names);
   if (const std::vector<std::string> joints = joints_not_unique(system, model.environment, state); !joints.empty())

@@ -37,8 +37,8 @@ void read_parameters(YamlValue& root, const std::map<std::string, std::string>& 
     for (const auto& [name, value] : section->entries()) {
       const auto given = overrides.find(name);
       try {
-        root.set_parameter(name, given == overrides.end() ? value.number()
-                                                          : Expression(given->second, {}, root.parameters())({}));
+        root.set_parameter(
+            name, given == overrides.end() ? value.number() : Expression(given->second, {}, root.parameters())({}));
       } catch (const std::runtime_error& error) {
         if (given == overrides.end()) throw;
         throw InputError(fmt::format("--set {}={}: {}", name, given->second, error.what()));
@@ -134,8 +134,8 @@ std::vector<std::pair<std::string, YamlValue>> named_entries(const YamlValue& se
 }
 
 MechanismFile read_mechanism(YamlValue root, const std::map<std::string, std::string>& overrides) {
-  root.check_keys({"mechanism", "gravity", "parameters", "nodes", "elements", "joints", "drives", "loads", "measures",
-                   "inputs", "events", "analysis", "output", "points"},
+  root.check_keys({"mechanism", "gravity", "parameters", "nodes", "elements", "joints", "drives", "loads", "states",
+                   "measures", "inputs", "events", "analysis", "output", "points"},
                   "a mechanism file");
   MechanismFile file;
   file.text = root.source_text();
@@ -153,7 +153,7 @@ MechanismFile read_mechanism(YamlValue root, const std::map<std::string, std::st
   if (root.has("nodes"))
     for (const auto& [name, entry] : named_entries(root.at("nodes"))) read_node(name, entry, file.model);
   if (const auto points = root.find("points")) read_body_points(*points, root.find("elements"), file.model);
-  for (const Section section : {Section::elements, Section::joints, Section::drives, Section::loads}) {
+  for (const Section section : {Section::elements, Section::joints, Section::drives, Section::loads, Section::states}) {
     const auto entries = root.find(section_name(section));
     if (!entries) continue;
     for (const auto& [name, entry] : named_entries(*entries)) read_component(section, name, entry, file.model);

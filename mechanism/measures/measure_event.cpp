@@ -35,15 +35,20 @@ void MeasureEvent::describe(const LocalState& /*state*/, Description& descriptio
   description.add(stops_ ? "stops the run" : "is noted");
 }
 
+Crossing::Direction read_crossing_direction(const YamlValue& entry) {
+  const auto word = entry.find("direction");
+  if (!word) return Crossing::Direction::both;
+  const std::string chosen = word->word({"rising", "falling", "both"}, "a direction of crossing");
+  return chosen == "rising"    ? Crossing::Direction::rising
+         : chosen == "falling" ? Crossing::Direction::falling
+                               : Crossing::Direction::both;
+}
+
 void read_event(const std::string& name, const YamlValue& entry, Model& model) {
   entry.check_keys({"when", "crosses", "direction", "action"}, "an event");
   const YamlValue when = entry.at("when");
   const double value = entry.has("crosses") ? entry.at("crosses").number() : 0;
-  Crossing::Direction direction = Crossing::Direction::both;
-  if (const auto word = entry.find("direction")) {
-    const std::string chosen = word->word({"rising", "falling", "both"}, "a direction of crossing");
-    if (chosen != "both") direction = chosen == "rising" ? Crossing::Direction::rising : Crossing::Direction::falling;
-  }
+  const Crossing::Direction direction = read_crossing_direction(entry);
   const bool stops = entry.has("action") && entry.at("action").word({"note", "stop"}, "an action") == "stop";
   model.when_read(Model::Stage::formulas, [=, &model] {
     model.add(std::make_unique<MeasureEvent>(name, measure_named_by(when, model), value, direction, stops),

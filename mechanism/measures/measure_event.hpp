@@ -19,6 +19,9 @@ class MeasureEvent final : public Component {
   void add_residual(const LocalState&, Eigen::Ref<VectorX>) const override {}
   void calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const override;
   void describe(const LocalState& state, Description& description) const override;
+  const Measure& measure() const { return measure_; }
+  double value() const { return value_; }
+  Crossing::Direction direction() const { return direction_; }
 
  private:
   References references_;
@@ -27,6 +30,9 @@ class MeasureEvent final : public Component {
   Crossing::Direction direction_;
   bool stops_;
 };
+
+/// The key `direction` of an entry; both without it.
+Crossing::Direction read_crossing_direction(const YamlValue& entry);
 
 /// Reads an entry of `events`, once the model is read: `{when: measure or formula, crosses: value, direction: rising |
 /// falling | both, action: note | stop}`. @throws InputError

@@ -24,7 +24,7 @@ class Lookup {
 
   const Measure& find(const FormulaReference& reference) {
     const std::string name = reference.function.empty() ? dotted(reference) : called(reference);
-    if (const Measure* known = model_.find_measure(name)) return *known;
+    if (const Measure* known = named(name)) return *known;
     return model_.add_measure(reference.function.empty() ? make_dotted(reference, name) : make_called(reference, name),
                               false);
   }
@@ -86,6 +86,9 @@ class Lookup {
       if (has(node_measure_names())) return make_node_measure(name, model_, *index, wanted);
       offer(node_measure_names());
     }
+    // Those of a control block: "plant.y1".
+    for (const std::string& each : model_.announced_measures())
+      if (each.rfind(subject + ".", 0) == 0) available.push_back(each.substr(subject.size() + 1));
     if (available.empty()) {
       std::vector<std::string> subjects = node_names();
       for (const Section section : {Section::joints, Section::elements})
@@ -145,14 +148,19 @@ std::vector<StateFormula::Argument> refer_to(const std::vector<const Measure*>& 
   return arguments;
 }
 
+/// Of t, and of the measures.
+std::vector<std::string> argument_units(const std::vector<const Measure*>& measures) {
+  std::vector<std::string> units = {"s"};
+  for (const Measure* measure : measures) units.push_back(measure->units());
+  return units;
+}
+
 std::unique_ptr<Measure> read_combined(const std::string& name, const YamlValue& formula,
                                        const std::optional<YamlValue>& units, Model& model) {
   const ReadFormula read = read_formula(formula, {"t"}, model);
   if (read.measures.empty())
     formula.fail("a measure is a formula of the state: of joints (main.angle), nodes (pin.position.x), other measures");
-  std::vector<std::string> argument_units = {"s"};
-  for (const Measure* measure : read.measures) argument_units.push_back(measure->units());
-  std::string inferred = units ? units->text() : units_of(read.expression, argument_units);
+  std::string inferred = units ? units->text() : units_of(read.expression, argument_units(read.measures));
   References references;
   StateFormula of_state(read.expression, 1, refer_to(read.measures, references));
   return std::make_unique<CombinedMeasure>(name, std::move(references), std::move(of_state), std::move(inferred));
@@ -196,8 +204,13 @@ StateFormula read_state_formula(const YamlValue& value, const std::vector<std::s
   return {read.expression, variables.size(), refer_to(read.measures, references)};
 }
 
+std::string units_of_formula(const YamlValue& value, Model& model) {
+  const ReadFormula read = read_formula(value, {"t"}, model);
+  return units_of(read.expression, argument_units(read.measures));
+}
+
 void check_measure_name(const std::string& name, const YamlValue& entry, const Model& model) {
-  if (model.announces_measure(name)) entry.fail(fmt::format("there is a measure or input '{}' already", name));
+  if (model.announces_measure(name)) entry.fail(fmt::format("there is a measure, input or state '{}' already", name));
   if (entry.parameters().count(name)) entry.fail(fmt::format("'{}' is a parameter already; choose another name", name));
   const std::vector<std::string> own = {"t", "q", "v", "e", "s"};
   const auto is_in = [&](const std::vector<std::string>& names) {

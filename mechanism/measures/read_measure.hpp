@@ -18,6 +18,8 @@ namespace bielle::mechanism {
 /// @throws InputError with the nearest name
 StateFormula read_state_formula(const YamlValue& value, const std::vector<std::string>& variables, Model& model,
                                 References& references);
+/// Units of such a formula of t; empty where they are unknown.
+std::string units_of_formula(const YamlValue& value, Model& model);
 
 /// Refuses what cannot be the name of a measure or input in formulas. @throws InputError
 void check_measure_name(const std::string& name, const YamlValue& entry, const Model& model);

@@ -62,6 +62,10 @@ struct Declaration {
     /// (a junction without volume). Its start value is only where the search for one begins; its rate in the state is
     /// zero.
     bool algebraic = false;
+    /// First-order unknowns only: where a static analysis does not determine it by a rate of zero (an integral that
+    /// nothing depends on), it stays where it is. Its component, and what adds to its equation, see to that by
+    /// LocalState::held: its row then holds its own increment alone.
+    bool holdable = false;
     /// Multipliers only: the constraint may be switched off and on during a run, see Component::is_on.
     bool switched = false;
   };
@@ -80,6 +84,8 @@ struct Declaration {
   bool stiffness = false, damping = false, mass = false;
   /// The component adds to its tangent by blocks alone, each once, and never asks for a dense matrix (LocalMatrix).
   bool in_blocks = false;
+  /// Start values of first-order unknowns follow from the state, see Component::add_start_values.
+  bool starts_by_state = false;
   bool passive = false;  ///< it adds nothing to the equations (a measure)
 };
 
@@ -156,6 +162,13 @@ class Component {
   /// How fast the directions of its constraints turn at most [rad/s]: as the fastest of its nodes, unless a component
   /// says otherwise (a rod between two points turns with the line between them).
   virtual double turning_rate(const LocalState& state) const;
+
+  /// Where an analysis begins, positions and velocities known: adds what start values of first-order unknowns, its own or
+  /// those of components that it refers to, have to change (a filter begins at its input). Asked again until nothing
+  /// changes. A motion goes on with the values of the one before: what has begun is for the component's memory to tell.
+  /// In a static analysis they are where the search begins.
+  /// @param change  of the component's local layout
+  virtual void add_start_values(const LocalState& /*state*/, Eigen::Ref<VectorX> /*change*/) const {}
 
   /// What is wrong with an assembled position although its constraint rows vanish (axes that point in opposite
   /// directions): a clause, or nothing.

@@ -5,14 +5,14 @@
 namespace bielle::mechanism {
 
 const char* section_name(Section section) {
-  static constexpr std::array<const char*, section_count> names = {"nodes", "elements", "joints", "drives",
-                                                                   "loads", "measures", "events", "supports"};
+  static constexpr std::array<const char*, section_count> names = {
+      "nodes", "elements", "joints", "drives", "loads", "states", "measures", "events", "supports"};
   return names[static_cast<std::size_t>(section)];
 }
 
 const char* section_noun(Section section) {
-  static constexpr std::array<const char*, section_count> nouns = {"node", "element", "joint", "drive",
-                                                                   "load", "measure", "event", "support"};
+  static constexpr std::array<const char*, section_count> nouns = {
+      "node", "element", "joint", "drive", "load", "state", "measure", "event", "support"};
   return nouns[static_cast<std::size_t>(section)];
 }
 

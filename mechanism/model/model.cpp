@@ -90,11 +90,26 @@ void Model::announce_measure(const std::string& name, std::function<void()> make
   announced_.push_back({name, std::move(make), false});
 }
 
+std::vector<std::string> Model::announced_measures() const {
+  std::vector<std::string> names;
+  for (const auto& [name, place] : announced_index_) names.push_back(name);
+  return names;
+}
+
 Measure& Model::add_measure(std::unique_ptr<Measure> measure, bool recorded) {
+  const Entry entry{Section::measures, measure->name()};
+  return add_measure_of(entry, std::move(measure), recorded);
+}
+
+Measure& Model::add_measure_of(const Entry& entry, std::unique_ptr<Measure> measure, bool recorded) {
   Measure& added = *measure;
   measures_[added.name()] = &added;
-  const Entry entry{Section::measures, added.name()};
-  add(std::move(measure), entry, recorded ? Recorded::alone : Recorded::no);
+  const Entry results{Section::measures, added.name()};
+  if (entry == results)
+    add(std::move(measure), entry, recorded ? Recorded::alone : Recorded::no);
+  else
+    add_within(std::move(measure), entry, results);
+  members_.back().recorded = recorded ? Recorded::alone : Recorded::no;
   return added;
 }
 

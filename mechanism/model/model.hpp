@@ -91,10 +91,14 @@ class Model {
   void announce_measure(const std::string& name, std::function<void()> make);
   /// @param recorded  among the results, under its name
   Measure& add_measure(std::unique_ptr<Measure> measure, bool recorded);
+  /// One that belongs to an entry of another section (a state), and stands among the results of measures.
+  Measure& add_measure_of(const Entry& entry, std::unique_ptr<Measure> measure, bool recorded);
   /// A measure by its name, made now if it is announced, or nullptr. @throws InputError when it is being made already
   const Measure* find_measure(const std::string& name);
   /// Whether entries that are still being read may use a measure of this name.
   bool announces_measure(const std::string& name) const { return announced_index_.contains(name); }
+  /// Their names, sorted.
+  std::vector<std::string> announced_measures() const;
 
   /// Takes a node, joint or element out of what is recorded.
   void leave_out(const Entry& entry) { left_out_.insert(entry); }

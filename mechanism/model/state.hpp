@@ -32,6 +32,9 @@ struct State {
   /// Whether each constraint is out of the equations (redundant, or switched off), by multiplier. Its multiplier is
   /// zero. Empty: none is.
   std::vector<char> idle;
+  /// Whether each first-order unknown stays where it is in a static analysis, which its rate does not determine; its
+  /// equation is then out of the equations. Set by such an analysis alone. Empty: none does.
+  std::vector<char> held;
   /// Where redundancy leaves multipliers undetermined: those of the reactions of smallest norm
   /// (solvers/constraints/reaction_norm.hpp). Empty: `multiplier` itself.
   VectorX reaction;
@@ -110,6 +113,11 @@ class LocalState {
   /// Whether the k-th own constraint is out of the equations.
   bool idle(int k) const {
     return !state_.idle.empty() && state_.idle[static_cast<std::size_t>(slots_.multiplier_begin + k)] != 0;
+  }
+  /// Whether the k-th own first-order unknown stays where it is: in a static analysis that does not determine it.
+  bool held(int k) const {
+    return environment_.statics && !state_.held.empty() &&
+           state_.held[static_cast<std::size_t>(slots_.first_order_begin + k)] != 0;
   }
   /// What the k-th component that this one refers to sees.
   LocalState of(int k) const { return {state_, *slots_.references[static_cast<std::size_t>(k)], environment_}; }

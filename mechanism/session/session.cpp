@@ -8,7 +8,9 @@
 #include "mechanism/session/unique_reactions.hpp"
 #include "mechanism/solvers/constraints/redundancy.hpp"
 #include "mechanism/solvers/start/assemble_positions.hpp"
+#include "mechanism/solvers/start/begin_first_order.hpp"
 #include "mechanism/solvers/start/consistent_velocities.hpp"
+#include "mechanism/solvers/statics/held_states.hpp"
 #include "mechanism/solvers/statics/statics.hpp"
 #include "reduce/common/error.hpp"
 
@@ -59,7 +61,10 @@ StartReport Session::assemble() {
   assemble_positions(system_, environment_, state_, report);
   MassSaddle saddle(system_);
   make_velocities_consistent(system_, environment_, state_, report, saddle);
+  begin_first_order(system_, environment_, state_);
+  const VectorX memory = state_.memory;
   system_.accept(state_, environment_);
+  count_as_not_begun(system_, memory, state_);
   loaded_.motions = 1;
   EnergyBalance books;
   books.start(state_.time, system_.energy(state_, environment_));
@@ -131,6 +136,7 @@ StaticsReport Session::statics(const StaticsOptions& options) {
     throw;
   }
   shown_ = &state_;
+  if (const std::vector<std::string> held = held_names(system_, state_); !held.empty()) note(describe_held(held));
   return report;
 }
 

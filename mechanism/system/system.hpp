@@ -43,6 +43,8 @@ class System {
   double scale(int unknown) const { return unknowns_.scale(unknown); }
   /// First-order unknowns whose equations hold no rates of theirs, ascending, counted among the first-order ones.
   const std::vector<int>& algebraic() const { return unknowns_.algebraic(); }
+  /// Those that a static analysis may leave where they are (Declaration::Scalar::holdable), likewise.
+  const std::vector<int>& holdable() const { return unknowns_.holdable(); }
   /// "rotation y of node 'pin'", "mode 3 of element 'rod'"
   std::string unknown_name(int unknown) const { return unknowns_.name(unknown); }
   /// "moment y at node 'pin'", "constraint x of joint 'main'"

@@ -43,7 +43,7 @@ void Unknowns::append(Kind kind, const std::vector<Declaration::Scalar>& declare
   for (const Declaration::Scalar& each : declared)
     scalars.push_back({each.start, each.scale, word(each.name),
                        word(each.equation_units.empty() ? usual_equation_units(kind, each) : each.equation_units),
-                       member, each.kind, each.algebraic});
+                       member, each.kind, each.algebraic, each.holdable});
 }
 
 void Unknowns::add(const Declaration& declaration) {
@@ -76,6 +76,8 @@ void Unknowns::complete() {
   multipliers_ = count(2);
   for (int k = 0; k < first_orders_; ++k)
     if (added_[1][static_cast<std::size_t>(k)].algebraic) algebraic_.push_back(k);
+  for (int k = 0; k < first_orders_; ++k)
+    if (added_[1][static_cast<std::size_t>(k)].holdable) holdable_.push_back(k);
   scalars_.reserve(static_cast<std::size_t>(amplitudes_ + first_orders_ + multipliers_));
   for (std::vector<Scalar>& scalars : added_) {
     scalars_.insert(scalars_.end(), scalars.begin(), scalars.end());

@@ -53,6 +53,7 @@ class Unknowns {
   ConstraintKind constraint_kind(int multiplier) const { return scalar(first_multiplier() + multiplier).constraint; }
   double scale(int unknown) const { return unknown < nodes_ ? 0 : scalar(unknown).scale; }
   const std::vector<int>& algebraic() const { return algebraic_; }
+  const std::vector<int>& holdable() const { return holdable_; }
   std::string name(int unknown) const;
   std::string equation_name(int equation) const;
   std::string equation_units(int equation) const;
@@ -67,7 +68,7 @@ class Unknowns {
     const std::string *name, *equation_units;
     int member;
     ConstraintKind constraint;
-    bool algebraic;
+    bool algebraic, holdable;
   };
   const Scalar& scalar(int unknown) const { return scalars_[static_cast<std::size_t>(unknown - nodes_)]; }
   void append(Kind kind, const std::vector<Declaration::Scalar>& declared, std::vector<Scalar>& scalars);
@@ -82,7 +83,7 @@ class Unknowns {
   std::vector<Kind> kinds_;
   std::unordered_set<std::string> words_;
   std::vector<Scalar> scalars_;  ///< in the order of the unknowns
-  std::vector<int> algebraic_;
+  std::vector<int> algebraic_, holdable_;
   std::vector<double> start_memory_;
   /// While members are added: scalars by kind; of each reference, who refers to whom.
   std::array<std::vector<Scalar>, 3> added_;

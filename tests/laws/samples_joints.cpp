@@ -1,4 +1,4 @@
-// Samples of joints and drives.
+// Samples of joints and of what acts in them.
 #include "tests/laws/sample.hpp"
 
 namespace bielle::laws {
@@ -51,16 +51,6 @@ std::vector<BadValue> bad_actions(const std::string& coordinate = "") {
     for (const char* key : {"stiffness", "damping", "rest", "preload"})
       bad.push_back({key, "5", "several coordinates"});
   return bad;
-}
-
-Sample drive(const std::string& joint_type, const std::string& law, const std::string& value,
-             std::vector<BadValue> bad) {
-  bad.push_back({"joint", "axis", "no 'axis'"});
-  bad.push_back({law, "'x*t'", "x"});
-  return {Section::drives, "drive", law + " of a " + joint_type,
-          pair("  axle: {type: " + joint_type + ", nodes: [a, b], position: [0.5, 0.2, 0.1], axis: [1, 2, 3]}\n",
-               "drives:\n  it: {joint: axle, " + law + ": \"" + value + "\"}\n"),
-          std::move(bad)};
 }
 
 }  // namespace
@@ -124,26 +114,6 @@ std::vector<Sample> joint_samples() {
                                {"damping.rx", "-1", ""},
                                {"damping.ry", "-1", ""},
                                {"damping.rz", "-1", ""}}));
-  // Formulas of the state: every kind of measure.
-  const std::string everything =
-      "2 + axle.angle*sin(t) - 0.3*axle.angle.rate + 0.1*axle.reaction.x - 0.2*axle.reaction.rz + "
-      "b.position.y*a.velocity.z"
-      " + b.rotation.x + 0.1*a.angular_velocity.y + distance(a, b)*angle(a, b)";
-  Sample of_state = drive("hinge", "torque", everything, {{"torque", "'axle.angel'", "did you mean 'angle'"}});
-  of_state.inertial = true;
-  list.push_back(of_state);
-  list.push_back(drive("spherical", "torque", "2 + axle.rx*axle.ry.rate", {{"coordinate", "angle", "rx"}}));
-  list.back().model.replace(list.back().model.find("it: {joint: axle"), 16, "it: {coordinate: ry, joint: axle");
-  list.push_back(drive("spherical", "rate", "0.3*t", {{"coordinate", "angle", "rx"}}));
-  list.back().model.replace(list.back().model.find("it: {joint: axle"), 16, "it: {coordinate: rz, joint: axle");
-  list.push_back(drive("spherical", "angle", "0.3*t", {{"coordinate", "angle", "rx"}}));
-  list.back().model.replace(list.back().model.find("it: {joint: axle"), 16, "it: {coordinate: rx, joint: axle");
-  list.push_back(drive("hinge", "angle", "0.3*t + 0.1*sin(t)", {}));
-  list.push_back(drive("prismatic", "displacement", "0.3*t^2", {}));
-  list.push_back(drive("hinge", "rate", "0.3*cos(t)", {}));
-  list.push_back(drive("prismatic", "speed", "0.3*t", {}));
-  list.push_back(drive("hinge", "torque", "2 + t", {}));
-  list.push_back(drive("cylindrical", "force", "2 + t", {}));
   return list;
 }
 

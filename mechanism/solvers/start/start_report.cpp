@@ -19,6 +19,7 @@ void StartReport::add(const StartReport& later) {
     balanced = later.balanced;
     balanced_node = later.balanced_node;
   }
+  if (!later.held.empty()) held = later.held;
   if (!later.unbalanced.empty()) unbalanced = later.unbalanced;
 }
 

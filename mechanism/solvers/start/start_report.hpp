@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "mechanism/system/system.hpp"
 
@@ -18,6 +19,7 @@ struct StartReport {
   double balanced = 0;              ///< largest displacement of a node without mass, to where its forces balance [m]
   std::string balanced_node;        ///< that node's name
   std::string unbalanced;           ///< an unknown without mass whose forces could not be balanced; empty: none
+  std::vector<std::string> held;    ///< first-order unknowns that static equilibrium has left where they were
   void add(const StartReport& later);
 };
 

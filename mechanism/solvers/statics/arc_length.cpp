@@ -7,6 +7,7 @@
 
 #include "mechanism/solvers/constraints/redundancy.hpp"
 #include "mechanism/solvers/statics/equilibrium.hpp"
+#include "mechanism/solvers/statics/held_states.hpp"
 #include "mechanism/solvers/statics/path_step.hpp"
 #include "reduce/common/counted.hpp"
 
@@ -268,6 +269,7 @@ Loaded follow_path(const System& system, const Environment& environment, const L
                    const std::function<void(const State&, const PathPoint&)>& record) {
   const LoadRamp ramp(system, environment, start);
   ramp.set_off(state);
+  begin_states(system, ramp.environment(1), state);
   Path path(ramp, options, newton, state);
   for (int points = 0; !path.ended(); ++points) {
     if (points == options.most_points)

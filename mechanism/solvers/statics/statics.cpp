@@ -7,6 +7,7 @@
 
 #include "mechanism/solvers/start/assemble_positions.hpp"
 #include "mechanism/solvers/statics/equilibrium.hpp"
+#include "mechanism/solvers/statics/held_states.hpp"
 
 namespace bielle::mechanism {
 
@@ -15,6 +16,7 @@ void solve_statics(const System& system, const Environment& environment, const L
                    const std::function<void(const State&, double, int)>& record) {
   const LoadRamp ramp(system, environment, steps.start);
   ramp.set_off(state);
+  begin_states(system, ramp.environment(1), state);
   Equilibrium equilibrium(ramp, options);
   const double begin = ramp.begin();
   // Parts of the way from there to the full load.
@@ -60,6 +62,7 @@ std::optional<int> loose_unknown(const System& system, const Environment& enviro
 void relax(const System& system, const Environment& environment, const NewtonOptions& options, State& state) {
   const LoadRamp ramp(system, environment, {1, 1});
   ramp.set_off(state);
+  begin_states(system, ramp.environment(1), state);
   Equilibrium equilibrium(ramp, options);
   if (equilibrium.relax(1, state) < 0)
     throw ComputationError(fmt::format(
@@ -88,6 +91,7 @@ void settle(const System& system, const Environment& of_motion, const NewtonOpti
                                        *loose >= 0 ? system.unknown_name(*loose) : "an unknown"));
   system.set_rates(state, v, VectorX::Zero(system.dofs()));
   note_farthest(system, assembled, state, report.settled, report.settled_node);
+  report.held = held_names(system, state);
 }
 
 }  // namespace bielle::mechanism

@@ -12,7 +12,7 @@ import re
 FOLDERS = {
     "reduce": ["common", "spectral", "superelement", "mesh", "fe", "reduction", ""],
     "mechanism": ["math", "model", "reading", "measures",
-                  "elements/beam", "elements/forces", "elements/rigid_body",
+                  "elements/beam", "elements/control", "elements/forces", "elements/rigid_body",
                   "elements/superelement/recovery", "elements/superelement",
                   "joints", "joints/actions", "joints/cables", "joints/couplings", "joints/gears", "joints/pairs", "joints/cams",
                   "system", "solvers/newton", "solvers/constraints", "solvers/start", "solvers/statics", "solvers/dynamics",

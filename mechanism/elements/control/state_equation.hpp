@@ -1,0 +1,47 @@
+// What the rates of a control block are: adds -(A x + B u) to the equations x' + .. = 0 of its unknowns, u formulas of
+// time and state. A user's own differential equation is x' = u, with x among what u depends on.
+//
+// In a static analysis the rates are zero, but for unknowns that they do not determine there (State::held).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mechanism/elements/control/linear_block.hpp"
+#include "mechanism/elements/control/state_unknowns.hpp"
+#include "mechanism/measures/state_formula.hpp"
+#include "mechanism/model/model.hpp"
+#include "reduce/common/yaml_file.hpp"
+
+namespace bielle::mechanism {
+
+class StateEquation final : public Component {
+ public:
+  /// @param rest   G of a start at rest, x = G u at the start, in place of the start values of the unknowns
+  /// @param about  the block in words, for `--check`: "first-order filter, 0.01 s"
+  StateEquation(const StateUnknowns& unknowns, LinearBlock block, std::optional<MatrixX> rest, std::string about);
+  /// Takes one more input, once the model is read.
+  void read_input(const YamlValue& formula, Model& model);
+
+  void declare(Declaration& declaration) const override;
+  void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
+  void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
+  void add_pattern(const Slots& slots, LocalPattern& pattern) const override;
+  void add_start_values(const LocalState& state, Eigen::Ref<VectorX> change) const override;
+  void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
+  void add_break_points(std::vector<double>& times) const override;
+  void describe(const LocalState& state, Description& description) const override;
+
+ private:
+  VectorX input(const LocalState& state) const;
+  int size() const { return static_cast<int>(block_.A.rows()); }
+  const StateUnknowns& unknowns_;
+  LinearBlock block_;
+  std::optional<MatrixX> rest_;
+  std::string about_;
+  References references_;  ///< the unknowns first
+  std::vector<StateFormula> inputs_;
+};
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,254 @@
+#include "mechanism/elements/control/state_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "mechanism/elements/control/state_equation.hpp"
+#include "mechanism/elements/control/state_output.hpp"
+#include "mechanism/measures/read_measure.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+/// What the keys of an entry say.
+struct StateSetup {
+  std::string type;   ///< "filter"
+  std::string about;  ///< in words, before the inputs: "first-order filter, 0.01 s, of"
+  LinearBlock block{};
+  std::vector<YamlValue> inputs{};
+  std::vector<std::string> unknowns{};              ///< names, for messages
+  VectorX start{};                                  ///< of the unknowns
+  bool starts_at_rest = false;                      ///< in place of these
+  std::optional<std::vector<std::string>> units{};  ///< of each output, one for all, or as the input
+  struct Output {
+    std::string name;
+    VectorX c, d;
+    bool recorded;
+  };
+  std::vector<Output> outputs{};
+};
+
+std::vector<std::string> with_common_keys(std::vector<std::string> keys) {
+  keys.insert(keys.end(), {"start", "units", "scale"});
+  return keys;
+}
+
+/// `start: equilibrium`.
+bool says_equilibrium(const std::optional<YamlValue>& start) {
+  return start && start->is_scalar() && !start->is_null() && start->text() == "equilibrium";
+}
+
+StateSetup read_rate(const std::string& name, const YamlValue& entry) {
+  entry.check_keys(with_common_keys({"rate"}), "a state with a `rate`");
+  StateSetup setup{"state", "rate", integrator(), {entry.at("rate")}, {"value"}, VectorX::Zero(1)};
+  if (const auto start = entry.find("start")) setup.start[0] = start->number();
+  setup.outputs = {{name, VectorX::Ones(1), {}, true}};
+  return setup;
+}
+
+StateSetup read_filter(const std::string& name, const YamlValue& entry) {
+  entry.check_keys(with_common_keys({"filter", "time_constant", "frequency", "damping"}), "a filter");
+  if (entry.has("time_constant") == entry.has("frequency"))
+    entry.fail(
+        "a filter is of first order, with a `time_constant` [s], or of second order, with a `frequency` [Hz] and a "
+        "`damping`: give one of the two");
+  StateSetup setup{"filter", "", {}, {entry.at("filter")}, {"value"}, VectorX::Zero(1)};
+  if (const auto time = entry.find("time_constant")) {
+    if (const auto damping = entry.find("damping")) damping->fail("belongs to a filter with a `frequency`");
+    const double T = time->positive_number();
+    setup.block = first_order_filter(T);
+    setup.about = fmt::format("first-order filter, {:.6g} s, of", T);
+  } else {
+    const double frequency = entry.at("frequency").positive_number();
+    const double damping = entry.has("damping") ? entry.at("damping").non_negative_number() : std::sqrt(0.5);
+    setup.block = second_order_filter(frequency, damping);
+    setup.about = fmt::format("second-order filter, {:.6g} Hz, damping {:.6g}, of", frequency, damping);
+    setup.unknowns.emplace_back("rate/frequency");
+    setup.start = VectorX::Zero(2);
+  }
+  for (Eigen::Index k = 0; k < setup.block.C.rows(); ++k)
+    setup.outputs.push_back({k == 0 ? name : name + ".rate", setup.block.C.row(k).transpose(), {}, k == 0});
+  const auto start = entry.find("start");
+  setup.starts_at_rest = !start || says_equilibrium(start);
+  if (!setup.starts_at_rest) setup.start[0] = start->number();
+  return setup;
+}
+
+/// Coefficients in descending powers, those of higher powers that are zero taken away.
+std::vector<double> read_coefficients(const YamlValue& list) {
+  const VectorX all = list.vector();
+  std::vector<double> coefficients(all.begin(), all.end());
+  const auto first = std::find_if(coefficients.begin(), coefficients.end(), [](double each) { return each != 0; });
+  coefficients.erase(coefficients.begin(), first);
+  if (coefficients.empty()) list.fail("expected coefficients in descending powers of s, not all of them zero");
+  return coefficients;
+}
+
+void name_unknowns(StateSetup& setup) {
+  for (Eigen::Index k = 0; k < setup.block.A.rows(); ++k) setup.unknowns.push_back(fmt::format("x{}", k + 1));
+}
+
+StateSetup read_transfer_function(const std::string& name, const YamlValue& entry) {
+  entry.check_keys(with_common_keys({"transfer_function", "input"}), "a transfer function");
+  const YamlValue function = entry.at("transfer_function");
+  function.check_keys({"numerator", "denominator"}, "`transfer_function`");
+  const std::vector<double> numerator = read_coefficients(function.at("numerator")),
+                            denominator = read_coefficients(function.at("denominator"));
+  if (denominator.size() < 2)
+    function.at("denominator").fail("has no power of s: what is proportional to its input is a formula of `measures`");
+  if (numerator.size() > denominator.size())
+    function.at("numerator")
+        .fail(fmt::format("its degree, {}, exceeds that of the denominator, {}: such a function has derivatives of its "
+                          "input; add poles to the denominator (a filter)",
+                          numerator.size() - 1, denominator.size() - 1));
+  StateSetup setup{"transfer_function", "", realisation(numerator, denominator), {entry.at("input")}, {}};
+  setup.about = fmt::format("transfer function of order {} of", denominator.size() - 1);
+  name_unknowns(setup);
+  setup.start = VectorX::Zero(setup.block.A.rows());
+  setup.outputs = {{name, setup.block.C.row(0).transpose(), setup.block.D.row(0).transpose(), true}};
+  if (const auto start = entry.find("start")) {
+    if (!says_equilibrium(start) && start->word({"zero", "equilibrium"}, "a start of a transfer function") == "zero")
+      return setup;
+    setup.starts_at_rest = true;
+  }
+  return setup;
+}
+
+StateSetup read_state_space(const std::string& name, const YamlValue& entry) {
+  entry.check_keys(with_common_keys({"state_space", "inputs"}), "a state-space block");
+  const YamlValue matrices = entry.at("state_space");
+  matrices.check_keys({"A", "B", "C", "D"}, "`state_space`");
+  StateSetup setup{"state_space", "", {}, entry.at("inputs").items(), {}};
+  const auto inputs = static_cast<Eigen::Index>(setup.inputs.size());
+  if (inputs == 0) entry.at("inputs").fail("expected at least one input");
+  const auto n = static_cast<Eigen::Index>(matrices.at("A").size());
+  if (n == 0) matrices.at("A").fail("expected a square matrix, row by row");
+  setup.block.A = matrices.at("A").matrix(n, n);
+  setup.block.B = matrices.at("B").matrix(n, inputs);
+  const auto C = matrices.find("C"), D = matrices.find("D");
+  const auto outputs = C ? static_cast<Eigen::Index>(C->size()) : n;
+  setup.block.C = C ? MatrixX(C->matrix(outputs, n)) : MatrixX(MatrixX::Identity(n, n));
+  if (outputs == 0) C->fail("expected at least one row, an output");
+  setup.block.D = D ? MatrixX(D->matrix(outputs, inputs)) : MatrixX(MatrixX::Zero(outputs, inputs));
+  setup.about = fmt::format("state space of order {} of", n);
+  name_unknowns(setup);
+  for (Eigen::Index k = 0; k < outputs; ++k)
+    setup.outputs.push_back({outputs == 1 ? name : fmt::format("{}.y{}", name, k + 1), setup.block.C.row(k).transpose(),
+                             setup.block.D.row(k).transpose(), true});
+  for (Eigen::Index k = 0; k < n; ++k)
+    setup.outputs.push_back({fmt::format("{}.x{}", name, k + 1), VectorX::Unit(n, k), {}, false});
+  setup.start = VectorX::Zero(n);
+  const auto start = entry.find("start");
+  setup.starts_at_rest = says_equilibrium(start);
+  if (!start || setup.starts_at_rest) return setup;
+  if (!start->is_sequence() || static_cast<Eigen::Index>(start->size()) != n)
+    start->fail(fmt::format("expected a list of {} numbers, one for each state, or equilibrium", n));
+  setup.start = start->vector();
+  return setup;
+}
+
+/// Units as given: one text, or a list of one for each of the outputs that are recorded.
+void read_units(const YamlValue& entry, StateSetup& setup) {
+  const auto units = entry.find("units");
+  if (!units) {
+    if (setup.type != "filter") setup.units = std::vector<std::string>{"-"};
+    return;
+  }
+  if (!units->is_sequence()) {
+    setup.units = std::vector<std::string>{units->text()};
+    return;
+  }
+  const auto recorded = static_cast<std::size_t>(
+      std::count_if(setup.outputs.begin(), setup.outputs.end(), [](const auto& output) { return output.recorded; }));
+  setup.units.emplace();
+  for (const YamlValue& each : units->items()) setup.units->push_back(each.text());
+  if (setup.units->size() != recorded)
+    units->fail(fmt::format("expected {}, one for each output, found {}", recorded, setup.units->size()));
+}
+
+std::string per_second(const std::string& units) { return units == "-" ? "1/s" : units + "/s"; }
+
+/// Units of the k-th output.
+std::string units_of_output(const StateSetup& setup, std::size_t k) {
+  if (!setup.units || setup.units->empty()) return "";
+  if (!setup.outputs[k].recorded && setup.type == "filter") return per_second(setup.units->front());
+  if (!setup.outputs[k].recorded) return setup.units->size() == 1 ? setup.units->front() : "-";
+  return setup.units->size() == 1 ? setup.units->front() : (*setup.units)[k];
+}
+
+/// Announces the outputs as measures.
+void announce_outputs(const Entry& entry, const StateSetup& setup, const StateUnknowns& unknowns, Model& model) {
+  for (std::size_t k = 0; k < setup.outputs.size(); ++k) {
+    const StateSetup::Output& output = setup.outputs[k];
+    const std::string units = units_of_output(setup, k);
+    // The units of a filter are those of its input, which may itself ask for those of the filter.
+    const std::optional<YamlValue> as_input = setup.units ? std::nullopt : std::optional(setup.inputs.front());
+    model.announce_measure(output.name, [=, &unknowns, &model, inputs = setup.inputs] {
+      References references;
+      references.add(unknowns);
+      std::vector<StateOutput::Through> through;
+      for (std::size_t j = 0; j < inputs.size() && output.d.size() > 0; ++j)
+        if (const double factor = output.d[static_cast<Eigen::Index>(j)]; factor != 0)
+          through.push_back({factor, read_state_formula(inputs[j], {"t"}, model, references)});
+      auto measure = std::make_unique<StateOutput>(output.name, unknowns, std::move(references), output.c,
+                                                   std::move(through), units);
+      StateOutput& added = *measure;
+      model.add_measure_of(entry, std::move(measure), output.recorded);
+      if (!as_input) return;
+      const std::string of_input = units_of_formula(*as_input, model);
+      added.set_units(output.recorded || of_input.empty() ? of_input : per_second(of_input));
+    });
+  }
+}
+
+StateSetup read_setup(const std::string& name, const YamlValue& entry) {
+  const std::vector<std::string> kinds = {"rate", "filter", "transfer_function", "state_space"};
+  std::string kind;
+  if (entry.is_map())
+    for (const std::string& each : kinds) {
+      if (!entry.has(each)) continue;
+      if (!kind.empty()) entry.fail(fmt::format("a state is one thing, this one has both '{}' and '{}'", kind, each));
+      kind = each;
+    }
+  if (kind == "rate") return read_rate(name, entry);
+  if (kind == "filter") return read_filter(name, entry);
+  if (kind == "transfer_function") return read_transfer_function(name, entry);
+  if (kind == "state_space") return read_state_space(name, entry);
+  entry.check_keys(with_common_keys({"rate", "filter", "transfer_function", "state_space"}), "a state");
+  entry.fail("a state needs a `rate`, or it is a `filter`, a `transfer_function` or a `state_space`");
+}
+
+}  // namespace
+
+void read_state(const std::string& name, const YamlValue& entry, Model& model) {
+  check_measure_name(name, entry, model);
+  StateSetup setup = read_setup(name, entry);
+  read_units(entry, setup);
+  std::optional<MatrixX> rest;
+  if (setup.starts_at_rest) {
+    rest = rest_of(setup.block);
+    if (!rest)
+      entry.at("start").fail(
+          "this block has no equilibrium of its own: it integrates (a root of its denominator is zero, its A is "
+          "singular)");
+  }
+  double scale = std::max(1.0, setup.start.cwiseAbs().maxCoeff());
+  if (const auto given = entry.find("scale")) scale = given->positive_number();
+  const std::string units = setup.type == "state_space" || !setup.units ? "-" : setup.units->front();
+  const Entry own{Section::states, name};
+  auto& unknowns = static_cast<StateUnknowns&>(model.add(
+      std::make_unique<StateUnknowns>(setup.type, name, setup.unknowns, setup.start, units, scale), own, Recorded::no));
+  auto& equation = static_cast<StateEquation&>(model.add(
+      std::make_unique<StateEquation>(unknowns, setup.block, std::move(rest), setup.about), own, Recorded::no));
+  announce_outputs(own, setup, unknowns, model);
+  model.when_read(Model::Stage::formulas, [&equation, &model, inputs = setup.inputs] {
+    for (const YamlValue& input : inputs) equation.read_input(input, model);
+  });
+}
+
+}  // namespace bielle::mechanism

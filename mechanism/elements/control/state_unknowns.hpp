@@ -1,0 +1,35 @@
+// The unknowns x of a control block, and their rates: x' in x' - f(x, u, t) = 0. What f is a StateEquation adds.
+//
+// Two components, because a formula may use any state: f refers to the unknowns of other blocks, which refer to nobody,
+// so that blocks may be coupled in a circle.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mechanism/model/component.hpp"
+
+namespace bielle::mechanism {
+
+class StateUnknowns final : public Component {
+ public:
+  /// @param type    what the user calls it: "filter" @param names  of the unknowns, for messages: "value", "x2"
+  /// @param start   of each @param units  of all of them @param scale  their typical size, in their units
+  StateUnknowns(std::string type, std::string name, std::vector<std::string> names, VectorX start, std::string units,
+                double scale);
+  Eigen::Index size() const { return start_.size(); }
+  const VectorX& start() const { return start_; }
+
+  void declare(Declaration& declaration) const override;
+  void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
+  void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
+  void add_pattern(const Slots& slots, LocalPattern& pattern) const override;
+
+ private:
+  std::vector<std::string> names_;
+  VectorX start_;
+  std::string units_;
+  double scale_;
+};
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,180 @@
+// Reads entries of `drives`.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "mechanism/joints/actions/force_drive.hpp"
+#include "mechanism/joints/actions/motion_drive.hpp"
+#include "mechanism/joints/actions/pid_drive.hpp"
+#include "mechanism/measures/measure_event.hpp"
+#include "mechanism/measures/read_measure.hpp"
+#include "mechanism/reading/names.hpp"
+#include "reduce/common/plausible.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+const std::vector<std::string> drive_laws = {"angle", "rate", "torque", "displacement", "speed", "force", "pid"};
+
+bool is_turning(const std::string& law) { return law == "angle" || law == "rate" || law == "torque"; }
+
+/// The one law that a drive has.
+std::string find_law(const YamlValue& entry) {
+  std::string law;
+  for (const std::string& key : drive_laws) {
+    if (!entry.has(key)) continue;
+    if (!law.empty()) entry.fail(fmt::format("a drive has one law, this one has both '{}' and '{}'", law, key));
+    law = key;
+  }
+  if (law.empty())
+    entry.fail(
+        "a drive needs one of angle, rate, torque (turning joints), displacement, speed, force (sliding joints) or "
+        "pid");
+  return law;
+}
+
+/// The coordinate that a law drives. @param place  where `coordinate` may stand: the drive, or its `pid`
+std::size_t find_coordinate(const YamlValue& entry, const YamlValue& place, const std::string& law,
+                            const Joint& joint) {
+  const bool any = law == "pid", turning = is_turning(law);
+  std::vector<std::string> names;
+  for (const JointCoordinate& coordinate : joint.coordinates())
+    if (any || (coordinate.kind != JointCoordinate::Kind::displacement) == turning) names.push_back(coordinate.name);
+  if (names.empty())
+    entry.at(law).fail(fmt::format("a {} joint has no {} to drive", joint.type(),
+                                   any       ? "coordinate"
+                                   : turning ? "angle"
+                                             : "displacement"));
+  if (names.size() > 1 && !place.has("coordinate"))
+    place.fail(
+        fmt::format("joint '{}' has several coordinates: give `coordinate`{}", joint.name(), did_you_mean("", names)));
+  return joint.coordinate_index(place.has("coordinate")
+                                    ? place.at("coordinate").word(names, fmt::format("a coordinate for '{}'", law))
+                                    : names.front());
+}
+
+/// Notes that the coordinate is driven.
+void take_coordinate(const YamlValue& entry, const std::string& name, bool by_motion, Joint& joint,
+                     std::size_t coordinate) {
+  const std::string& chosen = joint.coordinates()[coordinate].name;
+  Joint::CoordinateUse& use = joint.use(coordinate);
+  if (!use.driver.empty())
+    entry.fail(fmt::format("the {} of joint '{}' is driven by '{}' already", chosen, joint.name(), use.driver));
+  use.driver = name;
+  if (by_motion && use.locked)
+    entry.fail(fmt::format("the {} of joint '{}' is `locked` for a time, which a drive by motion contradicts", chosen,
+                           joint.name()));
+}
+
+/// `release: 1.5`, `{event: name}` or `{when: formula, crosses: value, direction: ..}`.
+void read_release(const YamlValue& value, Drive& drive, Model& model) {
+  if (!value.is_map()) {
+    if (!value.is_scalar() || value.is_null())
+      value.fail("expected a time [s], {event: name}, or {when: .., crosses: ..}");
+    return drive.release_at(value.positive_number());
+  }
+  value.check_keys({"event", "when", "crosses", "direction"}, "`release`");
+  if (value.has("event") == value.has("when"))
+    value.fail("a drive lets go at an `event`, or `when` a formula crosses a value: give one of the two");
+  if (const auto event = value.find("event")) {
+    for (const char* key : {"crosses", "direction"})
+      if (value.has(key)) value.at(key).fail("belongs to `when`; an event has its own");
+    // Events are read with the formulas, after the drives: once all of them are there.
+    model.when_read(Model::Stage::formulas, [event = *event, &drive, &model] {
+      model.when_read(Model::Stage::formulas, [event, &drive, &model] {
+        const auto& found = dynamic_cast<const MeasureEvent&>(component_named_by(Section::events, event, model));
+        drive.release_when(found.measure(), found.value(), found.direction());
+      });
+    });
+    return;
+  }
+  const YamlValue when = value.at("when");
+  const double crosses = value.has("crosses") ? value.at("crosses").number() : 0;
+  const Crossing::Direction direction = read_crossing_direction(value);
+  model.when_read(Model::Stage::formulas, [when, crosses, direction, &drive, &model] {
+    drive.release_when(measure_named_by(when, model), crosses, direction);
+  });
+}
+
+std::unique_ptr<Drive> make_pid(const std::string& name, const YamlValue& entry, Joint& joint, std::size_t coordinate,
+                                Model& model) {
+  const auto gain = [&](const char* key) { return entry.has(key) ? entry.at(key).number() : 0; };
+  PidGains gains{gain("kp"), gain("ki"), gain("kd")};
+  if (gains.proportional == 0 && gains.integral == 0 && gains.derivative == 0)
+    entry.fail("a controller needs at least one of the gains kp, ki, kd");
+  if (const auto filter = entry.find("filter")) {
+    gains.filter = filter->positive_number();
+    if (gains.derivative == 0) filter->fail("is that of the derivative, which has no gain: give `kd`, too");
+  }
+  const ForceLimit limit = entry.has("limit") ? read_force_limit(entry.at("limit")) : ForceLimit{};
+  if (const auto tracking = entry.find("tracking_time")) {
+    gains.tracking_time = tracking->positive_number();
+    if (gains.integral == 0 || !limit.limits())
+      tracking->fail("is that of the integral at a limit: give `ki` and `limit`, too");
+  } else if (gains.integral != 0 && limit.limits()) {
+    if (gains.proportional == 0)
+      entry.fail("an integral without `kp` needs a `tracking_time` [s] in which it leaves a limit (default kp/ki)");
+    gains.tracking_time = std::abs(gains.proportional / gains.integral);
+  }
+  const YamlValue target = entry.at("target");
+  const auto measure = entry.find("measure");
+  if (measure && gains.derivative != 0 && gains.filter == 0)
+    measure->fail("has a rate that is not known: give the controller a `filter` [s] for the derivative, or `kd: 0`");
+  auto drive = std::make_unique<PidDrive>(name, joint, coordinate, limit, gains);
+  model.when_read(Model::Stage::formulas,
+                  [drive = drive.get(), target, measure, &model] { drive->read(target, measure, model); });
+  return drive;
+}
+
+std::unique_ptr<Drive> make_force(const std::string& name, const YamlValue& entry, const YamlValue& law, Joint& joint,
+                                  std::size_t coordinate, Model& model) {
+  const ForceLimit limit = entry.has("limit") ? read_force_limit(entry.at("limit")) : ForceLimit{};
+  auto drive = std::make_unique<ForceDrive>(name, joint, coordinate, limit);
+  model.when_read(Model::Stage::formulas, [drive = drive.get(), law, &model] { drive->read(law, model); });
+  return drive;
+}
+
+std::unique_ptr<Drive> make_motion(const std::string& name, const std::string& law, const YamlValue& value,
+                                   Joint& joint, std::size_t coordinate) {
+  Expression f = value.expression({"t"});
+  if (law == "angle" || law == "displacement") doubt_jumps(value, f, law == "angle" ? "the angle" : "the displacement");
+  if (law == "angle") joint.start_at(coordinate, f(0));
+  if (law == "angle" || law == "displacement")
+    return std::make_unique<PositionDrive>(name, joint, coordinate, std::move(f));
+  return std::make_unique<RateDrive>(name, joint, coordinate, std::move(f));
+}
+
+}  // namespace
+
+void read_drive(const std::string& name, const YamlValue& entry, Model& model) {
+  std::vector<std::string> keys = {"joint", "coordinate", "limit", "release"};
+  keys.insert(keys.end(), drive_laws.begin(), drive_laws.end());
+  entry.check_keys(keys, "a drive");
+  auto* joint = dynamic_cast<Joint*>(&component_named_by(Section::joints, entry.at("joint"), model));
+  if (!joint) entry.at("joint").fail("is no joint with coordinates that can be driven");
+  const std::string law = find_law(entry);
+  const YamlValue value = entry.at(law);
+  const bool pid = law == "pid", by_motion = !pid && law != "torque" && law != "force";
+  if (pid) {
+    value.check_keys({"coordinate", "measure", "target", "kp", "ki", "kd", "limit", "filter", "tracking_time"},
+                     "`pid`");
+    for (const char* key : {"coordinate", "limit"})
+      if (const auto outside = entry.find(key)) outside->fail("stands within `pid`");
+  }
+  if (by_motion)
+    if (const auto limit = entry.find("limit"))
+      limit->fail("limits a torque or force; a drive by motion takes what the motion needs");
+  const std::size_t coordinate = find_coordinate(entry, pid ? value : entry, law, *joint);
+  take_coordinate(entry, name, by_motion, *joint, coordinate);
+
+  std::unique_ptr<Drive> drive = pid         ? make_pid(name, value, *joint, coordinate, model)
+                                 : by_motion ? make_motion(name, law, value, *joint, coordinate)
+                                             : make_force(name, entry, value, *joint, coordinate, model);
+  if (const auto release = entry.find("release")) read_release(*release, *drive, model);
+  model.add_within(std::move(drive), Entry{Section::drives, name}, Entry{Section::joints, joint->name()});
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,25 @@
+// A drive by a force or torque: a formula of time and measures, within limits if wanted.
+#pragma once
+
+#include "mechanism/joints/actions/actuator_drive.hpp"
+#include "mechanism/measures/state_formula.hpp"
+
+namespace bielle::mechanism {
+
+class ForceDrive final : public ActuatorDrive {
+ public:
+  using ActuatorDrive::ActuatorDrive;
+  /// Takes its law, once the model is read. @param law  of t and measures
+  void read(const YamlValue& law, Model& model);
+  void declare(Declaration& declaration) const override;
+
+ private:
+  double effort(const LocalState& state) const override;
+  void calc_effort(const LocalState& state, Effort& effort) const override;
+  bool reads_state() const override { return law_.reads_state(); }
+  void add_kinks(std::vector<double>& times) const override { law_.add_break_points(0, times); }
+  LawText law_text() const override;
+  StateFormula law_;
+};
+
+}  // namespace bielle::mechanism

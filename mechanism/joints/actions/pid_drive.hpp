@@ -1,0 +1,73 @@
+// A motor with a PID controller: a torque or force on a joint's coordinate that brings what is controlled, the
+// coordinate c itself or a measure, to its target.
+//
+//     e = target - controlled,     u = kp e + ki z + kd D,     Q = min(max(u, lower), upper)
+//     z' = e + (Q - u)/(ki T_w)                         integral; with anti-windup by back-calculation at a limit
+//     d' = (e - d)/T_f,  D = (e - d)/T_f                derivative, with a filter of time constant T_f
+//     D = d(target)/dt - cdot                           derivative without one, of targets that are functions of time
+//
+// z and d are first-order unknowns. z begins at zero, d at e, so that the derivative does not kick. At a limit z moves
+// to where u is at the limit, within T_w (`tracking_time`, by default kp/ki). A drive that has let go keeps z.
+// In a static analysis all rates are zero, those of z as well: e = 0 where nothing else holds the coordinate.
+//
+// Reference: K. J. Astroem, T. Haegglund, PID Controllers: Theory, Design and Tuning, 1995, 3.5.
+#pragma once
+
+#include <optional>
+
+#include "mechanism/joints/actions/actuator_drive.hpp"
+#include "mechanism/measures/state_formula.hpp"
+
+namespace bielle::mechanism {
+
+struct PidGains {
+  double proportional = 0;   ///< kp [N/m], [N m/rad], or per unit of the measure
+  double integral = 0;       ///< ki [.../s]
+  double derivative = 0;     ///< kd [... s]
+  double filter = 0;         ///< T_f [s]; 0: none
+  double tracking_time = 0;  ///< T_w [s]; of no meaning without integral or limit
+};
+
+class PidDrive final : public ActuatorDrive {
+ public:
+  PidDrive(std::string name, const Joint& joint, std::size_t coordinate, const ForceLimit& limit, const PidGains& gains)
+      : ActuatorDrive(std::move(name), joint, coordinate, limit), gains_(gains) {}
+  /// Takes its formulas, once the model is read. @param measure  what is controlled; the coordinate itself where empty
+  void read(const YamlValue& target, const std::optional<YamlValue>& measure, Model& model);
+
+  void declare(Declaration& declaration) const override;
+  void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
+  void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
+  void add_start_values(const LocalState& state, Eigen::Ref<VectorX> change) const override;
+  void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
+
+ private:
+  /// What the controller makes of a state.
+  struct Loop {
+    double error, derivative, effort;
+  };
+  Loop loop(const LocalState& state) const;
+  double effort(const LocalState& state) const override { return loop(state).effort; }
+  void calc_effort(const LocalState& state, Effort& effort) const override;
+  /// The error with its derivatives, which are those of an Effort.
+  void calc_error(const LocalState& state, Effort& error) const;
+  double target_rate(const LocalState& state) const;
+  bool reads_state() const override { return true; }
+  void add_kinks(std::vector<double>& times) const override { target_.add_break_points(0, times); }
+  LawText law_text() const override;
+
+  bool integrates() const { return gains_.integral != 0; }
+  bool filters() const { return gains_.derivative != 0 && gains_.filter > 0; }
+  int filter_row() const { return integrates() ? 1 : 0; }
+  /// Whether z stays as it is, and its row holds its increment alone: at a static analysis.
+  bool keeps_integral(const LocalState& state) const;
+  /// z' less e: zero between the limits. @param side,u  of the actuator
+  double windup_rate(double side, double u) const;
+
+  PidGains gains_;
+  StateFormula target_;
+  const Measure* measure_ = nullptr;
+  int measure_reference_ = 0;
+};
+
+}  // namespace bielle::mechanism

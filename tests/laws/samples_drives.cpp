@@ -1,0 +1,122 @@
+// Samples of drives.
+#include "tests/laws/sample.hpp"
+
+namespace bielle::laws {
+namespace {
+
+using mechanism::Section;
+
+/// Two nodes turned against each other, a joint whose axes are those of neither, and a drive.
+std::string driven(const std::string& joint_type, const std::string& drive) {
+  return R"yaml(
+nodes:
+  a: {position: [0.3, 0.1, -0.2], rotation_vector: [0.3, -0.5, 0.8]}
+  b: {position: [1.1, 0.5, 0.4], rotation_vector: [-0.7, 0.2, 0.4]}
+joints:
+  axle: {type: )yaml" +
+         joint_type + ", nodes: [a, b], position: [0.5, 0.2, 0.1], axis: [1, 2, 3]}\ndrives:\n  it: {" + drive + "}\n";
+}
+
+Sample drive(const std::string& joint_type, const std::string& law, const std::string& value,
+             std::vector<BadValue> bad) {
+  bad.push_back({"joint", "axis", "no 'axis'"});
+  bad.push_back({law, "'x*t'", "x"});
+  return {Section::drives, "drive", law + " of a " + joint_type,
+          driven(joint_type, "joint: axle, " + law + ": \"" + value + "\""), std::move(bad)};
+}
+
+/// A drive with keys beyond its law. @param keys  all but the joint
+Sample with_keys(const std::string& joint_type, const std::string& variant, const std::string& keys,
+                 std::vector<BadValue> bad) {
+  bad.push_back({"joint", "axis", "no 'axis'"});
+  return {Section::drives, "drive", variant + " of a " + joint_type, driven(joint_type, "joint: axle, " + keys),
+          std::move(bad)};
+}
+
+std::vector<Sample> controllers() {
+  std::vector<Sample> list;
+  list.push_back(
+      with_keys("hinge", "pid within limits",
+                "pid: {target: \"0.3*t + 0.1*sin(t)\", kp: 3, ki: 2, kd: 0.5, limit: [-4, 5], tracking_time: "
+                "0.7}, release: 1.5",
+                {{"pid.target", "", "target"},
+                 {"pid.target", "axle.angle.rate", "rate is not known"},
+                 {"pid.kp", "big", ""},
+                 {"pid.ki", "0", "tracking_time"},
+                 {"pid.kd", "x", ""},
+                 {"pid.limit", "[5, -4]", "lower limit first"},
+                 {"pid.limit", "0", "greater than 0"},
+                 {"pid.limit", "", "tracking_time"},
+                 {"pid.tracking_time", "-1", ""},
+                 {"pid.filter", "0", "greater than 0"},
+                 {"pid.measure", "axle.angle", "rate that is not known"},
+                 {"pid.coordinate", "angel", "did you mean 'angle'"},
+                 {"pid", "{target: 1}", "pid"},
+                 {"release", "0", "greater than 0"},
+                 {"release", "[1]", "expected a time"},
+                 {"limit", "3", "within `pid`"},
+                 {"coordinate", "angle", "within `pid`"}}));
+  list.push_back(
+      with_keys("prismatic", "pid with a filter, released by a measure",
+                "pid: {target: \"0.2*axle.displacement.rate + t\", kp: 3, ki: 2, kd: 0.4, filter: 0.1, limit: "
+                "6}, release: {when: axle.displacement, crosses: 9, direction: rising}",
+                {{"pid.kp", "0", "kp"},
+                 {"pid.kd", "0", "kd"},
+                 {"pid.target", "'x'", "x"},
+                 {"pid.filter", "-1", ""},
+                 {"release", "{crosses: 1}", "one of the two"},
+                 {"release", "{event: arrived}", "no 'arrived'"},
+                 {"release.when", "axle.angle", "no 'angle'"},
+                 {"release.crosses", "far", ""},
+                 {"release.direction", "up", "direction of crossing"},
+                 {"release.event", "arrived", "one of the two"}}));
+  list.push_back(
+      with_keys("cylindrical", "pid on a measure",
+                "pid: {coordinate: angle, measure: \"distance(a, b)\", target: 1, kp: 3, kd: 0.3, filter: 0.05}",
+                {{"pid.coordinate", "", "several coordinates"},
+                 {"pid.measure", "'distance(a, c)'", "no node 'c'"},
+                 {"pid.filter", "", "filter"}}));
+  list.push_back(with_keys("spherical", "pid", "pid: {coordinate: ry, target: \"t\", kp: 2, kd: 0.5}",
+                           {{"pid.coordinate", "angle", "ry"}}));
+  list.push_back(with_keys("hinge", "torque within limits, released by a measure",
+                           "torque: \"2 + 0.3*axle.angle\", limit: 40, release: {when: axle.angle, crosses: 9}",
+                           {{"torque", "'x'", "x"},
+                            {"limit", "[~, ~]", "no limit"},
+                            {"limit", "[1]", "[lower, upper]"},
+                            {"release.when", "'x'", "x"}}));
+  list.push_back(
+      with_keys("hinge", "angle, released", "angle: \"0.3*t\", release: 1.5",
+                {{"angle", "'x'", "x"}, {"release", "-1", "greater than 0"}, {"limit", "3", "motion needs"}}));
+  list.push_back(with_keys("hinge", "rate, released", "rate: \"0.3*t\", release: {when: axle.angle, crosses: 9}",
+                           {{"rate", "'x'", "x"}, {"release.when", "'x'", "x"}}));
+  return list;
+}
+
+}  // namespace
+
+std::vector<Sample> drive_samples() {
+  std::vector<Sample> list = controllers();
+  // Formulas of the state: every kind of measure.
+  const std::string everything =
+      "2 + axle.angle*sin(t) - 0.3*axle.angle.rate + 0.1*axle.reaction.x - 0.2*axle.reaction.rz + "
+      "b.position.y*a.velocity.z"
+      " + b.rotation.x + 0.1*a.angular_velocity.y + distance(a, b)*angle(a, b)";
+  Sample of_state = drive("hinge", "torque", everything, {{"torque", "'axle.angel'", "did you mean 'angle'"}});
+  of_state.inertial = true;
+  list.push_back(of_state);
+  list.push_back(drive("spherical", "torque", "2 + axle.rx*axle.ry.rate", {{"coordinate", "angle", "rx"}}));
+  list.back().model.replace(list.back().model.find("it: {joint: axle"), 16, "it: {coordinate: ry, joint: axle");
+  list.push_back(drive("spherical", "rate", "0.3*t", {{"coordinate", "angle", "rx"}}));
+  list.back().model.replace(list.back().model.find("it: {joint: axle"), 16, "it: {coordinate: rz, joint: axle");
+  list.push_back(drive("spherical", "angle", "0.3*t", {{"coordinate", "angle", "rx"}}));
+  list.back().model.replace(list.back().model.find("it: {joint: axle"), 16, "it: {coordinate: rx, joint: axle");
+  list.push_back(drive("hinge", "angle", "0.3*t + 0.1*sin(t)", {}));
+  list.push_back(drive("prismatic", "displacement", "0.3*t^2", {}));
+  list.push_back(drive("hinge", "rate", "0.3*cos(t)", {}));
+  list.push_back(drive("prismatic", "speed", "0.3*t", {}));
+  list.push_back(drive("hinge", "torque", "2 + t", {}));
+  list.push_back(drive("cylindrical", "force", "2 + t", {}));
+  return list;
+}
+
+}  // namespace bielle::laws

@@ -1,0 +1,94 @@
+// Samples of states: users' differential equations and control blocks.
+#include "tests/laws/sample.hpp"
+
+namespace bielle::laws {
+namespace {
+
+using mechanism::Section;
+
+/// A hinge between two nodes turned against each other, and states.
+std::string states(const std::string& text) {
+  return R"yaml(
+nodes:
+  a: {position: [0.3, 0.1, -0.2], rotation_vector: [0.3, -0.5, 0.8]}
+  b: {position: [1.1, 0.5, 0.4], rotation_vector: [-0.7, 0.2, 0.4]}
+joints:
+  axle: {type: hinge, nodes: [a, b], position: [0.5, 0.2, 0.1], axis: [1, 2, 3]}
+states:
+)yaml" + text;
+}
+
+Sample rate() {
+  return {Section::states,
+          "state",
+          "rate",
+          states("  it: {rate: \"-(it - axle.angle)*(1 + t)/0.3 + 0.2*other*axle.angle.rate\", start: 0.2, units: rad, "
+                 "scale: 2}\n"
+                 "  other: {rate: \"it - other^2 + 0.1*axle.reaction.x\", start: 0.7}\n"),
+          {{"rate", "'x*t'", "x"},
+           {"rate", "axle.angel", "did you mean 'angle'"},
+           {"rate", "", "needs a `rate`"},
+           {"start", "much", ""},
+           {"units", "[rad, m]", "one for each output"},
+           {"scale", "0", "greater than 0"}}};
+}
+
+Sample filter(const std::string& variant, const std::string& keys, std::vector<BadValue> bad) {
+  bad.push_back({"filter", "axle.angel", "did you mean 'angle'"});
+  return {Section::states, "state", variant,
+          states("  it: {filter: \"axle.angle*(1 + t) + 0.1*axle.angle.rate\", " + keys + "}\n"), std::move(bad)};
+}
+
+Sample transfer_function() {
+  return {Section::states,
+          "state",
+          "transfer function",
+          states("  it: {transfer_function: {numerator: [2, 1, 3], denominator: [1, 4, 5]}, input: \"axle.angle*t\", "
+                 "start: equilibrium, units: N m}\n"),
+          {{"transfer_function.numerator", "[1, 2, 3, 4]", "degree"},
+           {"transfer_function.numerator", "[0, 0]", "not all of them zero"},
+           {"transfer_function.denominator", "[0, 3]", "no power of s"},
+           {"transfer_function.denominator", "[1, 2, 0]", "equilibrium"},
+           {"transfer_function", "", "transfer_function"},
+           {"input", "", ""},
+           {"input", "'x'", "x"},
+           {"start", "0.3", "equilibrium"},
+           {"units", "[N, m]", "one for each output"}}};
+}
+
+Sample state_space() {
+  return {
+      Section::states,
+      "state",
+      "state space",
+      states("  it: {state_space: {A: [[-1, 2], [-3, -4]], B: [[1, 0], [0.5, 2]], C: [[1, 1], [0, 2]], D: [[0.3, 0], "
+             "[0, 0]]}, inputs: [\"axle.angle\", \"it.y2*t - it.x1\"], start: [0.1, 0.2], units: [rad, N]}\n"),
+      {{"state_space.A", "[[1, 2]]", ""},
+       {"state_space.B", "[[1, 2]]", ""},
+       {"state_space.C", "[[1, 2, 3]]", ""},
+       {"state_space.D", "[[1]]", ""},
+       {"inputs", "[]", "at least one"},
+       {"inputs", "[it.y1, t]", "refers to itself"},
+       {"inputs", "[it.y3, t]", "has no 'y3'"},
+       {"start", "[1]", "list of 2 numbers"},
+       {"units", "[N]", "one for each output"}}};
+}
+
+}  // namespace
+
+std::vector<Sample> state_samples() {
+  return {rate(),
+          filter("filter of first order", "time_constant: 0.2",
+                 {{"time_constant", "0", "greater than 0"},
+                  {"time_constant", "", "time_constant"},
+                  {"frequency", "3", "one of the two"},
+                  {"damping", "0.5", "frequency"}}),
+          filter("filter of second order", "frequency: 0.3, damping: 0.6, start: 0.4, scale: 3",
+                 {{"frequency", "-1", "greater than 0"},
+                  {"damping", "-0.1", "at least 0"},
+                  {"start", "much", ""},
+                  {"scale", "-1", ""}}),
+          transfer_function(), state_space()};
+}
+
+}  // namespace bielle::laws
