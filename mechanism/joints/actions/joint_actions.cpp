@@ -9,12 +9,13 @@
 
 #include "mechanism/joints/actions/joint_lock.hpp"
 #include "mechanism/joints/actions/joint_spring.hpp"
+#include "mechanism/joints/actions/joint_start_reader.hpp"
 #include "mechanism/joints/actions/joint_stop.hpp"
 
 namespace bielle::mechanism {
 namespace {
 
-const std::vector<std::string> keys = {"stiffness", "damping", "rest", "preload", "stops", "locked"};
+const std::vector<std::string> keys = {"stiffness", "damping", "rest", "preload", "stops", "locked", "start", "start_rate"};
 
 /// Of each coordinate, what the keys say: the value itself in a joint with one coordinate, else a map by their names.
 using ByKey = std::map<std::string, YamlValue>;
@@ -113,9 +114,13 @@ void read_joint_actions(const YamlValue& entry, Joint& joint, Model& model) {
       model.add(std::make_unique<JointStop>(joint.name(), joint, k, read_stop_range(*stops)), of_joint);
     }
     if (const auto locked = find(sorted[k], "locked")) {
-      model.add(std::make_unique<JointLock>(joint.name(), joint, k, read_lock_times(*locked)), of_joint);
+      const LockTimes times = read_lock_times(*locked);
+      model.add(std::make_unique<JointLock>(joint.name(), joint, k, times), of_joint);
       joint.use(k).locked = true;
+      if (const auto rate = find(sorted[k], "start_rate"); rate && times.from == 0)
+        rate->fail("the coordinate is `locked` from the beginning: it has no rate");
     }
+    read_joint_start(find(sorted[k], "start"), find(sorted[k], "start_rate"), joint, k, model);
   }
 }
 

@@ -4,6 +4,7 @@
 //   rest       value of the coordinate at which the spring is free       preload   constant force of the spring
 //   stops      {range: [lower, upper], stiffness, damping}
 //   locked     {from, to, release}
+//   start, start_rate   value and rate where the first analysis starts (joint_start_reader.hpp)
 // In a joint with several coordinates each key is a map from their names.
 #pragma once
 
