@@ -9,6 +9,8 @@
 #include "mechanism/solvers/constraints/redundancy.hpp"
 #include "mechanism/solvers/start/assemble_positions.hpp"
 #include "mechanism/solvers/start/consistent_velocities.hpp"
+#include "mechanism/solvers/start/redundancy_at_start.hpp"
+#include "mechanism/solvers/start/start_rates.hpp"
 #include "mechanism/solvers/statics/statics.hpp"
 #include "reduce/common/error.hpp"
 
@@ -24,8 +26,9 @@ Session::Session(std::unique_ptr<const Model> owned, const Model* model, int thr
       shown_(&state_),
       gatherers_(model_) {
   system_.use_threads(threads);
-  redundant_ = name_constraints(system_, take_out_redundant(system_, environment_, state_));
-  mobility_ = count_mobility(system_, environment_, state_);
+  State assembled;
+  redundant_ = name_constraints(system_, take_out_redundant_at_start(system_, environment_, state_, assembled));
+  mobility_ = count_mobility(system_, environment_, assembled);
 }
 
 Session::Session(Model&& model, int threads)
@@ -47,18 +50,29 @@ void Session::set_state(State state) {
   at_rest();
   state_ = std::move(state);
   report_.reset();
+  started_ = true;
+}
+
+StartConditions Session::start_conditions() const {
+  return started_ ? StartConditions() : conditions_of_file(system_);
 }
 
 // -- computing
 
-StartReport Session::assemble() {
+StartReport Session::assemble(const AssemblyOptions& options) {
   at_rest();
   stopping_ = false;
   acting_ = environment_;
   StartReport report;
-  assemble_positions(system_, environment_, state_, report);
+  StartConditions conditions = start_conditions();
+  conditions.kept_nodes = options.kept_nodes;
+  for (const auto& [component, coordinate] : options.kept_coordinates)
+    keep_coordinate(system_, environment_, state_, *component, coordinate, conditions);
+  assemble_positions(system_, environment_, state_, report, conditions);
   MassSaddle saddle(system_);
   make_velocities_consistent(system_, environment_, state_, report, saddle);
+  set_start_rates(system_, environment_, state_, conditions, saddle, report);
+  started_ = true;
   system_.accept(state_, environment_);
   loaded_.motions = 1;
   EnergyBalance books;
@@ -99,6 +113,11 @@ StaticsReport Session::statics(const StaticsOptions& options) {
   statics.statics = true;
   const Loaded begin = loaded_;
   const LoadRamp ramp(system_, statics, begin);
+  if (!started_) {
+    ramp.set_off(state_);  // drives and supports stand where the load factor begins
+    assemble_positions(system_, environment_, state_, report.start, start_conditions());
+    started_ = true;
+  }
   const auto point = [&](const State& state, double factor, int iterations, double done) {
     loaded_ = {factor, ramp.motion(factor)};
     statics_point(state, factor, iterations);

@@ -115,7 +115,9 @@ void read_joint_actions(const YamlValue& entry, Joint& joint, Model& model) {
     }
     if (const auto locked = find(sorted[k], "locked")) {
       const LockTimes times = read_lock_times(*locked);
-      model.add(std::make_unique<JointLock>(joint.name(), joint, k, times), of_joint);
+      auto lock = std::make_unique<JointLock>(joint.name(), joint, k, times);
+      if (const auto start = find(sorted[k], "start"); start && times.from == 0) lock->close_at(start->number());
+      model.add(std::move(lock), of_joint);
       joint.use(k).locked = true;
       if (const auto rate = find(sorted[k], "start_rate"); rate && times.from == 0)
         rate->fail("the coordinate is `locked` from the beginning: it has no rate");
