@@ -21,6 +21,7 @@ class AssemblyAnalysis : public Analysis {
  public:
   explicit AssemblyAnalysis(AssemblyOptions options) : Analysis("assembly"), options_(std::move(options)) {}
   std::size_t expected_rows(const Recording&) const override { return 1; }
+  AssemblyOptions kept() const override { return options_; }
 
  private:
   void solve(Session& session, AnalysisSummary& summary) const override {

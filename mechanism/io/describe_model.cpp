@@ -166,7 +166,9 @@ std::string describe_model(const MechanismFile& file) {
   State assembled;
   const std::vector<int> redundant = take_out_redundant_at_start(system, model.environment, state, assembled);
   StartReport report;
-  assemble_positions(system, model.environment, state, report, conditions_of_file(system));
+  const AssemblyOptions kept = file.analyses.empty() ? AssemblyOptions() : file.analyses.front()->kept();
+  assemble_positions(system, model.environment, state, report,
+                     with_kept(system, model.environment, state, conditions_of_file(system), kept));
 
   std::string text = fmt::format("{}\n", model.title.empty() ? "mechanism" : model.title);
   int internal = 0;

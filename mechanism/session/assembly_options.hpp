@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "mechanism/model/model.hpp"
+#include "mechanism/solvers/start/start_conditions.hpp"
 
 namespace bielle::mechanism {
 
@@ -18,5 +18,9 @@ struct AssemblyOptions {
   std::vector<int> kept_nodes;  ///< of the model, in all directions
   std::vector<Coordinate> kept_coordinates;
 };
+
+/// Conditions with what is kept as it is at a state.
+StartConditions with_kept(const System& system, const Environment& environment, const State& state,
+                          StartConditions conditions, const AssemblyOptions& options);
 
 }  // namespace bielle::mechanism

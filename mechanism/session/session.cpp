@@ -64,10 +64,7 @@ StartReport Session::assemble(const AssemblyOptions& options) {
   stopping_ = false;
   acting_ = environment_;
   StartReport report;
-  StartConditions conditions = start_conditions();
-  conditions.kept_nodes = options.kept_nodes;
-  for (const auto& [component, coordinate] : options.kept_coordinates)
-    keep_coordinate(system_, environment_, state_, *component, coordinate, conditions);
+  const StartConditions conditions = with_kept(system_, environment_, state_, start_conditions(), options);
   assemble_positions(system_, environment_, state_, report, conditions);
   MassSaddle saddle(system_);
   make_velocities_consistent(system_, environment_, state_, report, saddle);

@@ -17,19 +17,25 @@ namespace {
 
 /// Whether everything holds as it is: the everyday case, told without factorising anything.
 bool holds(const System& system, const Environment& environment, const State& state, const StartConditions& conditions) {
+  constexpr double satisfied = 1e-13, repeated = 1e-6;  // of those that repeat others, as check_set_aside()
+  std::vector<bool> redundant(static_cast<std::size_t>(system.multipliers()), false);
+  bool any_redundant = false;
+  system.for_each_redundant(state, [&](int multiplier) {
+    redundant[static_cast<std::size_t>(multiplier)] = any_redundant = true;
+  });
+  const State whole = any_redundant ? with_redundant(system, state) : State();
+  const State& all = any_redundant ? whole : state;
   VectorX r(system.size());
-  system.residual(state, environment, r);
+  system.residual(all, environment, r);
   const int first = system.size() - system.multipliers();
+  std::vector<bool> off(static_cast<std::size_t>(system.multipliers()), false);
+  system.for_each_idle(all, [&](int multiplier) { off[static_cast<std::size_t>(multiplier)] = true; });
   std::optional<VectorX> sizes;
-  constexpr double satisfied = 1e-13;
-  std::vector<bool> idle(static_cast<std::size_t>(system.multipliers()), false);
-  system.for_each_idle(state, [&](int multiplier) { idle[static_cast<std::size_t>(multiplier)] = true; });
   for (int k = 0; k < system.multipliers(); ++k) {
-    if (r[first + k] == 0 || idle[static_cast<std::size_t>(k)] ||
-        system.constraint_kind(k) != ConstraintKind::holonomic)
-      continue;
-    if (!sizes) sizes = constraint_sizes(system, environment, state);
-    if (!(std::abs(r[first + k]) <= satisfied * (*sizes)[k])) return false;
+    const auto row = static_cast<std::size_t>(k);
+    if (r[first + k] == 0 || off[row] || system.constraint_kind(k) != ConstraintKind::holonomic) continue;
+    if (!sizes) sizes = constraint_sizes(system, environment, all);
+    if (!(std::abs(r[first + k]) <= (redundant[row] ? repeated : satisfied) * (*sizes)[k])) return false;
   }
   for (const CoordinateCondition& each : conditions.coordinates) {
     if (!each.value) continue;
@@ -110,9 +116,9 @@ class PositionAssembly {
       if (!who.nonholonomic && !equations.any_nonholonomic()) continue;
       if (!who.set_aside && !any_set_aside()) continue;
       state = from;
-      if (close(equations, state, why)) {
+      state.multiplier.setZero();
+      if (close(equations, state, why) && (who.set_aside || repeated_hold(state))) {
         settle_idle(state);
-        if (!who.set_aside) check_set_aside(system_, environment_, state);
         return true;
       }
     }
@@ -121,15 +127,47 @@ class PositionAssembly {
     return false;
   }
 
-  bool close(ClosingEquations& equations, State& state, std::string& why) {
-    state.multiplier.setZero();
-    if (close_gaps(equations, state)) return true;
-    const Unclosed unclosed = explain_unclosed(equations, state);
-    if (unclosed.closes && close_gaps(equations, state)) return true;
+  /// Tries from the state, from a shaken one, and with bodies that have no stiffness at first.
+  bool close(ClosingEquations& equations, State& state, std::string& why) const {
+    const State from = state;
+    std::optional<State> nearest;
+    double least = 0;
+    const auto closes = [&](State trial) {
+      if (close_gaps(equations, trial)) {
+        state = std::move(trial);
+        return true;
+      }
+      const double open = equations.measure(trial).squared;
+      if (!nearest || open < least) {
+        least = open;
+        nearest = std::move(trial);
+      }
+      return false;
+    };
+    if (closes(from) || closes(equations.shaken(from))) return true;
+    if (equations.any_stiffness()) {
+      equations.leave_stiffness_out(true);
+      State near = from;
+      const bool fits = close_gaps(equations, near);
+      equations.leave_stiffness_out(false);
+      if (fits && closes(near)) return true;
+    }
+    const Unclosed unclosed = explain_unclosed(equations, *nearest);
+    if (unclosed.closes && closes(*nearest)) return true;
     if (why.empty())
-      why = unclosed.closes ? "Newton's method finds no positions in which everything fits; draw it nearer to them"
-                            : unclosed.text;
+      why = unclosed.closes ? "no positions were found in which everything fits; draw it nearer to them" : unclosed.text;
     return false;
+  }
+
+  /// Whether constraints that were set aside hold.
+  bool repeated_hold(State state) const {
+    settle_idle(state);
+    try {
+      check_set_aside(system_, environment_, state);
+    } catch (const ComputationError&) {
+      return false;
+    }
+    return true;
   }
 
   bool any_set_aside() const {

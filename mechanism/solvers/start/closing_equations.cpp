@@ -22,7 +22,7 @@ ClosingEquations::ClosingEquations(const System& system, const Environment& envi
       half_extent_(0.5 * model_extent(state)),
       drawn_(system.size()),
       elastic_(system.size()) {
-  unloaded_.load_factor = environment.load_factor;
+  unloaded_.load_factor = 0;
   for (const CoordinateCondition& each : conditions.coordinates) {
     if (!each.value) continue;
     valued_.push_back(&each);
@@ -112,6 +112,20 @@ void ClosingEquations::weigh(const State& state) {
   weights_ = (squares.tail(rows).array() > 0).select(squares.tail(rows).cwiseInverse(), 1.0);
 }
 
+State ClosingEquations::shaken(const State& state) const {
+  constexpr double angle = 0.05, part = 0.02;
+  VectorX dq = VectorX::Zero(system_.dofs());
+  for (int i = 0; i < system_.dofs(); ++i) {
+    if (still_[static_cast<std::size_t>(i)]) continue;
+    const double share = std::sin(1 + 1.7 * i);  // in no direction's favour
+    if (system_.kind(i) == Kind::rotation) dq[i] = angle * share;
+    if (system_.kind(i) == Kind::translation) dq[i] = 2 * part * half_extent_ * share;
+  }
+  State result = state;
+  system_.displace(result, state, dq);
+  return result;
+}
+
 ClosingEquations::Gaps ClosingEquations::measure(const State& state) const {
   Gaps gaps;
   VectorX r(system_.size());
@@ -147,6 +161,12 @@ void ClosingEquations::assemble(const State& state, const VectorX* forces) {
     for (int k = 0; k < system_.multipliers(); ++k)
       if (takes_part(k)) still.multiplier[k] = (*forces)[k];
   system_.tangent(still, unloaded_, closing_weights, nullptr, tangent_);
+  if (bare_) {
+    elastic_.head(system_.dofs()) = drawn_.head(system_.dofs());
+    system_.pattern().for_each([&](int place, int row, int column) {
+      if (row < system_.dofs() && column < system_.dofs()) tangent_[static_cast<std::size_t>(place)] = 0;
+    });
+  }
   values_.assign(static_cast<std::size_t>(pattern_.entry_count()), 0.0);
   for (std::size_t k = 0; k < tangent_.size(); ++k) values_[static_cast<std::size_t>(from_system_[k])] = tangent_[k];
   for (std::size_t k = 0; k < valued_.size(); ++k) {
@@ -169,6 +189,7 @@ void ClosingEquations::assemble(const State& state, const VectorX* forces) {
     if (count[kind] > 0) mean[kind] /= count[kind];
   double &translation = mean[static_cast<std::size_t>(Kind::translation)],
          &rotation = mean[static_cast<std::size_t>(Kind::rotation)];
+  any_stiffness_ = any_stiffness_ || std::any_of(mean.begin(), mean.end(), [](double each) { return each > 0; });
   const double area = half_extent_ * half_extent_;
   if (translation == 0) translation = rotation > 0 ? rotation / area : 1;
   if (rotation == 0) rotation = translation * area;

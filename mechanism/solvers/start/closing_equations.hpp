@@ -50,6 +50,12 @@ class ClosingEquations {
   double half_extent() const { return half_extent_; }  ///< l [m]
   double stiffness() const { return stiffness_; }      ///< D of translations at the last assembly
 
+  /// Whether bodies move without any stiffness between them: a way out where stiffness leads nowhere.
+  void leave_stiffness_out(bool yes) { bare_ = yes; }
+  bool any_stiffness() const { return any_stiffness_; }
+  /// A state from which what is the same on both sides of the drawing (links in line) goes to one of them.
+  State shaken(const State& state) const;
+
   /// Assembles at a state. @param forces  multipliers that stretch constraints: their geometric stiffness is part of K
   void assemble(const State& state, const VectorX* forces = nullptr);
   /// @param compliance  C (rows) @param floor  e @returns false when singular
@@ -83,7 +89,7 @@ class ClosingEquations {
   std::vector<bool> active_;                        ///< rows
   std::vector<bool> still_;                         ///< dofs of kept nodes
   std::vector<char> idle_;                          ///< State::idle of what does not take part
-  bool any_nonholonomic_ = false;
+  bool any_nonholonomic_ = false, any_stiffness_ = false, bare_ = false;
   double half_extent_ = 1, stiffness_ = 1;
   VectorX sizes_, weights_, drawn_;
 

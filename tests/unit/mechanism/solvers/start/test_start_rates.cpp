@@ -129,7 +129,7 @@ joints: {pivot: {type: hinge, nodes: [ground, arm], position: [0, 0, 0], axis: [
   CHECK(angle > 0.5);
   const Motion second = session.dynamics(options);
   CHECK(session.read("joints/pivot/coordinate")[0] == Approx(angle).epsilon(1e-12));
-  CHECK(session.read("joints/pivot/rate")[0] == Approx(rate).epsilon(1e-9));
+  CHECK(session.read("joints/pivot/rate")[0] == Approx(rate).epsilon(1e-5));  // the scheme's start adds a term of h^2
 }
 
 TEST_CASE("an angle that starts beyond half a turn is counted from there") {

@@ -120,7 +120,7 @@ joints: {ball: {type: spherical, nodes: [a, b], at: [[0.4, 0, 0], [-0.4, 0, 0]]}
   options.kept_nodes = {*session.model().find_node("a")};
   const StartReport report = session.assemble(options);
   CHECK(session.node("a").x == a.x);
-  CHECK(session.node("a").R == a.R);
+  CHECK((session.node("a").R - a.R).norm() < 1e-15);  // made orthonormal again
   const NodeState& b = session.node("b");
   CHECK((a.x + a.R * Vector3(0.4, 0, 0) - b.x - b.R * Vector3(-0.4, 0, 0)).norm() < 1e-12);
   REQUIRE(report.moved_nodes.size() == 1);
