@@ -52,7 +52,7 @@ class ClosingEquations {
 
   /// Whether bodies move without any stiffness between them: a way out where stiffness leads nowhere.
   void leave_stiffness_out(bool yes) { bare_ = yes; }
-  bool any_stiffness() const { return any_stiffness_; }
+  bool any_stiffness() const { return any_stiffness_ && !bare_; }
   /// A state from which what is the same on both sides of the drawing (links in line) goes to one of them.
   State shaken(const State& state) const;
 

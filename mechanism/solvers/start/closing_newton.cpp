@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace bielle::mechanism {
@@ -52,15 +53,19 @@ class ClosingNewton {
       : equations_(equations), state_(state), known_(VectorX::Zero(equations.rows())) {}
 
   bool run() {
-    double previous = 0, motion = 0;
+    double motion = 0;
+    constexpr int patience = 3;
+    int stagnant = 0;  // iterations since the worst gap has been halved
+    double reached = std::numeric_limits<double>::infinity();
     for (int iteration = 0;; ++iteration) {
       gaps_ = equations_.measure(state_);
       if (!std::isfinite(gaps_.worst)) return false;
-      const bool together = gaps_.worst <= satisfied ||
-                            (iteration > 0 && gaps_.worst <= 1e3 * satisfied && gaps_.worst >= 0.5 * previous);
+      stagnant = gaps_.worst < 0.5 * reached ? 0 : stagnant + 1;
+      reached = std::min(reached, gaps_.worst);
+      const bool together =
+          gaps_.worst <= satisfied || (stagnant >= patience && gaps_.worst <= 1e3 * satisfied);
       if (together && (iteration == 0 || motion <= relaxed || iteration == most_iterations)) return true;
       if (iteration == most_iterations || stands_still()) return false;
-      previous = gaps_.worst;
       equations_.assemble(state_);
       if (!step(motion)) return false;
     }
@@ -96,7 +101,9 @@ class ClosingNewton {
         if (!accepted(gaps, linear)) continue;
         state_ = std::move(trial);
         motion = std::max(size.turn, size.displacement);
-        known_ = part == 1 && damping_ == least_damping ? mu : VectorX::Zero(mu.size());
+        // Rigid bodies need none, and those that only repeat others disturb them.
+        const bool holds = equations_.any_stiffness() && part == 1 && damping_ == least_damping;
+        known_ = holds ? mu : VectorX::Zero(mu.size());
         if (halving == 0) damping_ = damping_ > first_damping ? damping_ / 30 : least_damping;
         return true;
       }
