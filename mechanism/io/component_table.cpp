@@ -8,7 +8,15 @@
 #include "mechanism/elements/rigid_body/rigid_body.hpp"
 #include "mechanism/elements/superelement/superelement_body.hpp"
 #include "mechanism/joints/actions/drive.hpp"
+#include "mechanism/joints/cables/rope_section.hpp"
+#include "mechanism/joints/couplings/linear_coupling.hpp"
+#include "mechanism/joints/gears/gear_mesh.hpp"
+#include "mechanism/joints/pairs/guided_point.hpp"
+#include "mechanism/joints/pairs/links.hpp"
 #include "mechanism/joints/pairs/lower_pairs.hpp"
+#include "mechanism/joints/pairs/screw.hpp"
+#include "mechanism/joints/pairs/universal.hpp"
+#include "mechanism/joints/pairs/wheel.hpp"
 
 namespace bielle::mechanism {
 
@@ -25,6 +33,21 @@ const std::vector<ComponentType>& component_table() {
       {Section::joints, "cylindrical", read_cylindrical},
       {Section::joints, "spherical", read_spherical},
       {Section::joints, "planar", read_planar},
+      {Section::joints, "screw", read_screw},
+      {Section::joints, "universal", read_universal},
+      {Section::joints, "constant_velocity", read_constant_velocity},
+      {Section::joints, "distance", read_distance},
+      {Section::joints, "spherical_spherical", read_spherical_spherical},
+      {Section::joints, "revolute_spherical", read_revolute_spherical},
+      {Section::joints, "point_on_line", read_point_on_line},
+      {Section::joints, "point_on_plane", read_point_on_plane},
+      {Section::joints, "wheel", read_wheel},
+      {Section::joints, "gear", read_gear},
+      {Section::joints, "gear_mesh", read_gear_mesh},
+      {Section::joints, "differential", read_differential},
+      {Section::joints, "rack_and_pinion", read_rack_and_pinion},
+      {Section::joints, "belt", read_belt},
+      {Section::joints, "cable", read_cable},
       {Section::drives, "drive", read_drive},
       {Section::loads, "load", read_load},
   };

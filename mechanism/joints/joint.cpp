@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/measures/pair_rotation.hpp"
+#include "mechanism/measures/turns.hpp"
 #include "mechanism/model/description.hpp"
 
 namespace bielle::mechanism {
@@ -36,10 +37,18 @@ CoordinateRate Joint::principal_coordinate(std::size_t index, const LocalState& 
     const PairRotation rotation(first, second, A.R, B.R);
     return {rotation.psi()[coordinate.axis], rotation.omega(first, second)[coordinate.axis]};
   }
+  if (coordinate.axis == JointCoordinate::by_type) {
+    const PairMeasure m = calc_own_coordinate(index, state);
+    return {m.value, m.rate(pair_rate(first, second))};
+  }
   const auto [value, rate] = coordinate.kind == JointCoordinate::Kind::displacement
                                  ? measure_position_rate(first, second, A.R.col(coordinate.axis), A.x, B.x)
                                  : measure_angle_rate(first, second, A.R, B.R);
   return {value, rate};
+}
+
+PairMeasure Joint::calc_own_coordinate(std::size_t index, const LocalState& /*state*/) const {
+  throw std::logic_error(fmt::format("a {} does not define its coordinate '{}'", type(), coordinates_[index].name));
 }
 
 double Joint::counted(std::size_t index, const LocalState& state, const CoordinateRate& principal) const {
@@ -47,11 +56,9 @@ double Joint::counted(std::size_t index, const LocalState& state, const Coordina
   const auto memory = state.memory();
   const auto at = 2 * static_cast<Eigen::Index>(index);
   const double time_before = memory[memory.size() - 1];
-  // Before the first step: as far as statics have brought the drive that starts elsewhere than drawn.
-  const double expected = std::isnan(time_before)
-                              ? (start_[index].by_motion ? state.motion_factor() : 1.0) * memory[at]
-                              : memory[at] + 0.5 * (memory[at + 1] + principal.rate) * (state.time() - time_before);
-  return unwrap_angle(principal.value, expected);
+  // A start value is where the coordinate is, whatever part of the motions statics have made.
+  if (std::isnan(time_before) && !start_[index].by_motion) return unwrap_angle(principal.value, memory[at]);
+  return counted_angle(principal, {memory[at], memory[at + 1]}, time_before, state);
 }
 
 CoordinateRate Joint::coordinate(std::size_t index, const LocalState& state) const {
@@ -68,7 +75,8 @@ void Joint::calc_coordinate(std::size_t index, const LocalState& state, Coordina
     PairRotation(first, second, A.R, B.R).calc(coordinate.axis, first, second, jet);
     return;
   }
-  const PairMeasure m = coordinate.kind == JointCoordinate::Kind::angle
+  const PairMeasure m = coordinate.axis == JointCoordinate::by_type ? calc_own_coordinate(index, state)
+                        : coordinate.kind == JointCoordinate::Kind::angle
                             ? measure_angle(first, second, A.R, B.R)
                             : measure_position(first, second, A.R.col(coordinate.axis), A.x, B.x);
   jet.g().head<12>() = jet.w().head<12>() = m.gradient;

@@ -74,6 +74,8 @@ class Joint : public Component {
   std::string remark() const override;
 
  protected:
+  /// A coordinate that the type defines (JointCoordinate::by_type): an angle in (-pi, pi].
+  virtual PairMeasure calc_own_coordinate(std::size_t index, const LocalState& state) const;
   /// A coordinate's value, angles in (-pi, pi], and its rate.
   virtual CoordinateRate principal_coordinate(std::size_t index, const LocalState& state) const;
 

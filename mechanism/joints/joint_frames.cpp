@@ -1,6 +1,7 @@
 #include "mechanism/joints/joint_frames.hpp"
 
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include "mechanism/reading/names.hpp"
@@ -49,12 +50,13 @@ Matrix3 axes_of(const Vector3& x_direction, const Vector3& z) {
 }
 
 /// Axes of the joint's frame on each node, in inertial components as drawn.
-std::array<Matrix3, 2> read_axes(const YamlValue& entry, const Frame& first, const Frame& second, AxisNeed need) {
+std::array<Matrix3, 2> read_axes(const YamlValue& entry, const Frame& first, const Frame& second, AxisNeed need,
+                                 const std::string& axis_key) {
   const std::optional<YamlValue> second_axis = entry.find("second_axis");
-  if (need == AxisNeed::optional && !entry.has("axis") && !second_axis)
+  if (need == AxisNeed::optional && !entry.has(axis_key) && !second_axis)
     return {Matrix3::Identity(), Matrix3::Identity()};
-  const OnNodes z = need == AxisNeed::required || entry.has("axis") ? read_directions(entry.at("axis"), first, second)
-                                                                    : OnNodes{Vector3::UnitZ(), Vector3::UnitZ()};
+  const OnNodes z = need == AxisNeed::required || entry.has(axis_key) ? read_directions(entry.at(axis_key), first, second)
+                                                                      : OnNodes{Vector3::UnitZ(), Vector3::UnitZ()};
   OnNodes x;
   if (second_axis) {
     const OnNodes given = read_directions(*second_axis, first, second);
@@ -71,9 +73,16 @@ std::array<Matrix3, 2> read_axes(const YamlValue& entry, const Frame& first, con
 
 }  // namespace
 
+Vector3 smallest_turn(const Vector3& from, const Vector3& to, const Vector3& normal) {
+  const Vector3 product = from.cross(to);
+  const double sine = product.norm(), angle = std::atan2(sine, from.dot(to));
+  return angle * (sine > 1e-12 ? Vector3(product / sine) : normal);
+}
+
 std::vector<std::string> joint_frame_keys() { return {"type", "nodes", "position", "at", "axis", "second_axis"}; }
 
-JointFrames read_joint_frames(const YamlValue& entry, const Model& model, AxisNeed need) {
+JointFrames read_joint_frames(const YamlValue& entry, const Model& model, AxisNeed need,
+                              const std::string& axis_key) {
   JointFrames frames;
   const std::vector<int> nodes = nodes_named_by(entry.at("nodes"), 2, model);
   frames.first = nodes[0];
@@ -84,7 +93,7 @@ JointFrames read_joint_frames(const YamlValue& entry, const Model& model, AxisNe
   if (position && at)
     at->fail("a joint is attached at a `position` as drawn, or `at` a point in the axes of each node: give one of them");
   const Vector3 place = position ? position->vector3() : second.x;
-  const std::array<Matrix3, 2> axes = read_axes(entry, first, second, need);
+  const std::array<Matrix3, 2> axes = read_axes(entry, first, second, need, axis_key);
   frames.on_first = inverse(first) * Frame{place, axes[0]};
   frames.on_second = inverse(second) * Frame{place, axes[1]};
   if (at) {

@@ -30,8 +30,14 @@ struct JointFrames {
 /// Whether a type needs an axis.
 enum class AxisNeed { required, optional };
 
-/// Reads `nodes`, `position` or `at`, `axis`, `second_axis` of a joint's entry. @throws InputError
-JointFrames read_joint_frames(const YamlValue& entry, const Model& model, AxisNeed need);
+/// Reads `nodes`, `position` or `at`, `axis`, `second_axis` of a joint's entry.
+/// @param axis_key  in place of `axis`, where the type calls it otherwise (`normal` of a plane)
+/// @throws InputError
+JointFrames read_joint_frames(const YamlValue& entry, const Model& model, AxisNeed need,
+                              const std::string& axis_key = "axis");
+
+/// The smallest rotation vector that turns one unit vector to another. @param normal  to both, where they are opposite
+Vector3 smallest_turn(const Vector3& from, const Vector3& to, const Vector3& normal);
 
 /// The keys that `read_joint_frames` reads, with `type`.
 std::vector<std::string> joint_frame_keys();

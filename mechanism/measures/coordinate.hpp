@@ -15,12 +15,14 @@
 namespace bielle::mechanism {
 
 /// What a coordinate is: a displacement along an axis of the joint's frame, an angle about its z axis, or a component
-/// of the rotation vector of J_B relative to J_A (principal value; its rate is the relative angular velocity).
+/// of the rotation vector of J_B relative to J_A (principal value; its rate is the relative angular velocity); or a
+/// displacement or angle that the joint's type defines.
 struct JointCoordinate {
   enum class Kind { displacement, angle, rotation };
-  std::string name;  ///< "angle", "displacement", "x", ...
+  static constexpr int by_type = -1;  ///< in place of an axis
+  std::string name;                   ///< "angle", "displacement", "x", ...
   Kind kind = Kind::displacement;
-  int axis = 2;  ///< 0 x, 1 y, 2 z
+  int axis = 2;  ///< 0 x, 1 y, 2 z, or by_type
   const char* units() const { return kind == Kind::displacement ? "m" : "rad"; }
   const char* rate_units() const { return kind == Kind::displacement ? "m/s" : "rad/s"; }
   const char* force_units() const { return kind == Kind::displacement ? "N" : "N m"; }

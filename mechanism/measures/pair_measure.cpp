@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "mechanism/measures/turns.hpp"
+
 namespace bielle::mechanism {
 
 namespace {
@@ -139,18 +141,8 @@ PairMeasure measure_alignment(const NodeState& first, const NodeState& second, c
 }
 
 PairMeasure measure_angle(const NodeState& first, const NodeState& second, const Matrix3& A, const Matrix3& B) {
-  const PairMeasure s = measure_alignment(first, second, A.col(1), B.col(0));
-  const PairMeasure c = measure_alignment(first, second, A.col(0), B.col(0));
-  // theta = atan2(s, c): dtheta = (c ds - s dc)/w, w = s^2 + c^2; dw = 2 (s ds + c dc)
-  const double w = s.value * s.value + c.value * c.value;
-  PairMeasure m;
-  m.value = std::atan2(s.value, c.value);
-  m.gradient = (c.value * s.gradient - s.value * c.gradient) / w;
-  const Vector12 dw = 2 * (s.value * s.gradient + c.value * c.gradient);
-  m.second = (c.value * s.second - s.value * c.second + s.gradient * c.gradient.transpose() -
-              c.gradient * s.gradient.transpose() - m.gradient * dw.transpose()) /
-             w;
-  return m;
+  return atan2(measure_alignment(first, second, A.col(1), B.col(0)),
+               measure_alignment(first, second, A.col(0), B.col(0)));
 }
 
 PairMeasureRate measure_position_rate(const NodeState& first, const NodeState& second, const Vector3& e_hat,

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "mechanism/math/se3.hpp"
+#include "mechanism/measures/measure_jet.hpp"
 #include "mechanism/model/local_tangent.hpp"
 #include "mechanism/model/state.hpp"
 
@@ -38,13 +39,7 @@ struct PairHessian {
   Matrix12 dense() const;
 };
 
-struct PairMeasure {
-  double value = 0;
-  Vector12 gradient = Vector12::Zero();
-  Matrix12 second = Matrix12::Zero();
-  double rate(const Vector12& v) const { return gradient.dot(v); }
-  double acceleration(const Vector12& v, const Vector12& a) const { return gradient.dot(a) + v.dot(second * v); }
-};
+using PairMeasure = MeasureJet<12>;
 
 /// Positions of a point p_2 = x_2 + R_2 c_2 of node 2 relative to node 1: measures e . (p_2 - p_1), p_1 = x_1 + R_1
 /// c_1, along axes e = R_1 e^ carried by node 1. Gradient and second derivative are linear in e^: several axes, each
@@ -120,8 +115,5 @@ struct PairMeasureRate {
 PairMeasureRate measure_position_rate(const NodeState& first, const NodeState& second, const Vector3& e_hat,
                                       const Vector3& c_1, const Vector3& c_2);
 PairMeasureRate measure_angle_rate(const NodeState& first, const NodeState& second, const Matrix3& A, const Matrix3& B);
-
-/// `angle` plus the whole turns that bring it nearest to `previous`.
-double unwrap_angle(double angle, double previous);
 
 }  // namespace bielle::mechanism

@@ -1,6 +1,7 @@
 #include "reduce/common/interpolation.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -10,6 +11,52 @@
 namespace bielle {
 
 namespace {
+
+/// A tridiagonal system with a dominant diagonal; the right-hand sides are the columns of `right`, which become the
+/// solutions.
+void solve_tridiagonal(const Eigen::VectorXd& lower, Eigen::VectorXd diagonal, const Eigen::VectorXd& upper,
+                       Eigen::Ref<Eigen::MatrixXd> right) {
+  const Eigen::Index m = diagonal.size();
+  for (Eigen::Index i = 1; i < m; ++i) {
+    const double factor = lower(i) / diagonal(i - 1);
+    diagonal(i) -= factor * upper(i - 1);
+    right.row(i) -= factor * right.row(i - 1);
+  }
+  right.row(m - 1) /= diagonal(m - 1);
+  for (Eigen::Index i = m - 2; i >= 0; --i) right.row(i) = (right.row(i) - upper(i) * right.row(i + 1)) / diagonal(i);
+}
+
+/// Second derivatives of the periodic cubic spline: the equations below at all points, those of the first and the last
+/// the same. The corners of their matrix are taken off it by a matrix of rank one (Sherman-Morrison).
+Eigen::VectorXd periodic_curvature(const Eigen::VectorXd& x, const Eigen::VectorXd& y) {
+  const Eigen::Index n = x.size(), m = n - 1;  // unknowns M_0 .. M_{n-2}
+  Eigen::VectorXd h(m), s(m), lower(m), diagonal(m), upper(m);
+  Eigen::MatrixXd right(m, 2);
+  for (Eigen::Index i = 0; i < m; ++i) {
+    h(i) = x(i + 1) - x(i);
+    s(i) = (y(i + 1) - y(i)) / h(i);
+  }
+  for (Eigen::Index i = 0; i < m; ++i) {
+    const Eigen::Index before = i == 0 ? m - 1 : i - 1;
+    lower(i) = h(before);
+    upper(i) = h(i);
+    diagonal(i) = 2 * (h(before) + h(i));
+    right(i, 0) = 6 * (s(i) - s(before));
+    right(i, 1) = 0;
+  }
+  const double corner = h(m - 1), gamma = -diagonal(0);
+  right(0, 1) = gamma;
+  right(m - 1, 1) = corner;
+  diagonal(0) -= gamma;
+  diagonal(m - 1) -= corner * corner / gamma;
+  solve_tridiagonal(lower, diagonal, upper, right);
+  const double along = corner / gamma;
+  const double part = (right(0, 0) + along * right(m - 1, 0)) / (1 + right(0, 1) + along * right(m - 1, 1));
+  Eigen::VectorXd M(n);
+  M.head(m) = right.col(0) - part * right.col(1);
+  M(m) = M(0);
+  return M;
+}
 
 /// Second derivatives M of the not-a-knot cubic spline at its points:
 ///   h_{i-1} M_{i-1} + 2 (h_{i-1} + h_i) M_i + h_i M_{i+1} = 6 (s_i - s_{i-1}),  i = 1 .. n-2,  s_i = (y_{i+1} - y_i) /
@@ -35,14 +82,9 @@ Eigen::VectorXd spline_curvature(const Eigen::VectorXd& x, const Eigen::VectorXd
   upper(0) -= h(0) * first;
   diagonal(m - 1) += h(n - 2) * (1 + last);
   lower(m - 1) -= h(n - 2) * last;
-  for (Eigen::Index i = 1; i < m; ++i) {
-    const double factor = lower(i) / diagonal(i - 1);
-    diagonal(i) -= factor * upper(i - 1);
-    right(i) -= factor * right(i - 1);
-  }
+  solve_tridiagonal(lower, diagonal, upper, right);
   Eigen::VectorXd M(n);
-  M(m) = right(m - 1) / diagonal(m - 1);
-  for (Eigen::Index i = m - 1; i >= 1; --i) M(i) = (right(i - 1) - upper(i - 1) * M(i + 1)) / diagonal(i - 1);
+  M.segment(1, m) = right;
   M(0) = M(1) * (1 + first) - M(2) * first;
   M(n - 1) = M(n - 2) * (1 + last) - M(n - 3) * last;
   return M;
@@ -56,6 +98,12 @@ Interpolation::Interpolation(Eigen::VectorXd x, Eigen::VectorXd y, Kind kind, st
   for (Eigen::Index i = 1; i < x_.size(); ++i)
     if (x_(i) <= x_(i - 1))
       throw InputError(fmt::format("{}: the first column must ascend, but {} follows {}", name_, x_(i), x_(i - 1)));
+  if (kind_ == Kind::periodic) {
+    if (x_.size() < 4) throw InputError(fmt::format("{}: a periodic spline needs three points and the first again", name_));
+    if (y_(0) != y_(y_.size() - 1)) throw InputError(fmt::format("{}: the last value must repeat the first", name_));
+    curvature_ = periodic_curvature(x_, y_);
+    return;
+  }
   curvature_ = kind_ == Kind::cubic ? spline_curvature(x_, y_) : Eigen::VectorXd(Eigen::VectorXd::Zero(x_.size()));
 }
 
@@ -66,6 +114,7 @@ Interpolation Interpolation::from_file(const std::string& path, Kind kind) {
 
 Interpolation::Values Interpolation::operator()(double x, bool from_right) const {
   const double first = x_(0), last = x_(x_.size() - 1), rounding = 1e-9 * (last - first);
+  if (kind_ == Kind::periodic) x -= (last - first) * std::floor((x - first) / (last - first));
   if (!(x >= first - rounding && x <= last + rounding))
     throw ComputationError(
         fmt::format("{} is outside the table '{}', which runs from {} to {}", x, name_, first, last));

@@ -12,11 +12,12 @@ namespace bielle {
 /// y(x) through points with ascending x; defined between the first and the last point only.
 ///
 /// `linear` has kinks at the points. `cubic` is the spline with continuous second derivative and the not-a-knot
-/// condition at both ends (a cubic is reproduced exactly; three points give a parabola, two a straight line).
+/// condition at both ends (a cubic is reproduced exactly; three points give a parabola, two a straight line). `periodic`
+/// is the cubic spline that repeats itself: the last point has the first value, and x may be any number.
 /// Reference: C. de Boor, A Practical Guide to Splines, chapter IV.
 class Interpolation {
  public:
-  enum class Kind { linear, cubic };
+  enum class Kind { linear, cubic, periodic };
   struct Values {
     double value, slope, curvature;
   };

@@ -28,6 +28,8 @@ struct Scales {
   double amplitude = 1;      ///< of second-order scalars
   double first_order = 1;    ///< of first-order unknowns: random within start +- this
   double multiplier = 1;     ///< [N], [N m]
+  /// Forces have a kink where nothing is loaded: the laws are checked away from there.
+  bool kinks_unloaded = false;
 };
 
 /// Terms that a type leaves out of its tangents. With w the largest rate [1/s] of a state and M its largest mass,
@@ -54,5 +56,7 @@ const std::vector<Sample>& samples();
 // Parts of the list.
 std::vector<Sample> element_samples();
 std::vector<Sample> joint_samples();
+std::vector<Sample> higher_pair_samples();
+std::vector<Sample> coupling_samples();
 
 }  // namespace bielle::laws

@@ -1,7 +1,5 @@
 #include "mechanism/joints/pairs/lower_pairs.hpp"
 
-#include <cmath>
-
 #include "mechanism/joints/actions/joint_actions.hpp"
 
 namespace bielle::mechanism {
@@ -166,10 +164,7 @@ Vector3 LowerPair::misalignment(const LocalState& state) const {
   if (rows_.empty() || rows_.back().is_translation) return Vector3::Zero();
   const Matrix3 R_A = state.node(0).R * frames().on_first.R, R_B = state.node(1).R * frames().on_second.R;
   if (rows_.back().second_axis == 1) return log_so3(Matrix3(R_A * R_B.transpose()));
-  // The shortest way of z_B to z_A; where they are opposite, about any normal.
-  const Vector3 z_A = R_A.col(2), z_B = R_B.col(2), normal = z_B.cross(z_A);
-  const double sine = normal.norm(), angle = std::atan2(sine, z_A.dot(z_B));
-  return angle * (sine > 1e-12 ? Vector3(normal / sine) : Vector3(R_A.col(0)));
+  return smallest_turn(R_B.col(2), R_A.col(2), R_A.col(0));
 }
 
 namespace {

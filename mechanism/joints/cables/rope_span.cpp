@@ -1,0 +1,43 @@
+#include "mechanism/joints/cables/rope_span.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+/// A measure of (second, first) as one of (first, second).
+PairMeasure exchanged(const PairMeasure& m) {
+  PairMeasure result;
+  result.value = m.value;
+  result.gradient << m.gradient.tail<6>(), m.gradient.head<6>();
+  result.second << m.second.bottomRightCorner<6, 6>(), m.second.bottomLeftCorner<6, 6>(),
+      m.second.topRightCorner<6, 6>(), m.second.topLeftCorner<6, 6>();
+  return result;
+}
+
+/// Component, along an axis of a pulley's frame on `node`, of the way from there to a point of another node.
+PairMeasure way(const NodeState& node, const NodeState& other, const Pulley& here, const Vector3& there, int axis) {
+  return measure_position(node, other, here.on_node.R.col(axis), here.on_node.x, there);
+}
+
+}  // namespace
+
+SpanMeasures measure_span(const NodeState& first, const NodeState& second, const Pulley& from, const Pulley& to) {
+  const Vector3 &p_i = from.on_node.x, &p_j = to.on_node.x;
+  const double difference = to.radius - from.radius;
+  std::array<PairMeasure, 3> d;
+  for (int axis = 0; axis < 3; ++axis) d[static_cast<std::size_t>(axis)] = way(first, second, from, p_j, axis);
+  SpanMeasures span;
+  span.length = sqrt(square(d[0]) + square(d[1]) + square(d[2]) - difference * difference);
+  const double l = span.length.value, squared = l * l + difference * difference;
+  // gamma = atan2(difference, l): d gamma/dl = -difference/(l^2 + difference^2)
+  const PairMeasure gamma = compose(span.length, std::atan2(difference, l), -difference / squared,
+                                    2 * l * difference / (squared * squared));
+  if (from.radius != 0) span.first_turn = atan2(d[1], d[0]) + gamma;
+  if (to.radius != 0) {
+    // The way from j to i, reversed.
+    const PairMeasure x = exchanged(-way(second, first, to, p_i, 0)), y = exchanged(-way(second, first, to, p_i, 1));
+    span.second_turn = atan2(y, x) + gamma;
+  }
+  return span;
+}
+
+}  // namespace bielle::mechanism

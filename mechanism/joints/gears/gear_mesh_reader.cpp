@@ -1,0 +1,118 @@
+// `gear_mesh`: its keys, and where the teeth meet.
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "mechanism/joints/gears/gear_mesh.hpp"
+#include "mechanism/joints/gears/tooth_directions.hpp"
+#include "mechanism/model/model.hpp"
+#include "mechanism/reading/names.hpp"
+#include "reduce/common/yaml_file.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+constexpr double fit = 1e-6;  ///< of radii with the distance of centres, relative
+
+/// What is given in inertial components as drawn.
+struct DrawnWheels {
+  std::array<Vector3, 2> axis, centre;
+};
+
+std::array<Vector3, 2> read_axes(const YamlValue& axes) {
+  // One direction for both wheels, or a pair.
+  if (axes.is_sequence() && axes.size() == 2 && axes.at(0).is_sequence())
+    return {axes.at(0).direction(), axes.at(1).direction()};
+  const Vector3 both = axes.direction();
+  return {both, both};
+}
+
+/// The pitch point of wheels on parallel axes, from their radii.
+Vector3 pitch_point_of_radii(const YamlValue& given, const DrawnWheels& wheels, bool internal) {
+  const Eigen::VectorXd radii = given.positive_numbers(2, "[pitch radius of the first wheel, of the second]");
+  const Vector3& z = wheels.axis[0];
+  if (z.cross(wheels.axis[1]).norm() > 1e-6)
+    given.fail("belong to wheels on parallel axes; for other axes give `position`, the point where the teeth meet");
+  const Vector3 way = wheels.centre[1] - wheels.centre[0];
+  const Vector3 across = way - z * z.dot(way);
+  const double distance = across.norm(), wanted = internal ? std::abs(radii[0] - radii[1]) : radii[0] + radii[1];
+  if (std::abs(distance - wanted) > fit * (radii[0] + radii[1]))
+    given.fail(fmt::format("make a distance of axes of {:.9g} m; the wheels are drawn {:.9g} m apart", wanted, distance));
+  if (wanted <= fit * (radii[0] + radii[1])) given.fail("of an internal gear must differ");
+  const double towards = internal && radii[0] < radii[1] ? -1 : 1;
+  return wheels.centre[0] + 0.5 * z * z.dot(way) + towards * radii[0] * across / distance;
+}
+
+Vector3 read_pitch_point(const YamlValue& entry, const DrawnWheels& wheels, bool internal) {
+  if (entry.has("radii") == entry.has("position"))
+    entry.fail("a gear mesh takes either `radii` (of wheels on parallel axes) or `position`, the point where the teeth meet");
+  return entry.has("radii") ? pitch_point_of_radii(entry.at("radii"), wheels, internal) : entry.at("position").vector3();
+}
+
+double read_angle_below_quarter(const YamlValue& entry, const char* key, double usual) {
+  const auto given = entry.find(key);
+  if (!given) return usual;
+  const double angle = given->number();
+  if (std::abs(angle) >= M_PI / 2) given->fail("expected an angle between -pi/2 and pi/2 [rad]");
+  return angle;
+}
+
+ToothGeometry read_geometry(const YamlValue& entry, const std::array<int, 3>& nodes, const Model& model) {
+  const Frame& carrier = model.node(nodes[0]).frame;
+  DrawnWheels wheels{read_axes(entry.at("axes")), {model.node(nodes[1]).frame.x, model.node(nodes[2]).frame.x}};
+  const auto given = entry.find("internal");
+  const bool internal = given && given->boolean();
+  const Vector3 P = read_pitch_point(entry, wheels, internal);
+  ToothGeometry geometry;
+  const auto seen = [&](const Vector3& point) -> Vector3 { return carrier.R.transpose() * (point - carrier.x); };
+  std::array<double, 2> radius{};
+  for (std::size_t k = 0; k < 2; ++k) {
+    geometry.axis[k] = carrier.R.transpose() * wheels.axis[k];
+    geometry.centre[k] = seen(wheels.centre[k]);
+    geometry.wheel[k] = model.node(nodes[k + 1]).frame.R.transpose() * carrier.R;
+    radius[k] = wheels.axis[k].cross(P - wheels.centre[k]).norm();
+  }
+  geometry.P = seen(P);
+  geometry.pressure_angle = read_angle_below_quarter(entry, "pressure_angle", M_PI / 9);
+  if (geometry.pressure_angle < 0) entry.at("pressure_angle").fail("expected 0 or more");
+  const double helix = read_angle_below_quarter(entry, "helix_angle", 0);
+  try {
+    set_tooth_directions(geometry, helix, internal && radius[0] > radius[1]);
+  } catch (const std::domain_error& error) {
+    (entry.has("position") ? entry.at("position") : entry.at("axes")).fail(error.what());
+  }
+  return geometry;
+}
+
+}  // namespace
+
+void read_gear_mesh(const std::string& name, const YamlValue& entry, Model& model) {
+  entry.check_keys({"type", "nodes", "carrier", "axes", "radii", "position", "internal", "pressure_angle", "helix_angle",
+                    "stiffness", "damping", "backlash"},
+                   "a gear mesh");
+  const std::vector<int> wheels = nodes_named_by(entry.at("nodes"), 2, model);
+  const auto given = entry.find("carrier");
+  const std::array<int, 3> nodes{given ? node_named_by(*given, model) : 0, wheels[0], wheels[1]};
+  if (wheels[0] == wheels[1]) entry.at("nodes").fail("a gear mesh needs two different wheels");
+  for (const int wheel : wheels)
+    if (wheel == nodes[0]) (given ? *given : entry.at("nodes")).fail("a wheel cannot be its own carrier");
+  const std::array<std::string, 3> names{model.node(nodes[0]).name, model.node(nodes[1]).name, model.node(nodes[2]).name};
+  const ToothGeometry geometry = read_geometry(entry, nodes, model);
+  const Entry own{Section::joints, name};
+  if (const auto stiffness = entry.find("stiffness")) {
+    ToothSpring spring{stiffness->positive_number(), 0, 0};
+    if (const auto damping = entry.find("damping")) spring.damping = damping->non_negative_number();
+    if (const auto backlash = entry.find("backlash")) spring.backlash = backlash->non_negative_number();
+    model.add(std::make_unique<ElasticGearMesh>(name, nodes, names, geometry, spring), own);
+    return;
+  }
+  for (const char* key : {"damping", "backlash"})
+    if (const auto too_much = entry.find(key)) too_much->fail("needs the `stiffness` of the teeth");
+  auto mesh = std::make_unique<RigidGearMesh>(name, nodes, names, geometry);
+  const RigidGearMesh& rigid = *mesh;
+  model.add(std::move(mesh), own);
+  if (geometry.pressure_angle > 0) model.add(std::make_unique<GearSeparation>(name, rigid), own, Recorded::no);
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,50 @@
+// Links without a body: two points of two nodes at a distance, d from the first to the second, |d| = L.
+//
+//   distance             (d . d - L^2)/(2 L) = 0: a rod with a ball at either end (`spherical_spherical`). The multiplier
+//                        is the tension [N]. L may be a formula of time: a rod that is drawn in or let out
+//   revolute_spherical   a rod with a hinge on the first node, about z of the joint's frame (`axis`), and a ball on the
+//                        second: the ball also stays in its plane, z_A . d = h, as drawn. Coordinate `angle`: of the rod
+//                        about the hinge, from where it is drawn
+//
+// The squared form has a derivative everywhere, at d = 0 too, and its gradient is that of |d| where the row holds.
+#pragma once
+
+#include "mechanism/joints/measured_pair.hpp"
+
+namespace bielle::mechanism {
+
+class DistanceJoint final : public MeasuredPair {
+ public:
+  /// @param length  positive [m], of t
+  DistanceJoint(std::string type, std::string name, JointFrames frames, Expression length, const Model& model);
+  void add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
+                            Eigen::Ref<VectorX> acceleration) const override;
+  void add_energy(const LocalState& state, Energy& energy) const override;
+  void add_break_points(std::vector<double>& times) const override;
+  double turning_rate(const LocalState& state) const override;
+  void describe(const LocalState& state, Description& description) const override;
+
+ private:
+  void calc_rows(const LocalState& state, std::span<PairMeasure> rows) const override;
+  Expression length_;
+};
+
+class RevoluteSphericalLink final : public MeasuredPair {
+ public:
+  /// @param length,offset  |d| and z_A . d [m]
+  RevoluteSphericalLink(std::string name, JointFrames frames, double length, double offset, const Model& model);
+  void describe(const LocalState& state, Description& description) const override;
+
+ private:
+  void calc_rows(const LocalState& state, std::span<PairMeasure> rows) const override;
+  PairMeasure calc_own_coordinate(std::size_t index, const LocalState& state) const override;
+  double length_, offset_;
+};
+
+/// `at: [[..], [..]]`: the two points in the axes of their nodes (default: the nodes). `length` (t): default as drawn.
+void read_distance(const std::string& name, const YamlValue& entry, Model& model);
+void read_spherical_spherical(const std::string& name, const YamlValue& entry, Model& model);
+/// Besides `at` and `length` the hinge's `axis`.
+void read_revolute_spherical(const std::string& name, const YamlValue& entry, Model& model);
+
+}  // namespace bielle::mechanism

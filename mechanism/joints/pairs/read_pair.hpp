@@ -1,0 +1,29 @@
+// What the readers of joints between two nodes share.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mechanism/joints/actions/joint_actions.hpp"
+#include "mechanism/joints/joint.hpp"
+
+namespace bielle::mechanism {
+
+/// Refuses keys that are none of the type's, of its frames', or of what acts in all joints.
+/// @param words  the type in words: "a hinge"
+inline void check_pair_keys(const YamlValue& entry, const std::string& words, std::vector<std::string> keys) {
+  for (std::string& action : joint_action_keys()) keys.push_back(std::move(action));
+  entry.check_keys(keys, words);
+}
+
+/// Adds the joint, and what its entry says of its coordinates. @returns the joint
+inline Joint& add_pair(std::unique_ptr<Joint> made, const YamlValue& entry, Model& model) {
+  Joint& joint = *made;
+  model.add(std::move(made), Entry{Section::joints, joint.name()});
+  read_joint_actions(entry, joint, model);
+  return joint;
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,58 @@
+#include "mechanism/joints/pairs/screw.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "mechanism/joints/pairs/read_pair.hpp"
+#include "mechanism/model/description.hpp"
+
+namespace bielle::mechanism {
+namespace {
+constexpr std::size_t screw_angle = 1;  ///< among the coordinates
+}
+
+ScrewJoint::ScrewJoint(std::string name, JointFrames frames, double pitch, const Model& model)
+    : MeasuredPair("screw", std::move(name), std::move(frames),
+                   {{"displacement", JointCoordinate::Kind::displacement, 2},
+                    {"angle", JointCoordinate::Kind::angle, 2}},
+                   {{"x", "N"}, {"y", "N"}, {"rx", "N m"}, {"ry", "N m"}, {"thread", "N"}}, model),
+      pitch_(pitch) {}
+
+void ScrewJoint::calc_rows(const LocalState& state, std::span<PairMeasure> rows) const {
+  rows[0] = position(0, state);
+  rows[1] = position(1, state);
+  rows[2] = alignment(1, 2, state);
+  rows[3] = alignment(0, 2, state);
+  PairMeasure angle = measure_angle(state.node(0), state.node(1), frames().on_first.R, frames().on_second.R);
+  angle.value = coordinate(screw_angle, state).value;  // with its turns
+  rows[4] = position(2, state) - (pitch_ / (2 * M_PI)) * angle;
+}
+
+std::string ScrewJoint::wrong_branch(const LocalState& state) const {
+  const Vector3 first = state.node(0).R * frames().on_first.R.col(2),
+                second = state.node(1).R * frames().on_second.R.col(2);
+  return first.dot(second) < 0 ? "its axes point in opposite directions" : "";
+}
+
+Vector3 ScrewJoint::misalignment(const LocalState& state) const {
+  const Matrix3 first = state.node(0).R * frames().on_first.R, second = state.node(1).R * frames().on_second.R;
+  return smallest_turn(second.col(2), first.col(2), first.col(0));
+}
+
+void ScrewJoint::describe(const LocalState& state, Description& description) const {
+  MeasuredPair::describe(state, description);
+  description.add(fmt::format("{:.6g} m per turn", pitch_));
+}
+
+void read_screw(const std::string& name, const YamlValue& entry, Model& model) {
+  std::vector<std::string> keys = joint_frame_keys();
+  keys.push_back("pitch");
+  check_pair_keys(entry, "a screw", keys);
+  const double pitch = entry.at("pitch").number();
+  if (pitch == 0) entry.at("pitch").fail("a screw without pitch does not move along its axis: take a hinge");
+  JointFrames frames = read_joint_frames(entry, model, AxisNeed::required);
+  add_pair(std::make_unique<ScrewJoint>(name, std::move(frames), pitch, model), entry, model);
+}
+
+}  // namespace bielle::mechanism

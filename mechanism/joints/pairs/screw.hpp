@@ -1,0 +1,26 @@
+// Screw: a cylindrical joint whose displacement follows its angle,
+//     x_A . d = y_A . d = 0,   x_A . z_B = y_A . z_B = 0,   z_A . d - pitch angle/(2 pi) = 0,   d from J_A to J_B.
+// The pitch [m per turn] is positive for right-handed threads: the second node moves along +axis for a positive turn.
+// The angle is counted over any number of turns. The last row's multiplier is the axial force in the thread [N].
+#pragma once
+
+#include "mechanism/joints/measured_pair.hpp"
+
+namespace bielle::mechanism {
+
+class ScrewJoint final : public MeasuredPair {
+ public:
+  ScrewJoint(std::string name, JointFrames frames, double pitch, const Model& model);
+  std::string wrong_branch(const LocalState& state) const override;
+  Vector3 misalignment(const LocalState& state) const override;
+  void describe(const LocalState& state, Description& description) const override;
+
+ private:
+  void calc_rows(const LocalState& state, std::span<PairMeasure> rows) const override;
+  double pitch_;
+};
+
+/// `pitch`: [m per turn]
+void read_screw(const std::string& name, const YamlValue& entry, Model& model);
+
+}  // namespace bielle::mechanism

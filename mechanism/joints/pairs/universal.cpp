@@ -1,0 +1,73 @@
+#include "mechanism/joints/pairs/universal.hpp"
+
+#include <cmath>
+
+#include "mechanism/joints/pairs/read_pair.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+using CoordinateKind = JointCoordinate::Kind;
+constexpr int x = 0, y = 1, z = 2;  ///< axes of the frames
+
+/// Rows of a common point, with one more.
+std::vector<MeasuredPair::Row> point_and(const char* torque) {
+  return {{"x", "N"}, {"y", "N"}, {"z", "N"}, {torque, "N m"}};
+}
+
+}  // namespace
+
+UniversalJoint::UniversalJoint(std::string name, JointFrames frames, const Model& model)
+    : MeasuredPair("universal", std::move(name), std::move(frames),
+                   {{"angle_1", CoordinateKind::angle, JointCoordinate::by_type},
+                    {"angle_2", CoordinateKind::angle, JointCoordinate::by_type}},
+                   point_and("cross"), model) {}
+
+void UniversalJoint::calc_rows(const LocalState& state, std::span<PairMeasure> rows) const {
+  for (const int axis : {x, y, z}) rows[static_cast<std::size_t>(axis)] = position(axis, state);
+  rows[3] = alignment(z, x, state);
+}
+
+PairMeasure UniversalJoint::calc_own_coordinate(std::size_t index, const LocalState& state) const {
+  return index == 0 ? atan2(alignment(y, x, state), alignment(x, x, state))
+                    : atan2(alignment(z, y, state), alignment(z, z, state));
+}
+
+ConstantVelocityJoint::ConstantVelocityJoint(std::string name, JointFrames frames, const Model& model)
+    : MeasuredPair("constant_velocity", std::move(name), std::move(frames),
+                   {{"bend_x", CoordinateKind::rotation, x}, {"bend_y", CoordinateKind::rotation, y}},
+                   point_and("torque"), model) {}
+
+void ConstantVelocityJoint::calc_rows(const LocalState& state, std::span<PairMeasure> rows) const {
+  for (const int axis : {x, y, z}) rows[static_cast<std::size_t>(axis)] = position(axis, state);
+  rows[3] = 0.5 * (alignment(y, x, state) - alignment(x, y, state));
+}
+
+std::string ConstantVelocityJoint::wrong_branch(const LocalState& state) const {
+  // Without twist x_A . x_B + y_A . y_B = 1 + cos(bend); turned by half a turn about the axis it is -2.
+  const Matrix3 A = state.node(0).R * frames().on_first.R, B = state.node(1).R * frames().on_second.R;
+  if (A.col(x).dot(B.col(x)) + A.col(y).dot(B.col(y)) < 0) return "its shafts are turned by half a turn about their axis";
+  return {};
+}
+
+void read_universal(const std::string& name, const YamlValue& entry, Model& model) {
+  check_pair_keys(entry, "a universal joint", joint_frame_keys());
+  const YamlValue second_axis = entry.at("second_axis"), axis = entry.at("axis");
+  // Of a pair each is made orthogonal to the axis on its node.
+  const auto is_pair = [](const YamlValue& value) { 
+    return value.is_sequence() && value.size() > 0 && value.at(std::size_t{0}).is_sequence();
+  };
+  if (!is_pair(axis) && !is_pair(second_axis) && std::abs(second_axis.direction().dot(axis.direction())) > 1e-6)
+    second_axis.fail("the two axes of the cross have to be at right angles; `axis` rides on the first node, "
+                     "`second_axis` on the second");
+  add_pair(std::make_unique<UniversalJoint>(name, read_joint_frames(entry, model, AxisNeed::required), model), entry,
+           model);
+}
+
+void read_constant_velocity(const std::string& name, const YamlValue& entry, Model& model) {
+  check_pair_keys(entry, "a constant-velocity joint", joint_frame_keys());
+  add_pair(std::make_unique<ConstantVelocityJoint>(name, read_joint_frames(entry, model, AxisNeed::required), model),
+           entry, model);
+}
+
+}  // namespace bielle::mechanism

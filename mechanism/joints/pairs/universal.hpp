@@ -1,0 +1,47 @@
+// Universal (Hooke's, Cardan) and constant-velocity joints: two shafts whose axes meet in a point and may bend there.
+//
+// Universal: a cross whose one axis, z of the joint's frame (`axis`), rides on the first node, and whose other axis,
+// x (`second_axis`), rides on the second. Rows: the point (x y z), and z_A . x_B = 0. Its multiplier is the torque
+// about the cross's normal [N m]. Coordinates: `angle_1`, of the cross about z_A relative to the first node; `angle_2`,
+// of the second node about x_B relative to the cross:
+//     angle_1 = atan2(y_A . x_B, x_A . x_B),   angle_2 = atan2(z_A . y_B, z_A . z_B).
+//
+// Constant velocity: z (`axis`) is the common axis of the two shafts where the joint is straight. Rows: the point, and
+//     (y_A . x_B - x_A . y_B)/2 = 0.
+// The left side is sin(theta) n_z of the rotation by theta about n that takes J_A to J_B: the row keeps n normal to
+// z_A, and then n is normal to z_B as well (the rotation leaves n where it is). So the shafts bend about an axis that
+// is normal to both, they are mirrored by the plane through the joint that halves their bend (the homokinetic plane),
+// and equal rates follow. With C = exp(theta n~), n = (cos(beta), sin(beta), 0), the second shaft turns relative to the
+// first by dphi = C^T n (..): let the two shafts turn by phi_1 and phi_2 in bearings that keep the bend theta. The bend's
+// axis is then fixed in space. Seen from the first shaft it stands at beta = beta_0 - phi_1; from the second, whose
+// axes see it in the same components (C n = n), at beta = beta_0 - phi_2. Hence phi_1 = phi_2 at every bend below
+// half a turn. There, at 180 degrees, the two axes fold onto each other and n is no longer determined.
+// Coordinates: `bend_x` and `bend_y`, the rotation vector theta n of J_B relative to J_A; its z component is zero.
+#pragma once
+
+#include "mechanism/joints/measured_pair.hpp"
+
+namespace bielle::mechanism {
+
+class UniversalJoint final : public MeasuredPair {
+ public:
+  UniversalJoint(std::string name, JointFrames frames, const Model& model);
+
+ private:
+  void calc_rows(const LocalState& state, std::span<PairMeasure> rows) const override;
+  PairMeasure calc_own_coordinate(std::size_t index, const LocalState& state) const override;
+};
+
+class ConstantVelocityJoint final : public MeasuredPair {
+ public:
+  ConstantVelocityJoint(std::string name, JointFrames frames, const Model& model);
+  std::string wrong_branch(const LocalState& state) const override;
+
+ private:
+  void calc_rows(const LocalState& state, std::span<PairMeasure> rows) const override;
+};
+
+void read_universal(const std::string& name, const YamlValue& entry, Model& model);
+void read_constant_velocity(const std::string& name, const YamlValue& entry, Model& model);
+
+}  // namespace bielle::mechanism

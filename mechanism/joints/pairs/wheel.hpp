@@ -1,0 +1,44 @@
+// A thin wheel on a plane.
+//
+// The plane rides on the first node: J_A stands in it below the hub, z_A its `normal`. The wheel rides on the second
+// node: J_B stands in the middle of the hub, z_B along the wheel's `axis`. With c = z_A . z_B, s = sqrt(1 - c^2) and the
+// unit vector from the lowest point of the rim to the hub m = (z_A - c z_B)/s:
+//     normal         r s - z_A . d = 0,   d from J_A to J_B: the rim touches the plane          (holonomic)
+//     longitudinal   t . v_c = 0,   t = z_B x z_A / s: the way of a wheel that turns about +z_B (non-holonomic)
+//     lateral        l . v_c = 0,   l = z_A x t                                                 (non-holonomic)
+// v_c is the velocity, relative to the plane, of the wheel's material at the contact, p_2 - r m. Multipliers: the
+// plane's push on the wheel [N], and the friction that keeps it from slipping, negated. The contact does not let go:
+// where the push would have to become a pull, an event is noted ("lifts off").
+// A wheel that lies flat (s = 0) has no lowest point: it cannot be evaluated.
+// References: J. I. Neimark, N. A. Fufaev, Dynamics of Nonholonomic Systems (1972); Geradin and Cardona (2001) ch. 7.
+#pragma once
+
+#include "mechanism/joints/measured_pair.hpp"
+
+namespace bielle::mechanism {
+
+class WheelJoint final : public MeasuredPair {
+ public:
+  /// @param rolls  with the two rows that keep it from slipping
+  WheelJoint(std::string name, JointFrames frames, double radius, bool rolls, const Model& model);
+  double radius() const { return radius_; }
+  void declare(Declaration& declaration) const override;
+  void calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const override;
+  void describe(const LocalState& state, Description& description) const override;
+
+  /// Slip velocities as gradients w with their derivatives; the value is the velocity itself [m/s].
+  struct Slip {
+    PairMeasure longitudinal, lateral;
+  };
+  Slip calc_slip(const LocalState& state) const;
+
+ private:
+  void calc_rows(const LocalState& state, std::span<PairMeasure> rows) const override;
+  double radius_;
+};
+
+/// `nodes: [of the plane, of the hub]`, `normal` of the plane, `position`: a point of it (default: below the hub),
+/// `axis` of the wheel, `radius`; inertial directions as drawn.
+void read_wheel(const std::string& name, const YamlValue& entry, Model& model);
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,42 @@
+// A smooth curve through points.
+//
+// Each coordinate is a cubic spline of one parameter u, which grows by the distance of the points (chord length) and is
+// therefore close to the arc length. Closed curves are periodic: u may run round any number of times. Open ones go on
+// straight beyond their ends.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mechanism/math/types.hpp"
+#include "reduce/common/interpolation.hpp"
+
+namespace bielle::mechanism {
+
+class Curve {
+ public:
+  /// @param points  (n, 3) with n >= 2; of a closed curve n >= 3, the first not repeated
+  /// @param name    stands for the points in messages
+  /// @throws InputError  where neighbours coincide or points are too few
+  Curve(const Eigen::Ref<const MatrixX>& points, bool closed, const std::string& name);
+
+  struct Place {
+    Vector3 point, first, second;  ///< c, dc/du, d2c/du2
+  };
+  Place operator()(double u) const;
+  bool closed() const { return closed_; }
+  double end() const { return knots_.back(); }  ///< of u, which begins with 0; of a closed curve its period
+  /// Arc length from u = 0, negative before it: Gauss quadrature on quarters of each piece.
+  double arc_length(double u) const;
+  /// The parameter of the place next to a point.
+  double nearest(const Vector3& point) const;
+
+ private:
+  double length_within(double from, double to) const;
+  bool closed_;
+  std::vector<double> knots_;
+  std::vector<double> lengths_;  ///< arc length at the knots
+  std::vector<Interpolation> coordinates_;
+};
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,82 @@
+// Samples of joints that are no lower pairs: universal and constant-velocity joints, screws, links, guided points,
+// wheels.
+#include "tests/laws/sample.hpp"
+
+namespace bielle::laws {
+namespace {
+
+using mechanism::Section;
+
+/// Two nodes turned against each other; the joint's axes are those of neither.
+Sample higher_pair(const std::string& type, const std::string& keys, std::vector<BadValue> bad) {
+  bad.push_back({"nodes", "[a, a]", "two different nodes"});
+  bad.push_back({"nodes", "[a, c]", "no node 'c'"});
+  return {Section::joints, type, "",
+          "nodes:\n"
+          "  a: {position: [0.3, 0.1, -0.2], rotation_vector: [0.3, -0.5, 0.8]}\n"
+          "  b: {position: [1.1, 0.5, 0.4], rotation_vector: [-0.7, 0.2, 0.4]}\n"
+          "joints:\n  it: {type: " +
+              type + ", nodes: [a, b], " + keys + "}\n",
+          std::move(bad)};
+}
+
+Sample variant(Sample sample, const std::string& name) {
+  sample.variant = name;
+  return sample;
+}
+
+const BadValue bad_position{"position", "[1, 2]", ""}, bad_axis{"axis", "[0, 0, 0]", ""};
+
+}  // namespace
+
+std::vector<Sample> higher_pair_samples() {
+  const std::string place = "position: [0.5, 0.2, 0.1], axis: [1, 2, 3]";
+  const std::string points = "at: [[0.1, -0.2, 0.3], [-0.3, 0.1, 0.2]]";
+  const BadValue bad_points{"at", "[[0, 0, 0]]", "two points"}, short_length{"length", "0", ""};
+  std::vector<Sample> list;
+  list.push_back(higher_pair("universal", place + ", second_axis: [3, 0, -1]",
+                             {bad_position, bad_axis, {"second_axis", "[1, 2, 4]", "right angles"}}));
+  list.push_back(variant(higher_pair("universal",
+                                     place + ", second_axis: [3, 0, -1], stiffness: {angle_1: 3, angle_2: \"2*q + "
+                                             "q^3\"}, damping: {angle_2: 0.4}",
+                                     {bad_position,
+                                      bad_axis,
+                                      {"second_axis", "", "second_axis"},
+                                      {"stiffness", "1", "several coordinates"},
+                                      {"stiffness.angle_1", "-1", ""},
+                                      {"stiffness.angle_2", "x", "x"},
+                                      {"damping", "1", "several coordinates"},
+                                      {"damping.angle_2", "-1", ""}}),
+                         "springs"));
+  list.push_back(higher_pair("constant_velocity", place + ", second_axis: [0, 1, -1]",
+                             {bad_position, bad_axis, {"second_axis", "[1, 2, 3]", "parallel"}}));
+  list.push_back(
+      higher_pair("screw", place + ", pitch: 0.8", {bad_position, bad_axis, {"pitch", "0", "take a hinge"}}));
+  list.push_back(higher_pair("distance", points + ", length: 0.9", {bad_points, short_length}));
+  list.push_back(variant(higher_pair("distance", points + ", length: \"0.9 + 0.3*t + 0.2*sin(t)\"",
+                                     {bad_points, {"length", "'x'", "x"}}),
+                         "of time"));
+  list.push_back(higher_pair("spherical_spherical", points, {bad_points, bad_point}));
+  list.push_back(higher_pair("revolute_spherical", points + ", axis: [1, 2, 3], length: 0.9",
+                             {bad_points,, bad_axis, short_length,
+                              {"length", "0.05", "along the axis"}}));
+  list.push_back(higher_pair("point_on_line", "position: [0.5, 0.2, 0.1], line: [1, 2, 3], stiffness: 4",
+                             {bad_position, {"line", "[0, 0, 0]", ""}, {"stiffness", "-4", ""}}));
+  list.push_back(higher_pair("point_on_plane",
+                             "position: [0.5, 0.2, 0.1], normal: [1, 2, 3], second_axis: [0, 1, -1]",
+                             {bad_position, {"normal", "[0, 0, 0]", ""}, {"second_axis", "[2, 4, 6]", "parallel"}}));
+  list.push_back(higher_pair("wheel", "normal: [0.1, 0.2, 1], axis: [1, 2, -0.2], radius: 0.5",
+                             {{"normal", "[0, 0, 0]", ""},
+                              {"axis", "[0.1, 0.2, 1]", "lies flat"},
+                              {"radius", "0", ""}}));
+  list.push_back(variant(higher_pair("wheel",
+                                     "normal: [0.1, 0.2, 1], axis: [1, 2, -0.2], radius: 0.5, position: [0, 0, -0.1]",
+                                     {{"position", "[0, 0, 9]", "below the plane"},
+                                      {"normal", "[1, 2]", ""},
+                                      {"axis", "[1, 2]", ""},
+                                      {"radius", "-1", ""}}),
+                         "on a plane through a point"));
+  return list;
+}
+
+}  // namespace bielle::laws
