@@ -70,6 +70,19 @@ class Assembly(CommandTest):
         self.assertIn("z, rx, ry of joint 'd'", text)
         self.assertIn("angle of joint 'a'", self.output(BAR, "--check"))
 
+    def test_a_long_list_of_what_moved_is_cut(self):
+        count = 13
+        model = "nodes:\n" + "".join("  n%d: {position: [%d, 0, 0]}\n" % (k, k) for k in range(count)) + "elements:\n"
+        model += "".join("  e%d: {type: rigid_body, node: n%d, mass: 1, inertia: [1, 1, 1]}\n" % (k, k) for k in range(count))
+        model += "joints:\n  h: {type: hinge, nodes: [ground, n0], axis: [0, 0, 1], start: 0.5}\n"
+        model += "".join("  r%d: {type: rigid, nodes: [n%d, n%d]}\n" % (k, k, k + 1) for k in range(count - 1))
+        text = self.output(model + "analysis: [{type: assembly}]\n")
+        self.assertEqual(text.count("    node 'n"), 10)
+        # 12 m from the hinge: 24 sin(0.25)
+        self.assertIn("node 'n12' by 5.94 m; largest rotation 0.5 rad\n    node 'n12': 5.94 m, 28.6 degrees\n", text)
+        self.assertIn("\n    and 3 more nodes by less\n", text)
+        self.assertIn("\n    angle of joint 'h': 0.5 rad (28.6 degrees), to 0.5 rad\n", text)
+
     def test_every_analysis_starts_from_parts_that_fit(self):
         spring = BAR.replace(LAST, LAST.replace("}\n", ", stiffness: 200, damping: 1}\n", 1))
         for analysis in ("static", "dynamic, duration: 0.01, step: 1e-3", "dynamic, duration: 0.01, step: 1e-3, start: equilibrium"):

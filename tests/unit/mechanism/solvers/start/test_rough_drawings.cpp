@@ -203,6 +203,28 @@ TEST_CASE("a Stewart platform drawn 5 % and 20 degrees off comes to the pose of 
   }
 }
 
+TEST_CASE("a slider-crank drawn with its links in line leaves that position for its start value") {
+  const std::string text = R"yaml(
+nodes: {c: {position: [0.5, 0, 0]}, k: {position: [1.5, 0, 0]}, p: {position: [2, 0, 0]}}
+elements:
+  c: {type: rigid_body, node: c, mass: 1, inertia: [0.1, 0.1, 0.1]}
+  k: {type: rigid_body, node: k, mass: 1, inertia: [0.1, 0.1, 0.1]}
+  p: {type: rigid_body, node: p, mass: 1, inertia: [0.1, 0.1, 0.1]}
+joints:
+  h1: {type: hinge, nodes: [ground, c], axis: [0, 1, 0], position: [0, 0, 0]}
+  h2: {type: hinge, nodes: [c, k], axis: [0, 1, 0], position: [1, 0, 0]}
+  h3: {type: spherical, nodes: [k, p], position: [2, 0, 0]}
+  s: {type: prismatic, nodes: [ground, p], position: [2, 0, 0], axis: [1, 0, 0], start: -0.2}
+)yaml";
+  Session session(read_mechanism_text(text, "line.yaml").model);
+  CHECK(session.mobility().degrees == 1);
+  session.assemble();
+  // Two links of 1 m over 1.8 m.
+  CHECK(session.node("p").x.x() == Approx(1.8).epsilon(1e-12));
+  CHECK(session.node("c").x.x() == Approx(0.45).epsilon(1e-10));
+  CHECK(std::abs(session.node("c").x.z()) == Approx(0.5 * std::sqrt(1 - 0.81)).epsilon(1e-10));
+}
+
 TEST_CASE("a beam in a loop that is drawn roughly comes to its place free of stress") {
   // Fixed post, crank and slider; the rod between them is a beam of the right length, drawn 0.04 m and 15 degrees away.
   const double length = std::sqrt(0.9 * 0.9 + 0.3 * 0.3), off = 15 * M_PI / 180;
