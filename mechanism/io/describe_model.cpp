@@ -110,6 +110,19 @@ std::string describe_remarks(const Model& model, std::size_t most) {
   return text;
 }
 
+/// Start values and rates of coordinates.
+std::string describe_start_conditions(const System& system) {
+  std::string text;
+  for (const CoordinateCondition& each : conditions_of_file(system).coordinates) {
+    const StartCoordinate coordinate = start_coordinate(system, each);
+    std::vector<std::string> asked;
+    if (each.value) asked.push_back(fmt::format("{:.6g} {}", *each.value, coordinate.units));
+    if (each.rate) asked.push_back(fmt::format("{:.6g} {}", *each.rate, coordinate.rate_units));
+    text += fmt::format("  start        {}: {}\n", coordinate_name(system, each.member, coordinate), fmt::join(asked, ", "));
+  }
+  return text;
+}
+
 /// Nodes that nothing is attached to.
 std::string describe_unused(const Model& model, const System& system) {
   std::vector<bool> used(model.nodes().size(), false);
@@ -191,7 +204,7 @@ std::string describe_model(const MechanismFile& file) {
     text += fmt::format("  nearly       redundant: {}\n", names);
   if (const std::vector<std::string> joints = joints_not_unique(system, model.environment, state); !joints.empty())
     text += fmt::format("  reactions    {}\n", describe_not_unique(joints));
-  text += describe_remarks(model, model.members().size());
+  text += describe_start_conditions(system) + describe_remarks(model, model.members().size());
   text += describe_unused(model, system) + describe_massless(model, system, state);
   text += describe_entries(model, system, state);
   return text;

@@ -55,8 +55,9 @@ std::array<Matrix3, 2> read_axes(const YamlValue& entry, const Frame& first, con
   const std::optional<YamlValue> second_axis = entry.find("second_axis");
   if (need == AxisNeed::optional && !entry.has(axis_key) && !second_axis)
     return {Matrix3::Identity(), Matrix3::Identity()};
-  const OnNodes z = need == AxisNeed::required || entry.has(axis_key) ? read_directions(entry.at(axis_key), first, second)
-                                                                      : OnNodes{Vector3::UnitZ(), Vector3::UnitZ()};
+  const OnNodes z = need == AxisNeed::required || entry.has(axis_key)
+                        ? read_directions(entry.at(axis_key), first, second)
+                        : OnNodes{Vector3::UnitZ(), Vector3::UnitZ()};
   OnNodes x;
   if (second_axis) {
     const OnNodes given = read_directions(*second_axis, first, second);
@@ -81,8 +82,7 @@ Vector3 smallest_turn(const Vector3& from, const Vector3& to, const Vector3& nor
 
 std::vector<std::string> joint_frame_keys() { return {"type", "nodes", "position", "at", "axis", "second_axis"}; }
 
-JointFrames read_joint_frames(const YamlValue& entry, const Model& model, AxisNeed need,
-                              const std::string& axis_key) {
+JointFrames read_joint_frames(const YamlValue& entry, const Model& model, AxisNeed need, const std::string& axis_key) {
   JointFrames frames;
   const std::vector<int> nodes = nodes_named_by(entry.at("nodes"), 2, model);
   frames.first = nodes[0];
@@ -91,7 +91,8 @@ JointFrames read_joint_frames(const YamlValue& entry, const Model& model, AxisNe
   const Frame &first = model.node(nodes[0]).frame, &second = model.node(nodes[1]).frame;
   const std::optional<YamlValue> position = entry.find("position"), at = entry.find("at");
   if (position && at)
-    at->fail("a joint is attached at a `position` as drawn, or `at` a point in the axes of each node: give one of them");
+    at->fail(
+        "a joint is attached at a `position` as drawn, or `at` a point in the axes of each node: give one of them");
   const Vector3 place = position ? position->vector3() : second.x;
   const std::array<Matrix3, 2> axes = read_axes(entry, first, second, need, axis_key);
   frames.on_first = inverse(first) * Frame{place, axes[0]};

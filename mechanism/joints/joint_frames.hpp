@@ -2,10 +2,13 @@
 //
 //   position      one place (inertial, as drawn), fixed on both nodes; default: where the second node is drawn
 //   at            a point in the axes of each node, in place of `position`: the start brings the two together
-//   axis          z of the joint's frame: an inertial direction as drawn, fixed on both nodes; or a pair, one direction in
+//   axis          z of the joint's frame: an inertial direction as drawn, fixed on both nodes; or a pair, one direction
+//   in
 //                 the axes of each node
-//   second_axis   x of the frame (made orthogonal), given in either way. Without it x is the inertial axis most normal to z,
-//                 as drawn; where the two z differ as drawn, the second node's x follows by the smallest turn between them
+//   second_axis   x of the frame (made orthogonal), given in either way. Without it x is the inertial axis most normal
+//   to z,
+//                 as drawn; where the two z differ as drawn, the second node's x follows by the smallest turn between
+//                 them
 //
 // A joint without axis has frames parallel to the inertial axes as drawn.
 #pragma once
@@ -22,8 +25,8 @@ namespace bielle::mechanism {
 struct JointFrames {
   int first = 0, second = 0;  ///< nodes of the model
   Frame on_first, on_second;
-  /// Distance of the nodes as drawn, where the file does not say where the joint is: an arm of the first node bridges it
-  /// [m]. 0 where it does.
+  /// Distance of the nodes as drawn, where the file does not say where the joint is: an arm of the first node bridges
+  /// it [m]. 0 where it does.
   double arm = 0;
 };
 

@@ -25,8 +25,9 @@ StartCoordinateValue Joint::calc_start_coordinate(std::size_t index, const Local
 
 std::string Joint::remark() const {
   if (frames_.arm == 0) return {};
-  return fmt::format("without `position` or `at` it is attached at node '{}'; an arm of {:.3g} m bridges it to node '{}'",
-                     second_name_, frames_.arm, first_name_);
+  return fmt::format(
+      "without `position` or `at` it is attached at node '{}'; an arm of {:.3g} m bridges it to node '{}'",
+      second_name_, frames_.arm, first_name_);
 }
 
 }  // namespace bielle::mechanism

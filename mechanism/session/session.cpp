@@ -1,5 +1,6 @@
 #include "mechanism/session/session.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -102,7 +103,10 @@ StaticsReport Session::statics(const StaticsOptions& options) {
   StaticsReport report;
   VectorX v(system_.dofs()), unused(system_.dofs());
   system_.get_rates(state_, v, unused);
-  if (!v.isZero(0))
+  const StartConditions conditions = start_conditions();
+  const bool any_rate = std::any_of(conditions.coordinates.begin(), conditions.coordinates.end(),
+                                    [](const CoordinateCondition& each) { return each.rate.value_or(0) != 0; });
+  if (!v.isZero(0) || any_rate)
     note(
         "a static analysis is at rest, and so is what comes after it: the velocities are dropped (a dynamic "
         "analysis with `start: equilibrium` keeps them)");
@@ -112,7 +116,7 @@ StaticsReport Session::statics(const StaticsOptions& options) {
   const LoadRamp ramp(system_, statics, begin);
   if (!started_) {
     ramp.set_off(state_);  // drives and supports stand where the load factor begins
-    assemble_positions(system_, environment_, state_, report.start, start_conditions());
+    assemble_positions(system_, environment_, state_, report.start, conditions);
     started_ = true;
   }
   const auto point = [&](const State& state, double factor, int iterations, double done) {

@@ -21,9 +21,11 @@ class RoughDrawing {
     using mechanism::Vector3;
     const Vector3 drawn = x + random_.vector_of_length(displacement_);
     const Vector3 psi = mechanism::log_so3(mechanism::Matrix3(R * mechanism::exp_so3(random_.vector_of_length(turn_))));
-    nodes_ += fmt::format("  {}: {{position: [{:.17g}, {:.17g}, {:.17g}], rotation_vector: [{:.17g}, {:.17g}, {:.17g}]}}\n",
-                          name, drawn.x(), drawn.y(), drawn.z(), psi.x(), psi.y(), psi.z());
-    elements_ += fmt::format("  {}: {{type: rigid_body, node: {}, mass: 1, inertia: [0.01, 0.02, 0.02]}}\n", name, name);
+    nodes_ +=
+        fmt::format("  {}: {{position: [{:.17g}, {:.17g}, {:.17g}], rotation_vector: [{:.17g}, {:.17g}, {:.17g}]}}\n",
+                    name, drawn.x(), drawn.y(), drawn.z(), psi.x(), psi.y(), psi.z());
+    elements_ +=
+        fmt::format("  {}: {{type: rigid_body, node: {}, mass: 1, inertia: [0.01, 0.02, 0.02]}}\n", name, name);
   }
   /// The model file. @param joints  entries, each on a line of its own
   std::string text(const std::string& joints) const {

@@ -25,14 +25,16 @@ void check_drives(const std::optional<YamlValue>& value, const std::optional<Yam
   const std::string& name = joint.coordinates()[coordinate].name;
   if (const auto* drive = drive_of<PositionDrive>(joint, coordinate, model)) {
     const auto& given = value ? value : rate;
-    given->fail(fmt::format("drive '{}' prescribes the {} as a function of time, at the start as well: leave this out, or "
-                            "change the drive",
-                            drive->name(), name));
+    given->fail(
+        fmt::format("drive '{}' prescribes the {} as a function of time, at the start as well: leave this out, or "
+                    "change the drive",
+                    drive->name(), name));
   }
   if (const auto* drive = drive_of<RateDrive>(joint, coordinate, model); drive != nullptr && rate)
-    rate->fail(fmt::format("drive '{}' prescribes the rate of the {}, at the start as well: leave this out, or change the "
-                           "drive",
-                           drive->name(), name));
+    rate->fail(
+        fmt::format("drive '{}' prescribes the rate of the {}, at the start as well: leave this out, or change the "
+                    "drive",
+                    drive->name(), name));
 }
 
 }  // namespace

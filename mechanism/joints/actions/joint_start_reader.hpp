@@ -1,7 +1,8 @@
-// `start` and `start_rate` of a joint's coordinate: where it stands and how fast it goes when the first analysis starts.
+// `start` and `start_rate` of a joint's coordinate: where it stands and how fast it goes when the first analysis
+// starts.
 //
-// Both are conditions of that start alone (mechanism/model/start_condition.hpp), and count as coordinates always do: zero
-// where the joint's frames coincide. An angle may be given beyond half a turn; turns are counted from there.
+// Both are conditions of that start alone (mechanism/model/start_condition.hpp), and count as coordinates always do:
+// zero where the joint's frames coincide. An angle may be given beyond half a turn; turns are counted from there.
 #pragma once
 
 #include <optional>

@@ -140,8 +140,7 @@ ClosingEquations::Gaps ClosingEquations::measure(const State& state) const {
   }
   for (int k = 0; k < rows(); ++k) {
     double& value = gaps.values[k];
-    if (!takes_part(k) ||
-        (k < system_.multipliers() && system_.constraint_kind(k) == ConstraintKind::nonholonomic)) {
+    if (!takes_part(k) || (k < system_.multipliers() && system_.constraint_kind(k) == ConstraintKind::nonholonomic)) {
       value = 0;
       continue;
     }

@@ -1,13 +1,13 @@
-// The equations by which parts are brought together: constraints and conditions of a start, linearised, with the stiffness
-// of elastic bodies.
+// The equations by which parts are brought together: constraints and conditions of a start, linearised, with the
+// stiffness of elastic bodies.
 //
-//   [K + e D   B^T ] [dq]     [f(q) - f_drawn]       Rows of B: those of all constraints that take part, then one of each
-//   [B         -C  ] [mu] = - [Phi + C mu_0  ]       start value and kept coordinate.
+//   [K + e D   B^T ] [dq]     [f(q) - f_drawn]       Rows of B: those of all constraints that take part, then one of
+//   each [B         -C  ] [mu] = - [Phi + C mu_0  ]       start value and kept coordinate.
 //
-// K and f are the elastic stiffness and forces, D the mean of K over each kind of dof: with a small e bodies move rigidly
-// rather than bend. C >= 0 is diagonal: tiny, it lets constraints repeat each other; larger, it damps the step
-// (Levenberg and Marquardt). mu_0 are multipliers that are known already: with them C leaves no trace (Hestenes' method of
-// multipliers). Dofs of kept nodes stand still.
+// K and f are the elastic stiffness and forces, D the mean of K over each kind of dof: with a small e bodies move
+// rigidly rather than bend. C >= 0 is diagonal: tiny, it lets constraints repeat each other; larger, it damps the step
+// (Levenberg and Marquardt). mu_0 are multipliers that are known already: with them C leaves no trace (Hestenes' method
+// of multipliers). Dofs of kept nodes stand still.
 //
 // Gaps are measured in metres, whatever a row compares: Phi_i^2 / (sum of B_ij^2 by translations, and B_ij^2 / l^2 by
 // rotations), l half the mechanism's extent; it is how far nodes have to move, about, to mend the row alone.
@@ -38,10 +38,10 @@ class ClosingEquations {
 
   /// How far a state is from closed.
   struct Gaps {
-    VectorX values;        ///< Phi [m or rad], (rows)
-    double worst = 0;      ///< relative to the size of its constraint; NaN where there are no numbers
-    int worst_row = -1;    ///< -1: all vanish
-    double squared = 0;    ///< sum of the squared gaps [m^2]
+    VectorX values;      ///< Phi [m or rad], (rows)
+    double worst = 0;    ///< relative to the size of its constraint; NaN where there are no numbers
+    int worst_row = -1;  ///< -1: all vanish
+    double squared = 0;  ///< sum of the squared gaps [m^2]
   };
   Gaps measure(const State& state) const;
   /// One gap in metres.

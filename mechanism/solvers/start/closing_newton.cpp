@@ -42,8 +42,7 @@ State moved(const System& system, const State& state, const VectorX& dq, const V
 
 VectorX compliance_of(const ClosingEquations& equations, double damping) {
   VectorX compliance(equations.rows());
-  for (int k = 0; k < equations.rows(); ++k)
-    compliance[k] = damping / (equations.stiffness() * equations.weight(k));
+  for (int k = 0; k < equations.rows(); ++k) compliance[k] = damping / (equations.stiffness() * equations.weight(k));
   return compliance;
 }
 
@@ -62,8 +61,7 @@ class ClosingNewton {
       if (!std::isfinite(gaps_.worst)) return false;
       stagnant = gaps_.worst < 0.5 * reached ? 0 : stagnant + 1;
       reached = std::min(reached, gaps_.worst);
-      const bool together =
-          gaps_.worst <= satisfied || (stagnant >= patience && gaps_.worst <= 1e3 * satisfied);
+      const bool together = gaps_.worst <= satisfied || (stagnant >= patience && gaps_.worst <= 1e3 * satisfied);
       if (together && (iteration == 0 || motion <= relaxed || iteration == most_iterations)) return true;
       if (iteration == most_iterations || stands_still()) return false;
       equations_.assemble(state_);
@@ -96,8 +94,7 @@ class ClosingNewton {
       for (int halving = 0; halving <= most_halvings; ++halving, part /= 2) {
         State trial = moved(equations_.system(), state_, dq, dy, part);
         const Gaps gaps = equations_.measure(trial);
-        const VectorX linear =
-            (1 - part) * gaps_.values + part * compliance.cwiseProduct(VectorX(mu - known_));
+        const VectorX linear = (1 - part) * gaps_.values + part * compliance.cwiseProduct(VectorX(mu - known_));
         if (!accepted(gaps, linear)) continue;
         state_ = std::move(trial);
         motion = std::max(size.turn, size.displacement);
@@ -142,9 +139,7 @@ VectorX gather_gaps(ClosingEquations& equations, const std::vector<bool>& soft, 
   const System& system = equations.system();
   VectorX compliance, forces;
   // Half the sum of squared gaps, each by its stiffness: what the rows store as springs.
-  const auto energy = [&](const Gaps& gaps) {
-    return 0.5 * gaps.values.cwiseAbs2().cwiseQuotient(compliance).sum();
-  };
+  const auto energy = [&](const Gaps& gaps) { return 0.5 * gaps.values.cwiseAbs2().cwiseQuotient(compliance).sum(); };
   double floor = floor_part;
   for (int iteration = 0; iteration < iterations; ++iteration) {
     const Gaps gaps = equations.measure(state);

@@ -5,8 +5,8 @@
 
 namespace bielle::mechanism {
 
-/// Takes what is redundant where a motion is to begin out of the equations, as take_out_redundant() does, at the positions
-/// in which the constraints hold. Where none are found, it goes by the drawing; assembly will tell.
+/// Takes what is redundant where a motion is to begin out of the equations, as take_out_redundant() does, at the
+/// positions in which the constraints hold. Where none are found, it goes by the drawing; assembly will tell.
 /// @param state      as System::start gives it; its positions stay as they are
 /// @param assembled  receives those positions
 /// @returns multipliers, ascending

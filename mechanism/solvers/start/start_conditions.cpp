@@ -22,7 +22,8 @@ void add_dof_entries(const System& system, const State& state, const Slots& slot
     if (freedom.count == 0) continue;
     const NodeRelation relation = relate(kinematics, node, state, nullptr);
     const Vector6 own = gradient.segment<6>(first + 6 * static_cast<Eigen::Index>(k));
-    for (int c = 0; c < freedom.count; ++c) entries.emplace_back(freedom.begin + c, relation.displacement.col(c).dot(own));
+    for (int c = 0; c < freedom.count; ++c)
+      entries.emplace_back(freedom.begin + c, relation.displacement.col(c).dot(own));
   }
   const auto first_amplitude = system.dofs() - static_cast<int>(state.amplitude.size());
   for (int k = 0; k < slots.amplitudes; ++k)

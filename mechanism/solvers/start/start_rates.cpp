@@ -67,8 +67,7 @@ void set_start_rates(const System& system, const Environment& environment, State
   for (const CoordinateCondition& each : conditions.coordinates) {
     if (!each.rate) continue;
     RateRow row{&each, VectorX::Zero(system.dofs())};
-    for (const auto& [dof, value] :
-         coordinate_row(system, environment, state, each.member, each.coordinate).by_rate)
+    for (const auto& [dof, value] : coordinate_row(system, environment, state, each.member, each.coordinate).by_rate)
       row.w[dof] += value;
     rows.push_back(std::move(row));
   }
@@ -116,10 +115,11 @@ void set_start_rates(const System& system, const Environment& environment, State
     const std::string name = coordinate_name(system, condition.member, coordinate);
     const double lack = missing(rows[k]), size = std::abs(*condition.rate) + rows[k].w.cwiseAbs().dot(v.cwiseAbs());
     if (std::abs(lack) > agreement * size)
-      throw ComputationError(fmt::format(
-          "the start rate {:.6g} {} of {} contradicts the joints, drives and start rates before it, which make it {:.6g} {}: "
-          "leave one of them out, or make them agree",
-          *condition.rate, coordinate.rate_units, name, *condition.rate - lack, coordinate.rate_units));
+      throw ComputationError(
+          fmt::format("the start rate {:.6g} {} of {} contradicts the joints, drives and start rates before it, which "
+                      "make it {:.6g} {}: "
+                      "leave one of them out, or make them agree",
+                      *condition.rate, coordinate.rate_units, name, *condition.rate - lack, coordinate.rate_units));
     if (dependent[k]) report.following.push_back(name);
   }
 }

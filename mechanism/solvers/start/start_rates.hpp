@@ -1,6 +1,7 @@
 // Rates of coordinates that a start prescribes, on top of velocities that satisfy the constraints.
 //
-//   min |dv|_M   with   B dv = 0,   W (v + dv) = w:       dv = Z S^-1 (w - W v),   [M B^T; B 0][Z; .] = [W^T; 0],   S = W Z
+//   min |dv|_M   with   B dv = 0,   W (v + dv) = w:       dv = Z S^-1 (w - W v),   [M B^T; B 0][Z; .] = [W^T; 0],   S =
+//   W Z
 //
 // A rate that follows from the constraints and the rates before it has no say: it has to agree with them.
 #pragma once

@@ -11,7 +11,7 @@
 namespace bielle::mechanism {
 namespace {
 
-constexpr double counts = 1e-3;     // part of the largest gap or force that tells of a disagreement
+constexpr double counts = 1e-3;      // part of the largest gap or force that tells of a disagreement
 constexpr double negligible = 1e-6;  // gap relative to the mechanism's size
 
 /// What owns rows: a member, or a condition.
@@ -150,10 +150,11 @@ Unclosed explain_unclosed(ClosingEquations& equations, State& state) {
   if (!opening->member) {
     const CoordinateCondition& condition = equations.condition(opening->first_row);
     const StartCoordinate coordinate = start_coordinate(equations.system(), condition);
-    text = fmt::format("the {} stays {} away from {}", coordinate_name(equations.system(), condition.member, coordinate),
-                       quantity(gaps[opening->first_row], coordinate.units),
-                       condition.kept ? "where it is kept" : fmt::format("its start value {:.6g} {}", *condition.value,
-                                                                         coordinate.units));
+    text =
+        fmt::format("the {} stays {} away from {}", coordinate_name(equations.system(), condition.member, coordinate),
+                    quantity(gaps[opening->first_row], coordinate.units),
+                    condition.kept ? "where it is kept"
+                                   : fmt::format("its start value {:.6g} {}", *condition.value, coordinate.units));
   } else if (opening->member->entry.section == Section::drives) {
     text = fmt::format("{} stays {} away from what it prescribes", describe(*opening->member),
                        gap_text(equations, *opening, gaps, state));

@@ -9,7 +9,7 @@ namespace bielle::mechanism {
 
 struct Unclosed {
   bool closes = false;  ///< after all: the state is then close to where everything fits
-  std::string text;     ///< "joint 'd' stays open by 0.5 m whatever the other parts do; it disagrees with joint 'a', .."
+  std::string text;  ///< "joint 'd' stays open by 0.5 m whatever the other parts do; it disagrees with joint 'a', .."
 };
 
 /// Holds all that disagrees but the last start value, drive or joint, moves the state to where the gap of that one is

@@ -126,6 +126,8 @@ class Assembly(CommandTest):
         started = BAR.replace("joints:", "drives: {m: {joint: d, %s}}\njoints:")
         start = LAST.replace("}\n", ", start: 1.7}\n", 1)
         self.refuse((started % "angle: 1.7").replace(LAST, start), "joints.d.start", "drive 'm' prescribes the angle")
+        self.assertIn("\n  start        angle of joint 'd': 1.7 rad\n",
+                      self.output((started % "torque: 1").replace(LAST, start), "--check"))
         self.output((started % "torque: 1").replace(LAST, start))
         self.output((started % "rate: 1").replace(LAST, start))
         rate = LAST.replace("}\n", ", start_rate: 1}\n", 1)

@@ -34,14 +34,14 @@ std::string four_bar(unsigned seed, const FourBar& fits, const std::string& cran
   drawing.add_body("coupler", 0.5 * (fits.B + fits.C), link_axes(fits.B, fits.C));
   drawing.add_body("rocker", 0.5 * (fits.D + fits.C), link_axes(fits.D, fits.C));
   const std::string axes = "axis: [[0, 0, 1], [0, 0, 1]], second_axis: [[1, 0, 0], [1, 0, 0]]";
-  const auto hinge = [&](const std::string& name, const std::string& nodes, const std::string& at, const std::string& keys) {
+  const auto hinge = [&](const std::string& name, const std::string& nodes, const std::string& at,
+                         const std::string& keys) {
     return fmt::format("  {}: {{type: hinge, nodes: [{}], at: [{}], {}{}}}\n", name, nodes, at, axes, keys);
   };
-  return drawing.text(
-      hinge("a", "ground, crank", "[0, 0, 0], [-0.15, 0, 0]", crank_keys) +
-      hinge("b", "crank, coupler", fmt::format("[0.15, 0, 0], [{:.17g}, 0, 0]", -coupler / 2), "") +
-      hinge("c", "coupler, rocker", fmt::format("[{:.17g}, 0, 0], [0.35, 0, 0]", coupler / 2), "") +
-      hinge("d", "ground, rocker", "[1, 0, 0], [-0.35, 0, 0]", rocker_keys));
+  return drawing.text(hinge("a", "ground, crank", "[0, 0, 0], [-0.15, 0, 0]", crank_keys) +
+                      hinge("b", "crank, coupler", fmt::format("[0.15, 0, 0], [{:.17g}, 0, 0]", -coupler / 2), "") +
+                      hinge("c", "coupler, rocker", fmt::format("[{:.17g}, 0, 0], [0.35, 0, 0]", coupler / 2), "") +
+                      hinge("d", "ground, rocker", "[1, 0, 0], [-0.35, 0, 0]", rocker_keys));
 }
 
 /// The other way to close it: C mirrored on the line from B to D.
@@ -88,7 +88,8 @@ TEST_CASE("without start values a loop closes next to its drawing") {
       CHECK((session.state().nodes[k].x - drawn.nodes[k].x).norm() < 0.2);
       CHECK(log_so3(Matrix3(session.state().nodes[k].R.transpose() * drawn.nodes[k].R)).norm() < 3 * turn_off);
     }
-    const NodeState &crank = session.node("crank"), &coupler = session.node("coupler"), &rocker = session.node("rocker");
+    const NodeState &crank = session.node("crank"), &coupler = session.node("coupler"),
+                    &rocker = session.node("rocker");
     const auto point = [](const NodeState& node, double x) { return Vector3(node.x + node.R * Vector3(x, 0, 0)); };
     CHECK(point(crank, -0.15).norm() < 1e-11);
     CHECK((point(crank, 0.15) - point(coupler, -0.45)).norm() < 1e-11);
@@ -115,7 +116,8 @@ TEST_CASE("the start value of the rocker chooses the branch of a four-bar that i
 }
 
 TEST_CASE("a delta robot drawn 5 % and 20 degrees off comes to the platform of its arms' angles") {
-  // Base hinges on a circle of 0.2 m, arms of 0.25, rods of 0.6 in pairs 0.08 apart, platform joints on a circle of 0.06.
+  // Base hinges on a circle of 0.2 m, arms of 0.25, rods of 0.6 in pairs 0.08 apart, platform joints on a circle of
+  // 0.06.
   constexpr double base = 0.2, arm = 0.25, rod = 0.6, half = 0.04, platform = 0.06;
   const std::array<double, 3> angles = {0.3, -0.1, 0.45};  // of the arms below the horizontal
   std::array<Vector3, 3> radial, tangential, elbow, centre;
@@ -148,7 +150,8 @@ TEST_CASE("a delta robot drawn 5 % and 20 degrees off comes to the platform of i
       const std::string name = fmt::format("arm_{}", k);
       drawing.add_body(name, base * radial[k], R);
       joints += fmt::format(
-          "  base_{}: {{type: hinge, nodes: [ground, {}], at: [{}, [0, 0, 0]], axis: [{}, [0, 1, 0]], second_axis: [{}, [1, "
+          "  base_{}: {{type: hinge, nodes: [ground, {}], at: [{}, [0, 0, 0]], axis: [{}, [0, 1, 0]], second_axis: "
+          "[{}, [1, "
           "0, 0]], start: {:.17g}}}\n",
           k, name, list(base * radial[k]), list(tangential[k]), list(radial[k]), angles[k]);
       for (const int side : {-1, 1}) {
@@ -156,10 +159,10 @@ TEST_CASE("a delta robot drawn 5 % and 20 degrees off comes to the platform of i
                       to = middle + platform * radial[k] + side * half * tangential[k];
         const std::string link = fmt::format("rod_{}{}", k, side < 0 ? "a" : "b");
         drawing.add_body(link, 0.5 * (from + to), link_axes(from, to, tangential[k]));
-        joints += fmt::format("  top_{}: {{type: spherical, nodes: [{}, {}], at: [[{}, {}, 0], [{}, 0, 0]]}}\n", link, name,
-                              link, arm, side * half, -rod / 2);
-        joints += fmt::format("  low_{}: {{type: spherical, nodes: [{}, platform], at: [[{}, 0, 0], {}]}}\n", link, link,
-                              rod / 2, list(platform * radial[k] + side * half * tangential[k]));
+        joints += fmt::format("  top_{}: {{type: spherical, nodes: [{}, {}], at: [[{}, {}, 0], [{}, 0, 0]]}}\n", link,
+                              name, link, arm, side * half, -rod / 2);
+        joints += fmt::format("  low_{}: {{type: spherical, nodes: [{}, platform], at: [[{}, 0, 0], {}]}}\n", link,
+                              link, rod / 2, list(platform * radial[k] + side * half * tangential[k]));
       }
     }
     Session session(read_mechanism_text(drawing.text(joints), "delta.yaml").model);
@@ -192,7 +195,8 @@ TEST_CASE("a Stewart platform drawn 5 % and 20 degrees off comes to the pose of 
       joints += fmt::format("  head_{}: {{type: spherical, nodes: [piston_{}, platform], at: [[0, 0, 0], {}]}}\n", k, k,
                             list(head));
       joints += fmt::format(
-          "  leg_{}: {{type: prismatic, nodes: [cylinder_{}, piston_{}], at: [[0, 0, 0], [0, 0, 0]], axis: [[1, 0, 0], [1, "
+          "  leg_{}: {{type: prismatic, nodes: [cylinder_{}, piston_{}], at: [[0, 0, 0], [0, 0, 0]], axis: [[1, 0, 0], "
+          "[1, "
           "0, 0]], second_axis: [[0, 1, 0], [0, 1, 0]], start: {:.17g}}}\n",
           k, k, k, length);
     }

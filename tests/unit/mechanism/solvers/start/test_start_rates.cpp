@@ -23,16 +23,19 @@ std::string four_bar(const std::string& crank_keys, const std::string& rocker_ke
     return fmt::format("  {}: {{type: rigid_body, node: {}, mass: 1, inertia: [0.01, 0.02, 0.02]}}\n", name, name);
   };
   const auto hinge = [](const std::string& name, const std::string& nodes, const Vector3& at, const std::string& keys) {
-    return fmt::format("  {}: {{type: hinge, nodes: [{}], position: {}, axis: [0, 0, 1]{}}}\n", name, nodes, list(at), keys);
+    return fmt::format("  {}: {{type: hinge, nodes: [{}], position: {}, axis: [0, 0, 1]{}}}\n", name, nodes, list(at),
+                       keys);
   };
-  return fmt::format("nodes: {{crank: {{position: {}}}, coupler: {{position: {}}}, rocker: {{position: {}}}}}\nelements:\n",
-                     list(bar.A), list(bar.B), list(bar.D)) +
-         body("crank") + body("coupler") + body("rocker") + "joints:\n" + hinge("a", "ground, crank", bar.A, crank_keys) +
-         hinge("b", "crank, coupler", bar.B, "") + hinge("c", "coupler, rocker", bar.C, "") +
-         hinge("d", "ground, rocker", bar.D, rocker_keys) + more;
+  return fmt::format(
+             "nodes: {{crank: {{position: {}}}, coupler: {{position: {}}}, rocker: {{position: {}}}}}\nelements:\n",
+             list(bar.A), list(bar.B), list(bar.D)) +
+         body("crank") + body("coupler") + body("rocker") + "joints:\n" +
+         hinge("a", "ground, crank", bar.A, crank_keys) + hinge("b", "crank, coupler", bar.B, "") +
+         hinge("c", "coupler, rocker", bar.C, "") + hinge("d", "ground, rocker", bar.D, rocker_keys) + more;
 }
 
-/// Rocker's rate over the crank's: a sin(t2 - t3) / (c sin(t4 - t3)), t2, t3, t4 the directions of crank, coupler, rocker.
+/// Rocker's rate over the crank's: a sin(t2 - t3) / (c sin(t4 - t3)), t2, t3, t4 the directions of crank, coupler,
+/// rocker.
 double rate_ratio() {
   const FourBar bar = bielle::test::released_four_bar();
   const auto direction = [](const Vector3& from, const Vector3& to) {
@@ -65,7 +68,8 @@ TEST_CASE("the start rate of the rocker is kept exactly, whatever velocities the
 }
 
 TEST_CASE("what start rates leave open keeps its velocities as the kinetic energy weighs them") {
-  // A mass m slides along x on a cart M, which slides along x. Relative rate r: least change of m v^2 + M V^2 from 3 and 1.
+  // A mass m slides along x on a cart M, which slides along x. Relative rate r: least change of m v^2 + M V^2 from 3
+  // and 1.
   Session session(read_mechanism_text(R"yaml(
 nodes: {cart: {velocity: [1, 0, 0]}, slider: {position: [0.2, 0, 0], velocity: [3, 0, 0]}}
 elements:
@@ -92,7 +96,8 @@ TEST_CASE("start rates that follow from others have to agree with them") {
   CHECK(session.read("joints/a/rate")[0] == Approx(4).epsilon(1e-12));
 
   const auto refusal = [](const std::string& text) {
-    return message_of<bielle::ComputationError>([&] { Session(read_mechanism_text(text, "bar.yaml").model).assemble(); });
+    return message_of<bielle::ComputationError>(
+        [&] { Session(read_mechanism_text(text, "bar.yaml").model).assemble(); });
   };
   const std::string contradiction = refusal(four_bar(", start_rate: 4", ", start_rate: 1"));
   CHECK_THAT(contradiction, Catch::Contains("the start rate 1 rad/s of angle of joint 'd' contradicts"));
@@ -100,8 +105,8 @@ TEST_CASE("start rates that follow from others have to agree with them") {
   const std::string driven = "drives: {m: {joint: a, rate: \"3\"}}\n";
   CHECK_THAT(refusal(four_bar("", ", start_rate: 1", driven)),
              Catch::Contains(fmt::format("which make it {:.6g} rad/s", 3 * rate_ratio())));
-  CHECK_NOTHROW(Session(read_mechanism_text(four_bar("", fmt::format(", start_rate: {:.17g}", 3 * rate_ratio()), driven),
-                                            "bar.yaml")
+  CHECK_NOTHROW(Session(read_mechanism_text(
+                            four_bar("", fmt::format(", start_rate: {:.17g}", 3 * rate_ratio()), driven), "bar.yaml")
                             .model)
                     .assemble());
 }

@@ -15,14 +15,17 @@ using Catch::Contains;
 namespace {
 
 /// Links of 0.3, `coupler` and 0.7 m between posts `ground` m apart, drawn roughly.
-std::string four_bar(double coupler, double ground, const std::string& crank_keys = "", const std::string& rocker_keys = "") {
+std::string four_bar(double coupler, double ground, const std::string& crank_keys = "",
+                     const std::string& rocker_keys = "") {
   bielle::test::RoughDrawing drawing(3, 0.05, 0.3);
   drawing.add_body("crank", Vector3(0.1, 0.1, 0), exp_so3(Vector3(0, 0, 0.8)));
   drawing.add_body("coupler", Vector3(0.6, 0.4, 0), exp_so3(Vector3(0, 0, 0.2)));
   drawing.add_body("rocker", Vector3(1, 0.3, 0), exp_so3(Vector3(0, 0, 1.7)));
-  const auto hinge = [](const std::string& name, const std::string& nodes, const std::string& at, const std::string& keys) {
+  const auto hinge = [](const std::string& name, const std::string& nodes, const std::string& at,
+                        const std::string& keys) {
     return fmt::format(
-        "  {}: {{type: hinge, nodes: [{}], at: [{}], axis: [[0, 0, 1], [0, 0, 1]], second_axis: [[1, 0, 0], [1, 0, 0]]{}}}\n",
+        "  {}: {{type: hinge, nodes: [{}], at: [{}], axis: [[0, 0, 1], [0, 0, 1]], second_axis: [[1, 0, 0], [1, 0, "
+        "0]]{}}}\n",
         name, nodes, at, keys);
   };
   return drawing.text(hinge("a", "ground, crank", "[0, 0, 0], [-0.15, 0, 0]", crank_keys) +
@@ -41,7 +44,9 @@ std::string refusal(const std::string& text, const AssemblyOptions& options = {}
 TEST_CASE("a rod that is too short leaves its gap in the last joint of the loop") {
   // 0.3 + 0.9 + 0.7 m reach over 1.9 of 2.05 m.
   const std::string said = refusal(four_bar(0.9, 2.05));
-  CHECK_THAT(said, Contains("the mechanism cannot be put together: joint 'd' stays open by 0.15 m whatever the other parts do"));
+  CHECK_THAT(
+      said,
+      Contains("the mechanism cannot be put together: joint 'd' stays open by 0.15 m whatever the other parts do"));
   CHECK_THAT(said, Contains("it disagrees with joint 'a', joint 'b', joint 'c'"));
 }
 
@@ -71,7 +76,8 @@ TEST_CASE("a start value that loops do not allow is told with its distance") {
   // The rocker of this bar turns until crank and coupler are in line, 1.2 m: cos = (1 + 0.49 - 1.44) / 1.4 at the post.
   const double inner = std::acos((1 + 0.49 - 1.44) / 1.4), least = M_PI - inner;  // from the x axis
   const std::string said = refusal(four_bar(0.9, 1, "", fmt::format(", start: {:.17g}", least - 0.2)));
-  CHECK_THAT(said, Contains(fmt::format("the angle of joint 'd' stays {:.4g} degrees away from its start value", 0.2 * 180 / M_PI)));
+  CHECK_THAT(said, Contains(fmt::format("the angle of joint 'd' stays {:.4g} degrees away from its start value",
+                                        0.2 * 180 / M_PI)));
 }
 
 TEST_CASE("a drive beyond the reach of its mechanism is named") {
