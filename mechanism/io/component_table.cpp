@@ -9,12 +9,15 @@
 #include "mechanism/elements/superelement/superelement_body.hpp"
 #include "mechanism/joints/actions/drive.hpp"
 #include "mechanism/joints/cables/rope_section.hpp"
+#include "mechanism/joints/cams/cam.hpp"
 #include "mechanism/joints/couplings/linear_coupling.hpp"
 #include "mechanism/joints/gears/gear_mesh.hpp"
 #include "mechanism/joints/pairs/guided_point.hpp"
 #include "mechanism/joints/pairs/links.hpp"
 #include "mechanism/joints/pairs/lower_pairs.hpp"
+#include "mechanism/joints/pairs/point_on_curve.hpp"
 #include "mechanism/joints/pairs/screw.hpp"
+#include "mechanism/joints/pairs/slider.hpp"
 #include "mechanism/joints/pairs/universal.hpp"
 #include "mechanism/joints/pairs/wheel.hpp"
 
@@ -41,11 +44,14 @@ const std::vector<ComponentType>& component_table() {
       {Section::joints, "revolute_spherical", read_revolute_spherical},
       {Section::joints, "point_on_line", read_point_on_line},
       {Section::joints, "point_on_plane", read_point_on_plane},
+      {Section::joints, "point_on_curve", read_point_on_curve},
+      {Section::joints, "slider", read_slider},
       {Section::joints, "wheel", read_wheel},
       {Section::joints, "gear", read_gear},
       {Section::joints, "gear_mesh", read_gear_mesh},
       {Section::joints, "differential", read_differential},
       {Section::joints, "rack_and_pinion", read_rack_and_pinion},
+      {Section::joints, "cam", read_cam},
       {Section::joints, "belt", read_belt},
       {Section::joints, "cable", read_cable},
       {Section::drives, "drive", read_drive},

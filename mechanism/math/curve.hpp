@@ -26,7 +26,7 @@ class Curve {
   Place operator()(double u) const;
   bool closed() const { return closed_; }
   double end() const { return knots_.back(); }  ///< of u, which begins with 0; of a closed curve its period
-  /// Arc length from u = 0, negative before it: Gauss quadrature on quarters of each piece.
+  /// Arc length from u = 0, negative before it: Gauss quadrature on sixteen parts of each piece.
   double arc_length(double u) const;
   /// The parameter of the place next to a point.
   double nearest(const Vector3& point) const;

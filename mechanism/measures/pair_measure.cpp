@@ -145,6 +145,15 @@ PairMeasure measure_angle(const NodeState& first, const NodeState& second, const
                measure_alignment(first, second, A.col(0), B.col(0)));
 }
 
+PairMeasure exchanged(const PairMeasure& measure) {
+  PairMeasure result;
+  result.value = measure.value;
+  result.gradient << measure.gradient.tail<6>(), measure.gradient.head<6>();
+  result.second << measure.second.bottomRightCorner<6, 6>(), measure.second.bottomLeftCorner<6, 6>(),
+      measure.second.topRightCorner<6, 6>(), measure.second.topLeftCorner<6, 6>();
+  return result;
+}
+
 PairMeasureRate measure_position_rate(const NodeState& first, const NodeState& second, const Vector3& e_hat,
                                       const Vector3& c_1, const Vector3& c_2) {
   const Vector3 s = first.R.transpose() * (second.x + second.R * c_2 - first.x);

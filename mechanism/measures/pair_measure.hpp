@@ -108,6 +108,9 @@ PairMeasure measure_alignment(const NodeState& first, const NodeState& second, c
 /// about their common z axis. @param A,B  axes in the components of their nodes
 PairMeasure measure_angle(const NodeState& first, const NodeState& second, const Matrix3& A, const Matrix3& B);
 
+/// A measure of nodes (second, first) as one of (first, second).
+PairMeasure exchanged(const PairMeasure& measure);
+
 /// A measure with its rate alone: for what is recorded and remembered at every step.
 struct PairMeasureRate {
   double value = 0, rate = 0;

@@ -1,4 +1,6 @@
 // Samples of what couples joints and wheels: gears, differentials, racks, gear meshes.
+#include <fstream>
+
 #include "tests/laws/sample.hpp"
 
 namespace bielle::laws {
@@ -76,7 +78,6 @@ std::vector<Sample> coupling_samples() {
                           {{"teeth", "[20]", "teeth"},
                            {"teeth", "[20, -3]", ""},
                            {"internal", "5", ""},
-                           {"joints.1", "{coordinate: angle}", "joint"},
                            {"joints.1.joint", "thre", "did you mean 'three'"},
                            {"joints.1.coordinate", "displacement", "no angle"}}));
   list.push_back(coupling("gear", "factors", "joints: [one, two.displacement, three], factors: [1, -0.7, 2.5]",
@@ -107,6 +108,24 @@ std::vector<Sample> coupling_samples() {
                        {"stiffness", "0", ""},
                        {"damping", "-1", ""},
                        {"backlash", "-1", ""}}));
+  Sample lift = coupling("cam", "lift", "joints: [one, two.displacement], lift: lift.csv",
+                         {{"lift", "profile.csv", "the last value must repeat the first"},
+                          {"lift", "none.csv", "no such file"},
+                          {"joints", "[two.displacement, one]", "no angle"}});
+  Sample knife = coupling("cam", "knife edge", "joints: [one, three], profile: profile.csv, follower: roller, radius: 0, at: [0.1, 0.2, 0.3]",
+                          {{"profile", "lift.csv", "greater than 0"},
+                           {"follower", "round", ""},
+                           {"radius", "-1", ""},
+                           {"at", "[1, 2]", ""}});
+  knife.scales.amplitude = 0.1;
+  for (Sample* sample : {&lift, &knife}) {
+    // Few knots, away from the reference: finite differences stay within a piece of the splines.
+    sample->files = [](const std::string& folder) {
+      std::ofstream(folder + "/lift.csv") << "-0.8,0\n0.8,0.3\n2.4,0.1\n4,-0.2\n5.4831853071795862,0\n";
+      std::ofstream(folder + "/profile.csv") << "0,1\n1.5,1.3\n2.9,0.9\n4.5,1.1\n";
+    };
+    list.push_back(*sample);
+  }
   const std::vector<BadValue> bad_rope = {{"nodes", "[a]", "two or more"},
                                           {"nodes", "[a, b, b]", "follows itself"},
                                           {"nodes", "[a, b, d]", "no node 'd'"},

@@ -225,10 +225,10 @@ void RopeSection::write_output(const LocalState& state, double* values) const {
 void RopeSection::describe(const LocalState& state, Description& description) const {
   thread_local Stretch s;
   calc_stretch(state, s);
-  description.add_line(fmt::format("from '{}' to '{}': length {:.6g} m, stiffness {:.6g} N/m, tension {:.6g} N",
+  description.add(fmt::format("from '{}' to '{}': length {:.6g} m, stiffness {:.6g} N/m, tension {:.6g} N",
                                    names_.front(), names_.back(), s.L, material_.EA / (s.L - s.E), s.tension));
   if (names_.size() > 2)
-    description.add_line(
+    description.add(
         fmt::format("slides on {}", fmt::join(names_.begin() + 1, names_.end() - 1, ", ")));
 }
 

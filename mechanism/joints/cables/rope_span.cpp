@@ -3,16 +3,6 @@
 namespace bielle::mechanism {
 namespace {
 
-/// A measure of (second, first) as one of (first, second).
-PairMeasure exchanged(const PairMeasure& m) {
-  PairMeasure result;
-  result.value = m.value;
-  result.gradient << m.gradient.tail<6>(), m.gradient.head<6>();
-  result.second << m.second.bottomRightCorner<6, 6>(), m.second.bottomLeftCorner<6, 6>(),
-      m.second.topRightCorner<6, 6>(), m.second.topLeftCorner<6, 6>();
-  return result;
-}
-
 /// Component, along an axis of a pulley's frame on `node`, of the way from there to a point of another node.
 PairMeasure way(const NodeState& node, const NodeState& other, const Pulley& here, const Vector3& there, int axis) {
   return measure_position(node, other, here.on_node.R.col(axis), here.on_node.x, there);
@@ -22,7 +12,7 @@ PairMeasure way(const NodeState& node, const NodeState& other, const Pulley& her
 
 SpanMeasures measure_span(const NodeState& first, const NodeState& second, const Pulley& from, const Pulley& to) {
   const Vector3 &p_i = from.on_node.x, &p_j = to.on_node.x;
-  const double difference = to.radius - from.radius;
+  const double difference = from.radius - to.radius;
   std::array<PairMeasure, 3> d;
   for (int axis = 0; axis < 3; ++axis) d[static_cast<std::size_t>(axis)] = way(first, second, from, p_j, axis);
   SpanMeasures span;

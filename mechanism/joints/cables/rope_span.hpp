@@ -3,7 +3,7 @@
 // Pulley k has its centre p_k and its axis z_k on a node, and a radius rho_k with a sign: a rope that travels from
 // pulley i to pulley j turns a pulley of positive radius about +z. (A point is a pulley of radius zero.) With
 // d = p_j - p_i and the tangent's direction u, the rope touches pulley k at p_k + rho_k u x z, so that
-//     l = sqrt(d . d - (rho_j - rho_i)^2),   angle from d to u about z:  gamma = atan2(rho_j - rho_i, l).
+//     l = sqrt(d . d - (rho_j - rho_i)^2),   angle from d to u about z:  gamma = atan2(rho_i - rho_j, l).
 // alpha_k, the angle of d about z_k in the axes of pulley k, counts over turns how the tangent point runs round the
 // pulley's material. Rope that has been wound off i and not onto j since the start makes the span longer without strain:
 //     e = l + rho_i (alpha_i + gamma) - rho_j (alpha_j + gamma) - (the same as drawn)

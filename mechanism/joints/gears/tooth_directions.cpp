@@ -41,7 +41,8 @@ void set_tooth_directions(ToothGeometry& geometry, double helix, bool inside) {
         throw std::domain_error("the teeth of crossed wheels meet on the common perpendicular of their axes");
     g = z_1;
   }
-  const bool outwards = geometry.nu.dot(geometry.P - geometry.centre[0]) > 0;
+  const Vector3 arm = geometry.P - geometry.centre[0];
+  const bool outwards = geometry.nu.dot(arm - z_1 * z_1.dot(arm)) > 0;
   if (outwards == inside) geometry.nu = -geometry.nu;
   geometry.t = std::cos(helix) * along - std::sin(helix) * g;
   if (std::abs(v[1].dot(geometry.t)) < 1e-6 * v[1].norm())

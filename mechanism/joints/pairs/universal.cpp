@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include "mechanism/joints/pairs/read_pair.hpp"
 
 namespace bielle::mechanism {
@@ -64,10 +66,37 @@ void read_universal(const std::string& name, const YamlValue& entry, Model& mode
            model);
 }
 
+namespace {
+
+/// Turns the frames so that their z axes are the two shafts as drawn: the second by the bend between them.
+void bend_frames(JointFrames& frames, const YamlValue& axes, const Model& model) {
+  if (!axes.is_sequence() || axes.size() != 2) axes.fail("expected two directions: of the first shaft and of the second");
+  const Vector3 first = axes.at(0).direction(), second = axes.at(1).direction();
+  if (first.dot(second) < -1 + 1e-6)
+    axes.fail("fold back onto each other: the joint bends by less than 180 degrees; give both from the first shaft to the second");
+  Eigen::Index least = 0;
+  first.cwiseAbs().minCoeff(&least);
+  const Vector3 side = (Vector3::Unit(least) - first * first[least]).normalized();
+  Matrix3 straight;
+  straight << side, first.cross(side), first;
+  const Matrix3 bend = Eigen::Quaterniond::FromTwoVectors(first, second).toRotationMatrix();
+  frames.on_first.R = model.node(frames.first).frame.R.transpose() * straight;
+  frames.on_second.R = model.node(frames.second).frame.R.transpose() * bend * straight;
+}
+
+}  // namespace
+
 void read_constant_velocity(const std::string& name, const YamlValue& entry, Model& model) {
-  check_pair_keys(entry, "a constant-velocity joint", joint_frame_keys());
-  add_pair(std::make_unique<ConstantVelocityJoint>(name, read_joint_frames(entry, model, AxisNeed::required), model),
-           entry, model);
+  std::vector<std::string> keys = joint_frame_keys();
+  keys.push_back("axes");
+  check_pair_keys(entry, "a constant-velocity joint", keys);
+  const auto axes = entry.find("axes");
+  if (axes)
+    for (const char* key : {"axis", "second_axis"})
+      if (const auto too_much = entry.find(key)) too_much->fail("a constant-velocity joint has either `axis` or `axes`");
+  JointFrames frames = read_joint_frames(entry, model, axes ? AxisNeed::optional : AxisNeed::required);
+  if (axes) bend_frames(frames, *axes, model);
+  add_pair(std::make_unique<ConstantVelocityJoint>(name, std::move(frames), model), entry, model);
 }
 
 }  // namespace bielle::mechanism

@@ -6,7 +6,8 @@
 // of the second node about x_B relative to the cross:
 //     angle_1 = atan2(y_A . x_B, x_A . x_B),   angle_2 = atan2(z_A . y_B, z_A . z_B).
 //
-// Constant velocity: z (`axis`) is the common axis of the two shafts where the joint is straight. Rows: the point, and
+// Constant velocity: z_A and z_B are the axes of the two shafts, from the first to the second (`axis` where the joint is
+// drawn straight, `axes` where it is drawn bent). Rows: the point, and
 //     (y_A . x_B - x_A . y_B)/2 = 0.
 // The left side is sin(theta) n_z of the rotation by theta about n that takes J_A to J_B: the row keeps n normal to
 // z_A, and then n is normal to z_B as well (the rotation leaves n where it is). So the shafts bend about an axis that

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/joints/pairs/read_pair.hpp"
+#include "mechanism/joints/pairs/tyre_force.hpp"
 #include "mechanism/model/description.hpp"
 #include "mechanism/reading/names.hpp"
 
@@ -84,7 +85,10 @@ WheelJoint::Slip WheelJoint::calc_slip(const LocalState& state) const {
   const VectorJet t = turned(A.R, {b_y / s, -(b_x / s), zero}), l = turned(A.R, {b_x / s, b_y / s, zero});
   VectorJet arm = turned(B.R, {-radius_ * (n_x / s), -radius_ * (n_y / s), zero});
   for (std::size_t k = 0; k < 3; ++k) arm[k] += B.x[static_cast<Eigen::Index>(k)];
-  return {material_velocity(first, second, t, arm), material_velocity(first, second, l, arm)};
+  VectorJet middle;
+  for (std::size_t k = 0; k < 3; ++k) middle[k].value = B.x[static_cast<Eigen::Index>(k)];
+  return {material_velocity(first, second, t, arm), material_velocity(first, second, l, arm),
+          material_velocity(first, second, t, middle)};
 }
 
 void WheelJoint::calc_rows(const LocalState& state, std::span<PairMeasure> rows) const {
@@ -102,7 +106,7 @@ void WheelJoint::describe(const LocalState& state, Description& description) con
 }
 
 void read_wheel(const std::string& name, const YamlValue& entry, Model& model) {
-  check_pair_keys(entry, "a wheel", {"type", "nodes", "position", "normal", "axis", "radius"});
+  check_pair_keys(entry, "a wheel", {"type", "nodes", "position", "normal", "axis", "radius", "slip"});
   const std::vector<int> nodes = nodes_named_by(entry.at("nodes"), 2, model);
   if (nodes[0] == nodes[1]) entry.at("nodes").fail("a joint needs two different nodes");
   const Frame &plane_node = model.node(nodes[0]).frame, &hub = model.node(nodes[1]).frame;
@@ -126,7 +130,11 @@ void read_wheel(const std::string& name, const YamlValue& entry, Model& model) {
   frames.second = nodes[1];
   frames.on_first = inverse(plane_node) * frame_with(hub.x - height * normal, normal, way);
   frames.on_second = inverse(hub) * frame_with(hub.x, axis, way);
-  add_pair(std::make_unique<WheelJoint>(name, std::move(frames), radius, true, model), entry, model);
+  const std::optional<TyreLaw> law = read_tyre_law(entry);
+  auto wheel = std::make_unique<WheelJoint>(name, std::move(frames), radius, !law, model);
+  const WheelJoint& rolling = *wheel;
+  add_pair(std::move(wheel), entry, model);
+  if (law) model.add(std::make_unique<TyreForce>(name, rolling, *law), Entry{Section::joints, name});
 }
 
 }  // namespace bielle::mechanism

@@ -29,6 +29,7 @@ class WheelJoint final : public MeasuredPair {
   /// Slip velocities as gradients w with their derivatives; the value is the velocity itself [m/s].
   struct Slip {
     PairMeasure longitudinal, lateral;
+    PairMeasure forward;  ///< of the hub along t
   };
   Slip calc_slip(const LocalState& state) const;
 

@@ -113,7 +113,9 @@ class Balance {
         r_[i] = 0;
         continue;
       }
-      const double whole = own_forces_[i] > 0 ? own_forces_[i] : scale_[system_.kind(i)];
+      double whole = own_forces_[i] > 0 ? own_forces_[i] : scale_[system_.kind(i)];
+      // An amplitude that constraints alone move (a place on a curve) bears no forces of its own but their rounding.
+      if (own_forces_[i] == 0 && system_.kind(i) == Kind::amplitude) whole = std::max(whole, scale_[Kind::translation]);
       const double size = std::abs(r_[i]) / (balanced * whole);
       if (!(size > 1) || size <= size_) continue;
       size_ = size;

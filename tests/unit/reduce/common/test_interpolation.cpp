@@ -66,6 +66,35 @@ TEST_CASE("A cubic spline converges with fourth order, its second derivative wit
   }
 }
 
+TEST_CASE("A periodic spline repeats itself, and converges with fourth order to a periodic function") {
+  const auto f = [](double x) { return std::exp(std::sin(x)); };
+  std::vector<double> error;
+  for (const int n : {16, 32, 64}) {
+    // Unequal intervals.
+    Eigen::VectorXd x(n + 1), y(n + 1);
+    for (int k = 0; k <= n; ++k) x(k) = 2 * M_PI * (k + 0.2 * std::sin(2 * M_PI * k / n)) / n;
+    for (int k = 0; k <= n; ++k) y(k) = f(x(k));
+    y(n) = y(0);
+    const Interpolation spline(x, y, Interpolation::Kind::periodic, "curve");
+    error.push_back(0);
+    for (double at = 0; at < 2 * M_PI; at += 0.01) error.back() = std::max(error.back(), std::abs(spline(at).value - f(at)));
+    for (const double at : {0.0, 1.3, 5.9}) {
+      CHECK_THAT(spline(at + 6 * M_PI).value, WithinAbs(spline(at).value, 1e-13));
+      CHECK_THAT(spline(at - 4 * M_PI).slope, WithinAbs(spline(at).slope, 1e-12));
+    }
+    // Smooth where the ends meet.
+    const double end = 2 * M_PI - 1e-9;
+    CHECK_THAT(spline(end).slope, WithinAbs(spline(0.0).slope, 1e-7));
+    CHECK_THAT(spline(end).curvature, WithinAbs(spline(0.0).curvature, 1e-7));
+  }
+  for (std::size_t k = 1; k < error.size(); ++k) CHECK_THAT(std::log2(error[k - 1] / error[k]), WithinAbs(4, 0.5));
+  const auto message = [](const Eigen::VectorXd& x, const Eigen::VectorXd& y) {
+    return message_of<bielle::InputError>([&] { Interpolation(x, y, Interpolation::Kind::periodic, "curve"); });
+  };
+  CHECK_THAT(message(Eigen::Vector4d(0, 1, 2, 3), Eigen::Vector4d(1, 2, 3, 2)), Catch::Contains("repeat the first"));
+  CHECK_THAT(message(Eigen::Vector3d(0, 1, 2), Eigen::Vector3d(1, 2, 1)), Catch::Contains("three points"));
+}
+
 TEST_CASE("Straight pieces have the slope of the side asked for") {
   const Interpolation pieces(Eigen::Vector3d(0, 1, 3), Eigen::Vector3d(0, 2, 0), Interpolation::Kind::linear, "curve");
   CHECK(pieces(0.5).value == 1);

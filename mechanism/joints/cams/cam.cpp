@@ -1,0 +1,133 @@
+#include "mechanism/joints/cams/cam.hpp"
+
+#include <fmt/format.h>
+
+#include "mechanism/model/description.hpp"
+
+namespace bielle::mechanism {
+
+// -- flat follower
+
+FlatFollower::FlatFollower(std::string name, JointFrames frames, Interpolation support, const Model& model)
+    : MeasuredPair("cam", std::move(name), std::move(frames), {}, {{"push", "N"}}, model),
+      support_(std::move(support)) {}
+
+void FlatFollower::calc_rows(const LocalState& state, std::span<PairMeasure> rows) const {
+  const Frame &A = frames().on_first, &B = frames().on_second;
+  const PairMeasure psi = atan2(alignment(1, 2, state), alignment(0, 2, state));
+  const Interpolation::Values H = support_(psi.value);
+  // z_B . (x_A - p_F), seen from the follower.
+  const PairMeasure back = exchanged(measure_position(state.node(1), state.node(0), B.R.col(2), B.x, A.x));
+  rows[0] = compose(psi, H.value, H.slope, H.curvature) + back;
+}
+
+void FlatFollower::declare(Declaration& declaration) const {
+  MeasuredPair::declare(declaration);
+  Crossing lift_off{"lifts off", Crossing::Direction::falling};
+  lift_off.restarts = false;
+  declaration.crossings = {lift_off};
+}
+
+void FlatFollower::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const {
+  values[0] = state.reaction()[0];
+}
+
+// -- lift
+
+LiftedCoordinate::LiftedCoordinate(std::string name, const NamedCoordinate& angle, const NamedCoordinate& lifted,
+                                   Interpolation lift)
+    : Component("cam", std::move(name)),
+      angle_(angle),
+      lifted_(lifted),
+      lift_(std::move(lift)),
+      of_angle_(references_.add(*angle.joint)),
+      of_lifted_(references_.add(*lifted.joint)) {}
+
+/// Both coordinates at a state; valid until the next call in this thread.
+struct LiftedCoordinate::Jets {
+  CoordinateJet angle, lifted;
+};
+
+void LiftedCoordinate::declare(Declaration& declaration) const {
+  references_.declare(declaration);
+  declaration.stiffness = true;
+  declaration.multipliers.push_back({"lift", lifted_.coordinate().force_units()});
+  Crossing lift_off{"lifts off", Crossing::Direction::falling};
+  lift_off.restarts = false;
+  declaration.crossings = {lift_off};
+}
+
+// Phi = c_2 - f(c_1)
+void LiftedCoordinate::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
+  thread_local Jets jets;
+  angle_.joint->calc_coordinate(angle_.index, state.of(of_angle_), jets.angle);
+  lifted_.joint->calc_coordinate(lifted_.index, state.of(of_lifted_), jets.lifted);
+  const Interpolation::Values f = lift_(jets.angle.value);
+  const double lambda = state.multiplier()[0];
+  r.segment(state.slots().reference_row(of_angle_), jets.angle.g().size()) -= lambda * f.slope * jets.angle.g();
+  r.segment(state.slots().reference_row(of_lifted_), jets.lifted.g().size()) += lambda * jets.lifted.g();
+  r[0] += jets.lifted.value - f.value;
+}
+
+void LiftedCoordinate::add_tangent(const LocalState& state, LocalTangent& tangent) const {
+  if (!tangent.wants_K) return;
+  thread_local Jets jets;
+  angle_.joint->calc_coordinate(angle_.index, state.of(of_angle_), jets.angle);
+  lifted_.joint->calc_coordinate(lifted_.index, state.of(of_lifted_), jets.lifted);
+  const Interpolation::Values f = lift_(jets.angle.value);
+  const double lambda = state.multiplier()[0];
+  auto K = tangent.K.dense();
+  const int of_angle = state.slots().reference_row(of_angle_), of_lifted = state.slots().reference_row(of_lifted_);
+  const auto n = jets.angle.g().size(), m = jets.lifted.g().size();
+  K.block(of_angle, of_angle, n, n) -=
+      lambda * (f.slope * jets.angle.S() + f.curvature * jets.angle.g() * jets.angle.g().transpose());
+  K.block(of_angle, 0, n, 1) -= f.slope * jets.angle.g();
+  K.block(0, of_angle, 1, n) -= f.slope * jets.angle.g().transpose();
+  K.block(of_lifted, of_lifted, m, m) += lambda * jets.lifted.S();
+  K.block(of_lifted, 0, m, 1) += jets.lifted.g();
+  K.block(0, of_lifted, 1, m) += jets.lifted.g().transpose();
+}
+
+namespace {
+
+/// First and second time derivatives of a coordinate.
+std::pair<double, double> rates_of(CoordinateJet& jet, const LocalState& of_joint) {
+  VectorX v(jet.g().size()), a(jet.g().size());
+  get_local_velocities(of_joint, v);
+  get_local_accelerations(of_joint, a);
+  return {jet.g().dot(v), jet.g().dot(a) + v.dot(jet.S() * v)};
+}
+
+}  // namespace
+
+void LiftedCoordinate::add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
+                                            Eigen::Ref<VectorX> acceleration) const {
+  thread_local Jets jets;
+  angle_.joint->calc_coordinate(angle_.index, state.of(of_angle_), jets.angle);
+  lifted_.joint->calc_coordinate(lifted_.index, state.of(of_lifted_), jets.lifted);
+  const Interpolation::Values f = lift_(jets.angle.value);
+  const auto [turning, turning_rate] = rates_of(jets.angle, state.of(of_angle_));
+  const auto [lifting, lifting_rate] = rates_of(jets.lifted, state.of(of_lifted_));
+  velocity[0] += lifting - f.slope * turning;
+  acceleration[0] += lifting_rate - f.slope * turning_rate - f.curvature * turning * turning;
+}
+
+void LiftedCoordinate::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const {
+  values[0] = -state.reaction()[0];  // the push along the coordinate
+}
+
+std::vector<OutputField> LiftedCoordinate::output_fields() const {
+  return {{"force", {}, lifted_.coordinate().force_units(), "of the cam on the follower's coordinate"}};
+}
+
+void LiftedCoordinate::write_output(const LocalState& state, double* values) const {
+  values[0] = -state.multiplier()[0];
+}
+
+void LiftedCoordinate::describe(const LocalState& /*state*/, Description& description) const {
+  description.add(fmt::format("'{}'.{} follows a lift over '{}'.{}, which repeats itself every {:.6g} rad",
+                              lifted_.joint->name(), lifted_.coordinate().name, angle_.joint->name(),
+                              angle_.coordinate().name, lift_.points().back() - lift_.points().front()));
+}
+
+}  // namespace bielle::mechanism

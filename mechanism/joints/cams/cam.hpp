@@ -1,0 +1,58 @@
+// Cams and their followers.
+//
+//   roller   the centre of a roller of the follower's node moves on the pitch curve of the contour: PointOnCurve in the
+//            plane of the cam
+//   flat     a flat face of the follower touches the contour: m . (p_F - x_A) + H(psi) = 0, m the direction from the cam
+//            towards the face, p_F a point of the face, psi the angle of m in the cam's frame
+//   lift     the follower's coordinate is a periodic function of the camshaft's angle, c_2 = f(c_1)
+// The contour and f ride on the second node of the camshaft's joint, about its axis (z of its frame), angles from x of the
+// frame as drawn. Contact forces load the bearings of roller and flat followers. Contact only pushes: where it would have
+// to pull, an event is noted ("lifts off").
+#pragma once
+
+#include "mechanism/joints/couplings/coordinate_named_by.hpp"
+#include "mechanism/joints/measured_pair.hpp"
+#include "mechanism/model/references.hpp"
+#include "reduce/common/interpolation.hpp"
+
+namespace bielle::mechanism {
+
+class FlatFollower final : public MeasuredPair {
+ public:
+  /// @param frames  J_A: of the cam; J_B: origin on the face, z from the face away from the cam
+  FlatFollower(std::string name, JointFrames frames, Interpolation support, const Model& model);
+  void declare(Declaration& declaration) const override;
+  void calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const override;
+
+ private:
+  void calc_rows(const LocalState& state, std::span<PairMeasure> rows) const override;
+  Interpolation support_;
+};
+
+class LiftedCoordinate final : public Component {
+ public:
+  LiftedCoordinate(std::string name, const NamedCoordinate& angle, const NamedCoordinate& lifted, Interpolation lift);
+  void declare(Declaration& declaration) const override;
+  void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
+  void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
+  void add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
+                            Eigen::Ref<VectorX> acceleration) const override;
+  void calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const override;
+  /// `force`: of the cam on the follower's coordinate.
+  std::vector<OutputField> output_fields() const override;
+  void write_output(const LocalState& state, double* values) const override;
+  void describe(const LocalState& state, Description& description) const override;
+
+ private:
+  struct Jets;
+  NamedCoordinate angle_, lifted_;
+  Interpolation lift_;
+  References references_;
+  int of_angle_, of_lifted_;
+};
+
+/// `cam: {joints: [camshaft, follower], profile, follower: roller | flat, radius, at, normal}` or
+/// `cam: {joints: [camshaft, follower], lift}`
+void read_cam(const std::string& name, const YamlValue& entry, Model& model);
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,123 @@
+// `cam`: its keys, and where cam and follower are.
+#include <fmt/format.h>
+
+#include "mechanism/joints/cams/cam.hpp"
+#include "mechanism/joints/cams/cam_contour.hpp"
+#include "mechanism/joints/pairs/point_on_curve.hpp"
+#include "mechanism/model/model.hpp"
+#include "reduce/common/error.hpp"
+#include "reduce/common/table_file.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+using Kind = JointCoordinate::Kind;
+
+/// What a file says; its faults are told with the key's place.
+template <class Read>
+auto read_file(const YamlValue& value, const Read& read) {
+  const std::string path = value.file_path();
+  try {
+    return read(path);
+  } catch (const InputError& error) {
+    value.fail(error.what());
+  }
+}
+
+
+/// @param on_follower  the follower's frame, in its node's axes
+JointFrames frames_of(const Joint& camshaft, const Joint& follower, const Frame& on_follower) {
+  JointFrames frames;
+  frames.first = camshaft.frames().second;
+  frames.second = follower.frames().second;
+  frames.on_first = camshaft.frames().on_second;
+  frames.on_second = on_follower;
+  return frames;
+}
+
+const Joint& moved_by(const YamlValue& joint, Model& model) { return *coordinate_named_by(joint, model).joint; }
+
+void add_lift(const std::string& name, const YamlValue& entry, Model& model) {
+  Interpolation lift = read_file(entry.at("lift"), [](const std::string& path) {
+    return Interpolation::from_file(path, Interpolation::Kind::periodic);
+  });
+  const YamlValue joints = entry.at("joints");
+  const NamedCoordinate angle = coordinate_named_by(joints.at(0), model, Kind::angle);
+  model.add(std::make_unique<LiftedCoordinate>(name, angle, coordinate_named_by(joints.at(1), model), std::move(lift)),
+            Entry{Section::joints, name});
+}
+
+void add_roller(const std::string& name, const YamlValue& entry, Model& model) {
+  const double radius = entry.has("radius") ? entry.at("radius").non_negative_number() : 0;
+  const Joint &camshaft = *coordinate_named_by(entry.at("joints").at(0), model, Kind::angle).joint,
+              &follower = moved_by(entry.at("joints").at(1), model);
+  Frame middle;
+  if (const auto at = entry.find("at")) middle.x = at->vector3();
+  JointFrames frames = frames_of(camshaft, follower, middle);
+  Curve pitch = read_file(entry.at("profile"), [&](const std::string& path) {
+    return CamContour(read_table(path, 2), path).pitch_curve(radius);
+  });
+  const Frame cam = model.node(frames.first).frame * frames.on_first;
+  const Frame& node = model.node(frames.second).frame;
+  Vector3 drawn = cam.R.transpose() * (node.x + node.R * middle.x - cam.x);
+  drawn.z() = 0;
+  const double start = pitch.nearest(drawn);
+  model.add(std::make_unique<PointOnCurve>("cam", name, std::move(frames), std::move(pitch), start,
+                                           PointOnCurve::Guide::plane, model),
+            Entry{Section::joints, name});
+}
+
+void add_flat(const std::string& name, const YamlValue& entry, Model& model) {
+  const Joint &camshaft = *coordinate_named_by(entry.at("joints").at(0), model, Kind::angle).joint,
+              &follower = moved_by(entry.at("joints").at(1), model);
+  const Frame& node = model.node(follower.frames().second).frame;
+  const Vector3 normal = entry.at("normal").direction();
+  Eigen::Index least = 0;
+  normal.cwiseAbs().minCoeff(&least);
+  const Vector3 x = normal.cross(Vector3::Unit(least)).normalized();
+  Frame face;
+  if (const auto at = entry.find("at")) face.x = at->vector3();
+  Matrix3 axes;
+  axes << x, normal.cross(x), normal;
+  face.R = node.R.transpose() * axes;
+  JointFrames frames = frames_of(camshaft, follower, face);
+  const Frame cam = model.node(frames.first).frame * frames.on_first;
+  if (std::abs(normal.dot(cam.R.col(2))) > 1e-6)
+    entry.at("normal").fail("is not at right angles to the camshaft's axis");
+  Interpolation support = read_file(entry.at("profile"), [](const std::string& path) {
+    return CamContour(read_table(path, 2), path).support();
+  });
+  model.add(std::make_unique<FlatFollower>(name, std::move(frames), std::move(support), model),
+            Entry{Section::joints, name});
+}
+
+}  // namespace
+
+void read_cam(const std::string& name, const YamlValue& entry, Model& model) {
+  entry.check_keys({"type", "joints", "lift", "profile", "follower", "radius", "at", "normal"}, "a cam");
+  const YamlValue joints = entry.at("joints");
+  if (!joints.is_sequence() || joints.size() != 2) joints.fail("expected two joints: [camshaft, follower]");
+  if (entry.has("lift") == entry.has("profile"))
+    entry.fail("a cam takes either `profile`, its contour, or `lift`, the follower's coordinate over the camshaft's angle");
+  const bool lift = entry.has("lift");
+  bool flat = false;
+  if (lift) {
+    for (const char* key : {"follower", "radius", "at", "normal"})
+      if (const auto too_much = entry.find(key)) too_much->fail("belongs to a cam with `profile`");
+  } else {
+    flat = entry.at("follower").word({"roller", "flat"}, "a follower") == "flat";
+    const char* other = flat ? "radius" : "normal";
+    if (const auto too_much = entry.find(other))
+      too_much->fail(flat ? "belongs to a roller" : "belongs to a flat follower");
+  }
+  model.when_read(Model::Stage::connections, [name, entry, lift, flat, &model] {
+    if (lift)
+      add_lift(name, entry, model);
+    else if (flat)
+      add_flat(name, entry, model);
+    else
+      add_roller(name, entry, model);
+  });
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,153 @@
+#include "mechanism/joints/pairs/point_on_curve.hpp"
+
+#include <fmt/format.h>
+
+#include "mechanism/joints/pairs/read_pair.hpp"
+#include "mechanism/model/description.hpp"
+#include "reduce/common/error.hpp"
+#include "reduce/common/table_file.hpp"
+
+namespace bielle::mechanism {
+namespace {
+constexpr int parameter = 12;    ///< local row of u
+constexpr int first_row = 13;    ///< of the constraints
+}  // namespace
+
+PointOnCurve::PointOnCurve(std::string type, std::string name, JointFrames frames, Curve curve, double start,
+                           Guide guide, const Model& model)
+    : Joint(std::move(type), std::move(name), std::move(frames),
+            {{"displacement", JointCoordinate::Kind::displacement, JointCoordinate::by_type}}, model),
+      curve_(std::move(curve)),
+      start_(start),
+      guide_(guide) {}
+
+void PointOnCurve::declare(Declaration& declaration) const {
+  Joint::declare(declaration);
+  declaration.stiffness = true;
+  declaration.amplitudes = {{"place on the curve", "m", start_}};
+  constexpr const char* names[] = {"x", "y", "z"};
+  for (int axis = 0; axis < rows(); ++axis) declaration.multipliers.push_back({names[axis], "N"});
+  if (guide_ == Guide::plane) {
+    Crossing lift_off{"lifts off", Crossing::Direction::falling};
+    lift_off.restarts = false;
+    declaration.crossings = {lift_off};
+    return;
+  }
+  if (curve_.closed()) return;
+  Crossing leaves{"leaves the curve at its end", Crossing::Direction::both};
+  leaves.stops = true;
+  Crossing leaves_start{"leaves the curve at its beginning", Crossing::Direction::both};
+  leaves_start.stops = true;
+  declaration.crossings = {leaves_start, leaves};
+}
+
+PairMeasure PointOnCurve::position(int axis, const LocalState& state) const {
+  const Frame &A = frames().on_first, &B = frames().on_second;
+  return measure_position(state.node(0), state.node(1), A.R.col(axis), A.x, B.x);
+}
+
+void PointOnCurve::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
+  const Curve::Place c = curve_(state.amplitude()[0]);
+  const auto lambda = state.multiplier();
+  for (int axis = 0; axis < rows(); ++axis) {
+    const PairMeasure m = position(axis, state);
+    r.head<12>() += lambda[axis] * m.gradient;
+    r[parameter] -= lambda[axis] * c.first[axis];
+    r[first_row + axis] += m.value - c.point[axis];
+  }
+}
+
+void PointOnCurve::add_tangent(const LocalState& state, LocalTangent& tangent) const {
+  if (!tangent.wants_K) return;
+  const Curve::Place c = curve_(state.amplitude()[0]);
+  const auto lambda = state.multiplier();
+  auto K = tangent.K.dense();
+  for (int axis = 0; axis < rows(); ++axis) {
+    const PairMeasure m = position(axis, state);
+    const int row = first_row + axis;
+    K.topLeftCorner<12, 12>() += lambda[axis] * m.second;
+    K.block<12, 1>(0, row) += m.gradient;
+    K.block<1, 12>(row, 0) += m.gradient.transpose();
+    K(parameter, parameter) -= lambda[axis] * c.second[axis];
+    K(parameter, row) -= c.first[axis];
+    K(row, parameter) -= c.first[axis];
+  }
+}
+
+void PointOnCurve::add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
+                                        Eigen::Ref<VectorX> acceleration) const {
+  const Curve::Place c = curve_(state.amplitude()[0]);
+  const double u1 = state.amplitude_rate()[0], u2 = state.amplitude_acceleration()[0];
+  const Vector12 v = pair_rate(state.node(0), state.node(1)), a = pair_acceleration(state.node(0), state.node(1));
+  for (int axis = 0; axis < rows(); ++axis) {
+    const PairMeasure m = position(axis, state);
+    velocity[axis] += m.rate(v) - c.first[axis] * u1;
+    acceleration[axis] += m.acceleration(v, a) - c.first[axis] * u2 - c.second[axis] * u1 * u1;
+  }
+}
+
+CoordinateRate PointOnCurve::principal_coordinate(std::size_t /*index*/, const LocalState& state) const {
+  const double u = state.amplitude()[0];
+  return {curve_.arc_length(u) - curve_.arc_length(start_), curve_(u).first.norm() * state.amplitude_rate()[0]};
+}
+
+void PointOnCurve::calc_coordinate(std::size_t index, const LocalState& state, CoordinateJet& jet) const {
+  const Curve::Place c = curve_(state.amplitude()[0]);
+  const double speed = c.first.norm();
+  jet.prepare(state.slots().size());
+  const auto [value, rate] = principal_coordinate(index, state);
+  jet.value = jet.principal = value;
+  jet.rate = rate;
+  jet.g()[parameter] = jet.w()[parameter] = speed;
+  jet.S()(parameter, parameter) = jet.W()(parameter, parameter) = c.first.dot(c.second) / speed;
+}
+
+void PointOnCurve::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const {
+  if (guide_ == Guide::plane) {
+    const Vector3 along = curve_(state.amplitude()[0]).first;
+    const auto lambda = state.reaction();
+    values[0] = -(lambda[0] * along.y() - lambda[1] * along.x()) / along.norm();  // the push along the outward normal
+    return;
+  }
+  if (values.size() == 0) return;
+  values[0] = state.amplitude()[0];
+  values[1] = curve_.end() - state.amplitude()[0];
+}
+
+void PointOnCurve::describe(const LocalState& state, Description& description) const {
+  Joint::describe(state, description);
+  description.add(fmt::format("{} curve, length {:.6g} m", curve_.closed() ? "closed" : "open",
+                              curve_.arc_length(curve_.end())));
+}
+
+namespace {
+
+/// @param frame  in whose axes the curve is wanted
+Curve read_curve(const YamlValue& value, bool closed, const Frame& frame) {
+  const std::string path = value.file_path();
+  try {
+    MatrixX points = read_table(path, 3);
+    for (Eigen::Index k = 0; k < points.rows(); ++k)
+      points.row(k) = (frame.R.transpose() * (points.row(k).transpose() - frame.x)).transpose();
+    return {points, closed, path};
+  } catch (const InputError& error) {
+    value.fail(error.what());
+  }
+}
+
+}  // namespace
+
+void read_point_on_curve(const std::string& name, const YamlValue& entry, Model& model) {
+  check_pair_keys(entry, "a point_on_curve joint", {"type", "nodes", "position", "curve", "closed"});
+  JointFrames frames = read_joint_frames(entry, model, AxisNeed::optional);
+  const auto given = entry.find("closed");
+  const bool closed = given && given->boolean();
+  // Of J_A, which stands where the point is drawn.
+  const Frame joint = model.node(frames.first).frame * frames.on_first;
+  Curve curve = read_curve(entry.at("curve"), closed, joint);
+  const double start = curve.nearest(Vector3::Zero());
+  add_pair(std::make_unique<PointOnCurve>("point_on_curve", name, std::move(frames), std::move(curve), start,
+                                          PointOnCurve::Guide::space, model), entry, model);
+}
+
+}  // namespace bielle::mechanism

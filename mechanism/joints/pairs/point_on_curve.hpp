@@ -1,0 +1,45 @@
+// A point of the second node on a curve of the first; its rotation is free.
+//
+// The curve c(u) is fixed in J_A (math/curve.hpp). Its parameter u is an unknown of the joint, an amplitude without mass:
+//     Phi = d - c(u) = 0,   d the way from J_A to J_B along the axes of J_A                     (three rows)
+// The equation of u is -c' . lambda = 0: without friction the reaction is normal to the curve. That holds at any
+// curvature, and u tells places apart where the curve passes the same point twice. Coordinate `displacement`: the arc
+// length from where the point is drawn. In the plane of J_A alone (a roller on a cam) there are two rows, and the curve
+// only pushes: where it would have to pull, an event is noted.
+#pragma once
+
+#include "mechanism/joints/joint.hpp"
+#include "mechanism/math/curve.hpp"
+
+namespace bielle::mechanism {
+
+class PointOnCurve final : public Joint {
+ public:
+  enum class Guide { space, plane };
+  /// @param curve  in J_A; of a plane guide closed, anticlockwise about z   @param start  the value of u next to which the
+  ///               point is drawn
+  PointOnCurve(std::string type, std::string name, JointFrames frames, Curve curve, double start, Guide guide,
+               const Model& model);
+
+  void declare(Declaration& declaration) const override;
+  void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
+  void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
+  void add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
+                            Eigen::Ref<VectorX> acceleration) const override;
+  void calc_coordinate(std::size_t index, const LocalState& state, CoordinateJet& jet) const override;
+  void calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const override;
+  void describe(const LocalState& state, Description& description) const override;
+
+ private:
+  CoordinateRate principal_coordinate(std::size_t index, const LocalState& state) const override;
+  PairMeasure position(int axis, const LocalState& state) const;
+  int rows() const { return guide_ == Guide::space ? 3 : 2; }
+  Curve curve_;
+  double start_;
+  Guide guide_;
+};
+
+/// `curve`: a file of three columns, inertial positions as drawn [m]; `closed`
+void read_point_on_curve(const std::string& name, const YamlValue& entry, Model& model);
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,120 @@
+// `slider`: its keys, and the beam that it slides on.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "mechanism/joints/pairs/read_pair.hpp"
+#include "mechanism/joints/pairs/slider.hpp"
+#include "mechanism/reading/names.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+const Chain& chain_of_beam(const YamlValue& beam, const Model& model) {
+  component_named_by(Section::elements, beam, model);  // there is one of that name
+  for (const Chain& chain : model.chains())
+    if (chain.entry == Entry{Section::elements, beam.text()}) return chain;
+  beam.fail("is no beam: a slider needs one to slide on");
+}
+
+/// The line through the beam's nodes: tangents of the curve through three neighbours that a circle fits.
+BeamLine line_through(const std::vector<int>& nodes, const Model& model) {
+  const std::size_t n = nodes.size();
+  const auto x = [&](std::size_t k) -> const Vector3& { return model.node(nodes[k]).frame.x; };
+  BeamLine line{nodes, std::vector<Vector3>(n), std::vector<double>(n, 0)};
+  std::vector<Vector3> chord(n - 1);
+  for (std::size_t k = 0; k + 1 < n; ++k) chord[k] = x(k + 1) - x(k);
+  for (std::size_t k = 0; k < n; ++k) {
+    Vector3 tangent;
+    if (n == 2) {
+      tangent = chord[0];
+    } else {
+      // Of the circle through three points: chords weighted by the inverse squares of their lengths; at an end the
+      // tangent of the neighbour mirrored in the chord.
+      const std::size_t middle = std::clamp<std::size_t>(k, 1, n - 2);
+      const Vector3 before = chord[middle - 1], after = chord[middle];
+      tangent = before / before.squaredNorm() + after / after.squaredNorm();
+      tangent.normalize();
+      if (k != middle) {
+        const Vector3 c = (k < middle ? before : after).normalized();
+        tangent = 2 * c * c.dot(tangent) - tangent;
+      }
+    }
+    line.tangent[k] = model.node(nodes[k]).frame.R.transpose() * tangent.normalized();
+    if (k == 0) continue;
+    // Length of the arc over the chord: by the angle between the tangents at its ends.
+    const Vector3 first = model.node(nodes[k - 1]).frame.R * line.tangent[k - 1];
+    const double half = 0.5 * std::acos(std::clamp(first.dot(tangent.normalized()), -1.0, 1.0));
+    const double stretch = half > 1e-6 ? half / std::sin(half) : 1;
+    line.place[k] = line.place[k - 1] + chord[k - 1].norm() * stretch;
+  }
+  return line;
+}
+
+/// The place on the line next to a point, and the tangent there.
+struct Foot {
+  double u = 0;
+  Vector3 tangent, point;
+};
+
+Foot foot_of(const Vector3& point, const BeamLine& line, const Model& model) {
+  Foot best;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k + 1 < line.nodes.size(); ++k) {
+    const Frame &first = model.node(line.nodes[k]).frame, &second = model.node(line.nodes[k + 1]).frame;
+    const Vector3 way = second.x - first.x;
+    const double xi = std::clamp((point - first.x).dot(way) / way.squaredNorm(), 0.0, 1.0);
+    const Vector3 foot = first.x + xi * way;
+    if (const double far = (point - foot).norm(); far < least) {
+      least = far;
+      const Vector3 tangent = (1 - xi) * (first.R * line.tangent[k]) + xi * (second.R * line.tangent[k + 1]);
+      best = {line.place[k] + xi * (line.place[k + 1] - line.place[k]), tangent.normalized(), foot};
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+void read_slider(const std::string& name, const YamlValue& entry, Model& model) {
+  check_pair_keys(entry, "a slider", {"type", "node", "beam", "at", "start", "ends", "orientation"});
+  const int node = node_named_by(entry.at("node"), model);
+  const Chain& chain = chain_of_beam(entry.at("beam"), model);
+  if (std::find(chain.nodes.begin(), chain.nodes.end(), node) != chain.nodes.end())
+    entry.at("node").fail("is a node of that beam: it cannot slide on itself");
+  BeamLine line = line_through(chain.nodes, model);
+  const auto ends = entry.find("ends");
+  const auto orientation = entry.find("orientation");
+  const bool error = !ends || ends->word({"error", "stop"}, "what happens at the ends") == "error";
+  const bool tangent =
+      orientation && orientation->word({"free", "tangent"}, "an orientation of a slider") == "tangent";
+  const Frame& sliding = model.node(node).frame;
+  const auto at = entry.find("at");
+  const Vector3 attachment = at ? at->vector3() : Vector3::Zero();
+  const Foot foot = foot_of(sliding.x + sliding.R * attachment, line, model);
+  double start = foot.u;
+  if (const auto given = entry.find("start")) {
+    const double share = given->number();
+    if (share < 0 || share > 1) given->fail("expected a place on the beam from 0 (its start) to 1 (its end)");
+    start = share * line.place.back();
+  }
+  Eigen::Index least = 0;
+  foot.tangent.cwiseAbs().minCoeff(&least);
+  const Vector3 y = foot.tangent.cross(Vector3::Unit(least)).normalized();
+  Frame joint;
+  joint.x = model.node(chain.nodes.front()).frame.x;
+  joint.R << foot.tangent, y, foot.tangent.cross(y);
+  JointFrames frames;
+  frames.first = chain.nodes.front();
+  frames.second = node;
+  frames.on_first = inverse(model.node(frames.first).frame) * joint;
+  frames.on_second.x = attachment;
+  frames.on_second.R = sliding.R.transpose() * joint.R;
+  add_pair(std::make_unique<SliderJoint>(name, std::move(frames), std::move(line), start, tangent,
+                                         error ? SliderJoint::Ends::error : SliderJoint::Ends::stop, model),
+           entry, model);
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,102 @@
+// Cams: an eccentric circle has closed forms for flat and roller followers.
+//
+// A circle of radius R whose middle is e away from the camshaft, at the angle theta:
+//     flat face:  y = R + e sin(theta),   roller of radius r:  y = e sin(theta) + sqrt((R + r)^2 - e^2 cos(theta)^2).
+// The torque is F dy/dtheta with the force F = m (y'' + g) on the follower's mass.
+#include <cmath>
+#include <fstream>
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include "tests/benchmarks/joints/moved.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+using bielle::mechanism::Session;
+using bielle::test::move;
+
+namespace {
+
+constexpr double R = 0.03, e = 0.01, r = 0.008, speed = 20, m = 0.5, g = 9.81;
+
+std::string cam(const bielle::test::TemporaryFolder& folder, double start, const std::string& contact, double turns = 1) {
+  const std::string path = folder.path() + "/circle.csv";
+  std::ofstream out(path);
+  constexpr int n = 720;  // the spline's curvature is right to (2 pi/n)^2/12 = 6e-6
+  for (int k = 0; k < n; ++k) {
+    // The distance from the shaft to the circle along the direction phi.
+    const double phi = 2 * M_PI * k / n;
+    out << fmt::format("{:.17g}, {:.17g}\n", phi, e * std::cos(phi) + std::sqrt(R * R - std::pow(e * std::sin(phi), 2)));
+  }
+  return fmt::format(R"yaml(
+gravity: [0, -9.81, 0]
+nodes: {{shaft: {{}}, tappet: {{position: [0, {:.17g}, 0]}}}}
+elements:
+  b: {{type: rigid_body, node: shaft, mass: 1, inertia: [1e-3, 1e-3, 1e-3]}}
+  t: {{type: rigid_body, node: tappet, mass: 0.5, inertia: [1e-4, 1e-4, 1e-4]}}
+joints:
+  contact: {{type: cam, joints: [camshaft, guide], profile: "{}", {}}}
+  camshaft: {{type: hinge, nodes: [ground, shaft], axis: [0, 0, 1], second_axis: [1, 0, 0]}}
+  guide: {{type: prismatic, nodes: [ground, tappet], axis: [0, 1, 0]}}
+drives: {{motor: {{joint: camshaft, angle: "{}*t"}}}}
+)yaml",
+                     start, path, contact, speed * turns);
+}
+
+}  // namespace
+
+TEST_CASE("a flat follower on an eccentric circle moves harmonically and takes its torque") {
+  const bielle::test::TemporaryFolder folder;
+  const std::string text = cam(folder, R, "follower: flat, normal: [0, 1, 0]");
+  move(text, 1e-3, 0.7, [](const Session& session) {
+    const double theta = speed * session.time();
+    CHECK(session.node("tappet").x.y() == Approx(R + e * std::sin(theta)).margin(2e-9));
+    // The scheme's own error in accelerations is (h w)^2/12 and some more, of e w^2 = 4 m/s^2.
+    const double force = m * (g - e * speed * speed * std::sin(theta));
+    CHECK(session.read("joints/contact/reaction_inertial")[1] == Approx(force).margin(2e-3));
+    CHECK(session.read("joints/camshaft/drive_force")[0] == Approx(force * e * std::cos(theta)).margin(2e-5));
+  });
+}
+
+TEST_CASE("a roller on an eccentric circle moves as its closed form, over several turns") {
+  const bielle::test::TemporaryFolder folder;
+  const std::string text = cam(folder, std::sqrt(std::pow(R + r, 2) - e * e), fmt::format("follower: roller, radius: {}", r));
+  move(text, 1e-3, 0.7, [](const Session& session) {
+    const double theta = speed * session.time(), c = e * std::cos(theta);
+    const double y = e * std::sin(theta) + std::sqrt((R + r) * (R + r) - c * c);
+    CHECK(session.node("tappet").x.y() == Approx(y).margin(1e-8));
+  });
+}
+
+TEST_CASE("a cam that turns too fast is said to lift off") {
+  // Twice as fast: 16 m/s^2 downwards are asked for at the top, more than g: at e w^2 sin(theta) = g.
+  const bielle::test::TemporaryFolder folder;
+  const std::string text = cam(folder, R, "follower: flat, normal: [0, 1, 0]", 2);
+  const bielle::mechanism::MechanismFile file = bielle::mechanism::read_mechanism_text(text, "model.yaml");
+  Session session(file.model);
+  std::vector<bielle::mechanism::Event> events;
+  session.on_event([&](const bielle::mechanism::Event& event) { events.push_back(event); });
+  bielle::mechanism::DynamicsOptions options;
+  options.duration = 2 * M_PI / (2 * speed);
+  options.stepping.size = 2e-4;
+  session.dynamics(options).finish();
+  REQUIRE(events.size() == 1);
+  CHECK(events[0].time == Approx(std::asin(g / (e * 4 * speed * speed)) / (2 * speed)).epsilon(2e-3));
+}
+
+TEST_CASE("contours that a follower cannot follow are refused") {
+  const bielle::test::TemporaryFolder folder;
+  const auto run = [&](const std::string& contour, const std::string& contact) {
+    std::string text = cam(folder, R, contact);
+    std::ofstream(folder.path() + "/circle.csv") << contour;
+    move(text, 1e-3, 0.01, [](const Session&) {});
+  };
+  std::string hollow;
+  for (int k = 0; k < 72; ++k)
+    hollow += fmt::format("{}, {}\n", 2 * M_PI * k / 72, 0.03 + 0.005 * std::cos(6 * M_PI * k / 36));
+  CHECK_THROWS_WITH(run(hollow, "follower: flat, normal: [0, 1, 0]"), Catch::Contains("hollow"));
+  CHECK_THROWS_WITH(run(hollow, "follower: roller, radius: 0.05"), Catch::Contains("does not fit into the hollow"));
+  CHECK_THROWS_WITH(run("0, 1\n1, 1\n7, 1\n", "follower: roller, radius: 0"), Catch::Contains("less than a turn"));
+  CHECK_THROWS_WITH(run("0, 1\n1, -1\n3, 1\n", "follower: roller, radius: 0"), Catch::Contains("greater than 0"));
+  CHECK_THROWS_WITH(run("0, 1\n1, 1\n3, 1\n", "follower: flat, normal: [0, 1, 1]"), Catch::Contains("right angles"));
+}
