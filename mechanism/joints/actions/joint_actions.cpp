@@ -30,13 +30,13 @@ bool names_coordinates(const YamlValue& value, const std::vector<std::string>& n
   return std::any_of(entries.begin(), entries.end(), is_name);
 }
 
-std::vector<ByKey> sort_by_coordinate(const YamlValue& entry, const Joint& joint) {
+std::vector<ByKey> sort_by_coordinate(const YamlValue& entry, const Joint& joint, const std::vector<std::string>& own) {
   std::vector<std::string> names;
   for (const JointCoordinate& each : joint.coordinates()) names.push_back(each.name);
   std::vector<ByKey> sorted(names.size());
   for (const std::string& key : keys) {
     const auto value = entry.find(key);
-    if (!value) continue;
+    if (!value || std::find(own.begin(), own.end(), key) != own.end()) continue;
     if (names.empty()) value->fail(fmt::format("a {} joint has no coordinate on which it could act", joint.type()));
     if (names.size() == 1 && !names_coordinates(*value, names)) {
       sorted.front().emplace(key, *value);
@@ -103,9 +103,9 @@ LockTimes read_lock_times(const YamlValue& entry) {
 
 std::vector<std::string> joint_action_keys() { return keys; }
 
-void read_joint_actions(const YamlValue& entry, Joint& joint, Model& model) {
+void read_joint_actions(const YamlValue& entry, Joint& joint, Model& model, const std::vector<std::string>& own) {
   const Entry of_joint{Section::joints, joint.name()};
-  const std::vector<ByKey> sorted = sort_by_coordinate(entry, joint);
+  const std::vector<ByKey> sorted = sort_by_coordinate(entry, joint, own);
   for (std::size_t k = 0; k < sorted.size(); ++k) {
     read_spring(sorted[k], joint, k, model);
     if (const auto stops = find(sorted[k], "stops")) {

@@ -56,7 +56,7 @@ void read_universal(const std::string& name, const YamlValue& entry, Model& mode
   check_pair_keys(entry, "a universal joint", joint_frame_keys());
   const YamlValue second_axis = entry.at("second_axis"), axis = entry.at("axis");
   // Of a pair each is made orthogonal to the axis on its node.
-  const auto is_pair = [](const YamlValue& value) { 
+  const auto is_pair = [](const YamlValue& value) {
     return value.is_sequence() && value.size() > 0 && value.at(std::size_t{0}).is_sequence();
   };
   if (!is_pair(axis) && !is_pair(second_axis) && std::abs(second_axis.direction().dot(axis.direction())) > 1e-6)
