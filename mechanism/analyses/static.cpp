@@ -77,7 +77,7 @@ void StaticAnalysis::solve(Session& session, AnalysisSummary& summary) const {
   summary.text = options_.path ? fmt::format("static, arc length, {} to load factor {:.6g}\n",
                                              counted(report.points, "point"), report.load_factor)
                                : fmt::format("static, {}\n", counted(report.points, "load step"));
-  summary.text += format_mobility(session);
+  summary.text += format_start(report.start) + format_mobility(session);
   if (report.points == 0) return;
   summary.text += format_steps(report.points, report.iterations, summary.records) + "\n";
   for (const double factor : report.limit_points)

@@ -1,6 +1,7 @@
 #include "mechanism/analyses/summary_text.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,11 +13,44 @@
 
 namespace bielle::mechanism {
 
+namespace {
+
+constexpr std::size_t most_moved = 10;  // rows of a list
+
+std::string with_degrees(double angle) { return fmt::format("{:.3g} rad ({:.3g} degrees)", angle, angle * 180 / M_PI); }
+
+/// What the assembly has moved, the farthest first. A single node says nothing new.
+std::string format_moved(const StartReport& start) {
+  std::string text;
+  const auto rest = [](std::size_t count, const char* of) {
+    return count > most_moved ? fmt::format("    and {} more {} by less\n", count - most_moved, of) : "";
+  };
+  if (start.moved_nodes.size() > 1) {
+    for (std::size_t k = 0; k < std::min(most_moved, start.moved_nodes.size()); ++k) {
+      const MovedNode& node = start.moved_nodes[k];
+      text += fmt::format("    node '{}': {:.3g} m, {:.3g} degrees\n", node.name, node.displacement,
+                          node.rotation * 180 / M_PI);
+    }
+    text += rest(start.moved_nodes.size(), "nodes");
+  }
+  for (std::size_t k = 0; k < std::min(most_moved, start.moved_coordinates.size()); ++k) {
+    const MovedCoordinate& coordinate = start.moved_coordinates[k];
+    const double change = coordinate.to - coordinate.from;
+    text += fmt::format("    {}: {}, to {:.6g} {}\n", coordinate.name,
+                        coordinate.units == "rad" ? with_degrees(change) : fmt::format("{:.3g} {}", change, coordinate.units),
+                        coordinate.to, coordinate.units);
+  }
+  return text + rest(start.moved_coordinates.size(), "coordinates");
+}
+
+}  // namespace
+
 std::string format_start(const StartReport& start) {
   std::string text;
   if (start.largest_displacement > 1e-9 || start.largest_rotation > 1e-9)
     text += fmt::format("  assembly moved node '{}' by {:.3g} m; largest rotation {:.3g} rad\n", start.displaced_node,
                         start.largest_displacement, start.largest_rotation);
+  text += format_moved(start);
   if (start.settled > 0)
     text += fmt::format("  static equilibrium moved node '{}' by {:.3g} m\n", start.settled_node, start.settled);
   if (!start.held.empty()) text += fmt::format("  {}\n", describe_held(start.held));
@@ -32,6 +66,8 @@ std::string format_start(const StartReport& start) {
   if (start.velocity_change > 1e-9)
     text += fmt::format("  start velocities were changed by up to {:.3g} m/s to satisfy joints and drives\n",
                         start.velocity_change);
+  if (!start.following.empty())
+    text += fmt::format("  start rates that follow from others, and agree with them: {}\n", fmt::join(start.following, ", "));
   return text;
 }
 

@@ -12,6 +12,7 @@
 #include "mechanism/solvers/constraints/redundancy.hpp"
 #include "mechanism/solvers/start/assemble_positions.hpp"
 #include "mechanism/solvers/start/massless_direction.hpp"
+#include "mechanism/solvers/start/redundancy_at_start.hpp"
 #include "reduce/common/counted.hpp"
 
 namespace bielle::mechanism {
@@ -98,6 +99,30 @@ std::string name_directions(const System& system, int node, const std::vector<in
   return fmt::format("{} of node '{}'", fmt::join(names, ", "), system.model().node(node).name);
 }
 
+/// What entries have to remark, in the order of the file. @param most  of which each has a line
+std::string describe_remarks(const Model& model, std::size_t most) {
+  std::string text;
+  std::size_t count = 0;
+  for (const Member& member : model.members())
+    if (const std::string remark = member.component->remark(); !remark.empty() && ++count <= most)
+      text += fmt::format("  {}: {}\n", describe(member), remark);
+  if (count > most) text += fmt::format("  and likewise {} (--check lists all)\n", counted(count - most, "more joint"));
+  return text;
+}
+
+/// Start values and rates of coordinates.
+std::string describe_start_conditions(const System& system) {
+  std::string text;
+  for (const CoordinateCondition& each : conditions_of_file(system).coordinates) {
+    const StartCoordinate coordinate = start_coordinate(system, each);
+    std::vector<std::string> asked;
+    if (each.value) asked.push_back(fmt::format("{:.6g} {}", *each.value, coordinate.units));
+    if (each.rate) asked.push_back(fmt::format("{:.6g} {}", *each.rate, coordinate.rate_units));
+    text += fmt::format("  start        {}: {}\n", coordinate_name(system, each.member, coordinate), fmt::join(asked, ", "));
+  }
+  return text;
+}
+
 /// Nodes that nothing is attached to.
 std::string describe_unused(const Model& model, const System& system) {
   std::vector<bool> used(model.nodes().size(), false);
@@ -151,9 +176,12 @@ std::string describe_model(const MechanismFile& file) {
   const Model& model = file.model;
   System system(model);
   State state = system.start(0);
-  const std::vector<int> redundant = take_out_redundant(system, model.environment, state);
+  State assembled;
+  const std::vector<int> redundant = take_out_redundant_at_start(system, model.environment, state, assembled);
   StartReport report;
-  assemble_positions(system, model.environment, state, report);
+  const AssemblyOptions kept = file.analyses.empty() ? AssemblyOptions() : file.analyses.front()->kept();
+  assemble_positions(system, model.environment, state, report,
+                     with_kept(system, model.environment, state, conditions_of_file(system), kept));
 
   std::string text = fmt::format("{}\n", model.title.empty() ? "mechanism" : model.title);
   int internal = 0;
@@ -177,6 +205,7 @@ std::string describe_model(const MechanismFile& file) {
     text += fmt::format("  nearly       redundant: {}\n", names);
   if (const std::vector<std::string> joints = joints_not_unique(system, model.environment, state); !joints.empty())
     text += fmt::format("  reactions    {}\n", describe_not_unique(joints));
+  text += describe_start_conditions(system) + describe_remarks(model, model.members().size());
   text += describe_unused(model, system) + describe_massless(model, system, state);
   text += describe_entries(model, system, state);
   return text;
@@ -185,6 +214,8 @@ std::string describe_model(const MechanismFile& file) {
 std::string format_summary(const MechanismFile& file, const std::vector<AnalysisSummary>& summaries,
                            const std::vector<PhaseReport>& phases, const std::string& results_path) {
   std::string text = fmt::format("{}\n", file.model.title.empty() ? "mechanism" : file.model.title);
+  constexpr std::size_t most_remarks = 5;
+  text += describe_remarks(file.model, most_remarks);
   for (const AnalysisSummary& summary : summaries) text += summary.text;
   for (const PhaseReport& phase : phases) text += fmt::format("  {:<12} {:8.2f} s\n", phase.name, phase.seconds);
   text += fmt::format("results: {}\n", results_path);

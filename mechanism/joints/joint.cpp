@@ -10,7 +10,6 @@
 #include "mechanism/measures/pair_rotation.hpp"
 #include "mechanism/measures/turns.hpp"
 #include "mechanism/model/description.hpp"
-#include "mechanism/reading/names.hpp"
 
 namespace bielle::mechanism {
 
@@ -19,7 +18,7 @@ Joint::Joint(std::string type, std::string name, JointFrames frames, std::vector
     : Component(std::move(type), std::move(name)),
       frames_(std::move(frames)),
       coordinates_(std::move(coordinates)),
-      start_(coordinates_.size(), 0.0),
+      start_(coordinates_.size()),
       uses_(coordinates_.size()),
       first_name_(model.node(frames_.first).name),
       second_name_(model.node(frames_.second).name) {}
@@ -56,7 +55,10 @@ double Joint::counted(std::size_t index, const LocalState& state, const Coordina
   if (coordinates_[index].kind != JointCoordinate::Kind::angle) return principal.value;
   const auto memory = state.memory();
   const auto at = 2 * static_cast<Eigen::Index>(index);
-  return counted_angle(principal, {memory[at], memory[at + 1]}, memory[memory.size() - 1], state);
+  const double time_before = memory[memory.size() - 1];
+  // A start value is where the coordinate is, whatever part of the motions statics have made.
+  if (std::isnan(time_before) && !start_[index].by_motion) return unwrap_angle(principal.value, memory[at]);
+  return counted_angle(principal, {memory[at], memory[at + 1]}, time_before, state);
 }
 
 CoordinateRate Joint::coordinate(std::size_t index, const LocalState& state) const {
@@ -86,7 +88,7 @@ void Joint::calc_coordinate(std::size_t index, const LocalState& state, Coordina
 
 void Joint::declare(Declaration& declaration) const {
   declaration.nodes = {frames_.first, frames_.second};
-  for (const double start : start_) declaration.memory.insert(declaration.memory.end(), {start, 0.0});
+  for (const Start& start : start_) declaration.memory.insert(declaration.memory.end(), {start.value, 0.0});
   declaration.memory.push_back(std::numeric_limits<double>::quiet_NaN());  // no step was accepted yet
 }
 
@@ -145,40 +147,6 @@ void Joint::describe(const LocalState& state, Description& description) const {
   description.add(fmt::format("nodes '{}' and '{}'", first_name_, second_name_));
   description.add(fmt::format("at {} m", format_vector(first.x + first.R * frames_.on_first.x)));
   description.add(fmt::format("x {}, z {}", format_vector(axes.col(0)), format_vector(axes.col(2))));
-}
-
-std::vector<std::string> joint_frame_keys() { return {"type", "nodes", "position", "axis", "second_axis"}; }
-
-JointFrames read_joint_frames(const YamlValue& entry, const Model& model, AxisNeed need,
-                              const std::string& axis_key) {
-  JointFrames frames;
-  const std::vector<int> nodes = nodes_named_by(entry.at("nodes"), 2, model);
-  frames.first = nodes[0];
-  frames.second = nodes[1];
-  if (frames.first == frames.second) entry.at("nodes").fail("a joint needs two different nodes");
-  const Frame &first = model.node(nodes[0]).frame, &second = model.node(nodes[1]).frame;
-  Frame joint;
-  joint.x = entry.has("position") ? entry.at("position").vector3() : second.x;
-  if (need == AxisNeed::required || entry.has(axis_key) || entry.has("second_axis")) {
-    const Vector3 z =
-        need == AxisNeed::required || entry.has(axis_key) ? Vector3(entry.at(axis_key).direction()) : Vector3::UnitZ();
-    Vector3 x;
-    if (entry.has("second_axis")) {
-      x = entry.at("second_axis").direction();
-      x -= z * z.dot(x);
-      if (x.norm() < 1e-6) entry.at("second_axis").fail("is parallel to the joint's axis");
-    } else {
-      // The inertial axis that is most normal to z.
-      Eigen::Index least = 0;
-      z.cwiseAbs().minCoeff(&least);
-      x = Vector3::Unit(least) - z * z[least];
-    }
-    x.normalize();
-    joint.R << x, z.cross(x), z;
-  }
-  frames.on_first = inverse(first) * joint;
-  frames.on_second = inverse(second) * joint;
-  return frames;
 }
 
 }  // namespace bielle::mechanism

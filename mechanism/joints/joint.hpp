@@ -1,27 +1,20 @@
 // A joint between two nodes: its frames, its coordinates, and its records. What a type constrains is in its
 // own file.
 //
-// The joint's frame J_A rides on the first node, J_B on the second; both coincide in the positions written in the input
-// file. z is the joint's `axis`, x its `second_axis` (made orthogonal) or chosen. Coordinates are zero there; angles
-// are counted over any number of turns.
+// The joint's frame J_A rides on the first node, J_B on the second (joint_frames.hpp). Coordinates are zero where they
+// coincide; angles are counted over any number of turns.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "mechanism/joints/joint_frames.hpp"
 #include "mechanism/measures/coordinate.hpp"
 #include "mechanism/measures/pair_measure.hpp"
 #include "mechanism/model/model.hpp"
-#include "reduce/common/yaml_file.hpp"
 
 namespace bielle::mechanism {
-
-/// Frames of a joint on its two nodes, in the nodes' axes.
-struct JointFrames {
-  int first = 0, second = 0;  ///< nodes of the model
-  Frame on_first, on_second;
-};
 
 class Joint : public Component {
  public:
@@ -57,7 +50,10 @@ class Joint : public Component {
   const std::string& second_name() const { return second_name_; }
 
   /// The value of an angle at the start [rad], to count turns from (a drive begins some turns away). Default 0.
-  void start_at(std::size_t coordinate, double value) { start_[coordinate] = value; }
+  /// @param by_motion  statics bring it there with the factor of motions
+  void start_at(std::size_t coordinate, double value, bool by_motion = true) {
+    start_[coordinate] = {value, by_motion};
+  }
 
   void declare(Declaration& declaration) const override;
   std::vector<OutputField> output_fields() const override;
@@ -70,6 +66,12 @@ class Joint : public Component {
   /// "<coordinate>", "<coordinate>.rate", "reaction.x" (y z rx ry rz).
   std::vector<std::string> measure_names() const override;
   std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const override;
+  // joint_start.cpp
+  std::vector<StartCoordinate> start_coordinates() const override;
+  StartCoordinateValue calc_start_coordinate(std::size_t index, const LocalState& state,
+                                             MeasureGradient& gradient) const override;
+  /// Of an arm that bridges its nodes, where the file does not say where it is attached.
+  std::string remark() const override;
 
  protected:
   /// A coordinate that the type defines (JointCoordinate::by_type): an angle in (-pi, pi].
@@ -83,20 +85,13 @@ class Joint : public Component {
   double counted(std::size_t index, const LocalState& state, const CoordinateRate& principal) const;
   JointFrames frames_;
   std::vector<JointCoordinate> coordinates_;
-  std::vector<double> start_;
+  struct Start {
+    double value = 0;
+    bool by_motion = true;
+  };
+  std::vector<Start> start_;
   std::vector<CoordinateUse> uses_;
   std::string first_name_, second_name_;
 };
-
-/// Whether a type needs an axis.
-enum class AxisNeed { required, optional };
-
-/// Reads `nodes`, `position`, `axis`, `second_axis` of a joint's entry.
-/// @param axis_key  in place of `axis`, where the type calls it otherwise (`normal` of a plane)
-JointFrames read_joint_frames(const YamlValue& entry, const Model& model, AxisNeed need,
-                              const std::string& axis_key = "axis");
-
-/// The keys that `read_joint_frames` reads, with `type`.
-std::vector<std::string> joint_frame_keys();
 
 }  // namespace bielle::mechanism

@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "mechanism/model/local_tangent.hpp"
+#include "mechanism/model/start_condition.hpp"
 #include "mechanism/model/state.hpp"
 
 namespace bielle::mechanism {
@@ -32,6 +33,7 @@ class Component;
 class Description;
 class Gatherer;
 class Measure;
+class MeasureGradient;
 
 enum class ConstraintKind { holonomic, nonholonomic };  ///< Phi(q,t) = 0, or B(q) v + c(q,t) = 0
 
@@ -173,6 +175,9 @@ class Component {
   /// What is wrong with an assembled position although its constraint rows vanish (axes that point in opposite
   /// directions): a clause, or nothing.
   virtual std::string wrong_branch(const LocalState& /*state*/) const { return {}; }
+  /// How its second node would have to turn relative to its first for the directions that its constraints compare to
+  /// fit: the smallest rotation vector (inertial components), up to half a turn [rad]. Zero where it compares none.
+  virtual Vector3 misalignment(const LocalState& /*state*/) const { return Vector3::Zero(); }
 
   virtual void add_energy(const LocalState& /*state*/, Energy& /*energy*/) const {}
 
@@ -234,6 +239,16 @@ class Component {
   virtual std::vector<std::string> measure_names() const { return {}; }
   /// One of them. @param name  as in the formula: "main.angle" @param measure  one of measure_names
   virtual std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const;
+
+  /// Coordinates by which the start of a motion can be described.
+  virtual std::vector<StartCoordinate> start_coordinates() const { return {}; }
+  /// One of them, with gradients of its value by positions and of its rate by velocities over the local layout.
+  /// @param gradient  is prepared here
+  virtual StartCoordinateValue calc_start_coordinate(std::size_t index, const LocalState& state,
+                                                     MeasureGradient& gradient) const;
+
+  /// What the user may not have meant, although nothing is wrong with it: a clause for summaries, or nothing.
+  virtual std::string remark() const { return {}; }
 
   /// Whether a switched constraint row is in the equations, by the component's memory.
   virtual bool is_on(const LocalState& /*state*/, int /*row*/) const { return true; }

@@ -100,6 +100,10 @@ class Model {
   /// Their names, sorted.
   std::vector<std::string> announced_measures() const;
 
+  /// What the start of the first analysis has to satisfy besides the constraints.
+  void add_start_condition(StartCondition condition) { start_conditions_.push_back(condition); }
+  const std::vector<StartCondition>& start_conditions() const { return start_conditions_; }
+
   /// Takes a node, joint or element out of what is recorded.
   void leave_out(const Entry& entry) { left_out_.insert(entry); }
   bool records(const Entry& entry) const { return !left_out_.contains(entry); }
@@ -118,6 +122,7 @@ class Model {
   std::array<std::vector<std::string>, section_count> names_;  ///< by section
   std::vector<Chain> chains_;
   std::set<Entry> left_out_;
+  std::vector<StartCondition> start_conditions_;
   std::array<std::vector<std::function<void()>>, 2> waiting_;  ///< by stage
   struct AnnouncedMeasure {
     std::string name;

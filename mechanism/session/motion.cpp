@@ -7,6 +7,9 @@
 #include <fmt/format.h>
 
 #include "mechanism/session/session.hpp"
+#include "mechanism/solvers/start/assemble_positions.hpp"
+#include "mechanism/solvers/start/consistent_velocities.hpp"
+#include "mechanism/solvers/start/start_rates.hpp"
 #include "mechanism/solvers/statics/statics.hpp"
 #include "reduce/common/counted.hpp"
 #include "reduce/common/error.hpp"
@@ -53,7 +56,14 @@ Motion::Motion(Session& session, const DynamicsOptions& options) : session_(&ses
     state.motion_factor = 1;
     system.displace(state, State(state), VectorX::Zero(system.dofs()));
   }
+  const StartConditions conditions = session.start_conditions();
+  if (!conditions.empty()) assemble_positions(system, environment, state, start_, conditions);
   if (options.equilibrium) settle(system, environment, options.newton, state, start_);
+  if (!conditions.empty()) {
+    MassSaddle saddle(system);
+    make_velocities_consistent(system, environment, state, start_, saddle);
+    set_start_rates(system, environment, state, conditions, saddle, start_);
+  }
   parts_.begin = state.time;
   end_ = parts_.begin + options.duration;
   const StepOptions stepping = stepping_of(options, system, parts_.begin, session.notes_);
@@ -106,6 +116,7 @@ Motion::~Motion() {
 
 void Motion::show() {
   session_->motion_ = this;
+  session_->started_ = true;
   session_->shown_ = &state();
   session_->loaded_ = {1, 1};
   session_->acting_ = session_->environment_;

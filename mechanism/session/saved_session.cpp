@@ -48,7 +48,7 @@ struct Session::Saved {
   Loaded loaded;
   Environment acting;
   std::optional<StepRecord> report;
-  bool moving = false;
+  bool moving = false, started = false;
   State state;  ///< at rest
 };
 
@@ -67,6 +67,7 @@ void Session::exchange(Archive& archive, Saved& saved) const {
   archive(saved.acting.statics);
   exchange_report(archive, saved.report);
   archive(saved.moving);
+  archive(saved.started);
   if (saved.moving) return;
   archive(saved.state);
   archive(saved.state.motion_factor);
@@ -74,7 +75,7 @@ void Session::exchange(Archive& archive, Saved& saved) const {
 
 std::vector<double> Session::save() {
   Archive archive;
-  Saved saved{loaded_, acting_, report_, motion_ != nullptr, *shown_};
+  Saved saved{loaded_, acting_, report_, motion_ != nullptr, started_, *shown_};
   exchange(archive, saved);
   if (motion_) motion_->write(archive, nullptr);
   return archive.values();
@@ -82,7 +83,7 @@ std::vector<double> Session::save() {
 
 void Session::restore(const std::vector<double>& values) {
   Archive archive(values);
-  Saved saved{loaded_, environment_, {}, false, state_};
+  Saved saved{loaded_, environment_, {}, false, false, state_};
   Motion::Parts parts = restored(archive, [&] {
     exchange(archive, saved);
     if (saved.moving && !motion_)
@@ -101,11 +102,12 @@ void Session::restore(const std::vector<double>& values) {
   loaded_ = saved.loaded;
   acting_ = saved.acting;
   report_ = saved.report;
+  started_ = saved.started;
 }
 
 Motion Session::dynamics(const DynamicsOptions& options, const std::vector<double>& values) {
   Archive archive(values);
-  Saved saved{loaded_, environment_, {}, false, state_};
+  Saved saved{loaded_, environment_, {}, false, false, state_};
   try {
     exchange(archive, saved);
   } catch (const std::out_of_range&) {

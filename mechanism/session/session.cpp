@@ -1,5 +1,6 @@
 #include "mechanism/session/session.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -10,6 +11,8 @@
 #include "mechanism/solvers/start/assemble_positions.hpp"
 #include "mechanism/solvers/start/begin_first_order.hpp"
 #include "mechanism/solvers/start/consistent_velocities.hpp"
+#include "mechanism/solvers/start/redundancy_at_start.hpp"
+#include "mechanism/solvers/start/start_rates.hpp"
 #include "mechanism/solvers/statics/held_states.hpp"
 #include "mechanism/solvers/statics/statics.hpp"
 #include "reduce/common/error.hpp"
@@ -26,8 +29,9 @@ Session::Session(std::unique_ptr<const Model> owned, const Model* model, int thr
       shown_(&state_),
       gatherers_(model_) {
   system_.use_threads(threads);
-  redundant_ = name_constraints(system_, take_out_redundant(system_, environment_, state_));
-  mobility_ = count_mobility(system_, environment_, state_);
+  State assembled;
+  redundant_ = name_constraints(system_, take_out_redundant_at_start(system_, environment_, state_, assembled));
+  mobility_ = count_mobility(system_, environment_, assembled);
 }
 
 Session::Session(Model&& model, int threads)
@@ -49,18 +53,26 @@ void Session::set_state(State state) {
   at_rest();
   state_ = std::move(state);
   report_.reset();
+  started_ = true;
+}
+
+StartConditions Session::start_conditions() const {
+  return started_ ? StartConditions() : conditions_of_file(system_);
 }
 
 // -- computing
 
-StartReport Session::assemble() {
+StartReport Session::assemble(const AssemblyOptions& options) {
   at_rest();
   stopping_ = false;
   acting_ = environment_;
   StartReport report;
-  assemble_positions(system_, environment_, state_, report);
+  const StartConditions conditions = with_kept(system_, environment_, state_, start_conditions(), options);
+  assemble_positions(system_, environment_, state_, report, conditions);
   MassSaddle saddle(system_);
   make_velocities_consistent(system_, environment_, state_, report, saddle);
+  set_start_rates(system_, environment_, state_, conditions, saddle, report);
+  started_ = true;
   begin_first_order(system_, environment_, state_);
   const VectorX memory = state_.memory;
   system_.accept(state_, environment_);
@@ -96,7 +108,10 @@ StaticsReport Session::statics(const StaticsOptions& options) {
   StaticsReport report;
   VectorX v(system_.dofs()), unused(system_.dofs());
   system_.get_rates(state_, v, unused);
-  if (!v.isZero(0))
+  const StartConditions conditions = start_conditions();
+  const bool any_rate = std::any_of(conditions.coordinates.begin(), conditions.coordinates.end(),
+                                    [](const CoordinateCondition& each) { return each.rate.value_or(0) != 0; });
+  if (!v.isZero(0) || any_rate)
     note(
         "a static analysis is at rest, and so is what comes after it: the velocities are dropped (a dynamic "
         "analysis with `start: equilibrium` keeps them)");
@@ -104,6 +119,11 @@ StaticsReport Session::statics(const StaticsOptions& options) {
   statics.statics = true;
   const Loaded begin = loaded_;
   const LoadRamp ramp(system_, statics, begin);
+  if (!started_) {
+    ramp.set_off(state_);  // drives and supports stand where the load factor begins
+    assemble_positions(system_, environment_, state_, report.start, conditions);
+    started_ = true;
+  }
   const auto point = [&](const State& state, double factor, int iterations, double done) {
     loaded_ = {factor, ramp.motion(factor)};
     statics_point(state, factor, iterations);

@@ -19,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "mechanism/session/assembly_options.hpp"
 #include "mechanism/session/gatherers.hpp"
 #include "mechanism/session/motion.hpp"
 #include "mechanism/session/notes.hpp"
@@ -28,6 +29,7 @@
 #include "mechanism/session/statics_options.hpp"
 #include "mechanism/solvers/constraints/reaction_norm.hpp"
 #include "mechanism/solvers/constraints/redundancy.hpp"
+#include "mechanism/solvers/start/start_conditions.hpp"
 
 namespace bielle::mechanism {
 
@@ -58,8 +60,9 @@ class Session {
   void set_input(const std::string& name, double value, bool smooth = false);
 
   // -- computing
-  /// Makes positions and velocities consistent. @throws ComputationError naming a constraint that cannot be satisfied
-  StartReport assemble();
+  /// Makes positions and velocities consistent. What starts first, this or statics or a motion, starts from the values
+  /// and rates of coordinates that the model gives. @throws ComputationError naming what cannot be satisfied
+  StartReport assemble(const AssemblyOptions& options = {});
   /// Equilibrium under the whole load, or along a path. The state is at rest afterwards.
   /// @throws ComputationError when there is none near; the state is then the last equilibrium
   StaticsReport statics(const StaticsOptions& options = {});
@@ -127,6 +130,8 @@ class Session {
   struct Stopped {};
   Session(std::unique_ptr<const Model> owned, const Model* model, int threads);
   void at_rest();  ///< ends the motion, if any
+  /// What the model asks of a start, until something has started.
+  StartConditions start_conditions() const;
   void record(const State& state, const Environment& environment, const StepRecord& step);
   /// A step was accepted, or something starts here: for what is gathered over all steps.
   void gather(const State& state, const Environment& environment);
@@ -147,6 +152,7 @@ class Session {
   State state_;         ///< while no motion is under way
   const State* shown_;  ///< that, or the one in hand
   Loaded loaded_;       ///< what has been brought about so far
+  bool started_ = false;  ///< the state is no longer the drawing
   Motion* motion_ = nullptr;
   std::optional<StepRecord> report_;
   std::vector<std::string> redundant_;

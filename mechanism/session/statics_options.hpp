@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "mechanism/solvers/start/start_report.hpp"
 #include "mechanism/solvers/statics/arc_length.hpp"
 
 namespace bielle::mechanism {
@@ -15,6 +16,7 @@ struct StaticsOptions {
 };
 
 struct StaticsReport {
+  StartReport start;  ///< what had to be brought together first
   long points = 0;
   long iterations = 0;               ///< linear solves
   double load_factor = 0;            ///< at the end

@@ -9,12 +9,13 @@
 
 #include "mechanism/joints/actions/joint_lock.hpp"
 #include "mechanism/joints/actions/joint_spring.hpp"
+#include "mechanism/joints/actions/joint_start_reader.hpp"
 #include "mechanism/joints/actions/joint_stop.hpp"
 
 namespace bielle::mechanism {
 namespace {
 
-const std::vector<std::string> keys = {"stiffness", "damping", "rest", "preload", "stops", "locked"};
+const std::vector<std::string> keys = {"stiffness", "damping", "rest", "preload", "stops", "locked", "start", "start_rate"};
 
 /// Of each coordinate, what the keys say: the value itself in a joint with one coordinate, else a map by their names.
 using ByKey = std::map<std::string, YamlValue>;
@@ -29,13 +30,13 @@ bool names_coordinates(const YamlValue& value, const std::vector<std::string>& n
   return std::any_of(entries.begin(), entries.end(), is_name);
 }
 
-std::vector<ByKey> sort_by_coordinate(const YamlValue& entry, const Joint& joint) {
+std::vector<ByKey> sort_by_coordinate(const YamlValue& entry, const Joint& joint, const std::vector<std::string>& own) {
   std::vector<std::string> names;
   for (const JointCoordinate& each : joint.coordinates()) names.push_back(each.name);
   std::vector<ByKey> sorted(names.size());
   for (const std::string& key : keys) {
     const auto value = entry.find(key);
-    if (!value) continue;
+    if (!value || std::find(own.begin(), own.end(), key) != own.end()) continue;
     if (names.empty()) value->fail(fmt::format("a {} joint has no coordinate on which it could act", joint.type()));
     if (names.size() == 1 && !names_coordinates(*value, names)) {
       sorted.front().emplace(key, *value);
@@ -102,9 +103,9 @@ LockTimes read_lock_times(const YamlValue& entry) {
 
 std::vector<std::string> joint_action_keys() { return keys; }
 
-void read_joint_actions(const YamlValue& entry, Joint& joint, Model& model) {
+void read_joint_actions(const YamlValue& entry, Joint& joint, Model& model, const std::vector<std::string>& own) {
   const Entry of_joint{Section::joints, joint.name()};
-  const std::vector<ByKey> sorted = sort_by_coordinate(entry, joint);
+  const std::vector<ByKey> sorted = sort_by_coordinate(entry, joint, own);
   for (std::size_t k = 0; k < sorted.size(); ++k) {
     read_spring(sorted[k], joint, k, model);
     if (const auto stops = find(sorted[k], "stops")) {
@@ -113,9 +114,15 @@ void read_joint_actions(const YamlValue& entry, Joint& joint, Model& model) {
       model.add(std::make_unique<JointStop>(joint.name(), joint, k, read_stop_range(*stops)), of_joint);
     }
     if (const auto locked = find(sorted[k], "locked")) {
-      model.add(std::make_unique<JointLock>(joint.name(), joint, k, read_lock_times(*locked)), of_joint);
+      const LockTimes times = read_lock_times(*locked);
+      auto lock = std::make_unique<JointLock>(joint.name(), joint, k, times);
+      if (const auto start = find(sorted[k], "start"); start && times.from == 0) lock->close_at(start->number());
+      model.add(std::move(lock), of_joint);
       joint.use(k).locked = true;
+      if (const auto rate = find(sorted[k], "start_rate"); rate && times.from == 0)
+        rate->fail("the coordinate is `locked` from the beginning: it has no rate");
     }
+    read_joint_start(find(sorted[k], "start"), find(sorted[k], "start_rate"), joint, k, model);
   }
 }
 

@@ -4,6 +4,7 @@
 //   rest       value of the coordinate at which the spring is free       preload   constant force of the spring
 //   stops      {range: [lower, upper], stiffness, damping}
 //   locked     {from, to, release}
+//   start, start_rate   value and rate where the first analysis starts (joint_start_reader.hpp)
 // In a joint with several coordinates each key is a map from their names.
 #pragma once
 
@@ -18,7 +19,9 @@ namespace bielle::mechanism {
 /// The keys that `read_joint_actions` reads.
 std::vector<std::string> joint_action_keys();
 
-/// Adds what the entry of a joint says of its coordinates to the model, recorded with the joint. @throws InputError
-void read_joint_actions(const YamlValue& entry, Joint& joint, Model& model);
+/// Adds what the entry of a joint says of its coordinates to the model, recorded with the joint.
+/// @param own  keys among them that the joint's type reads itself (`start` of a slider)
+/// @throws InputError
+void read_joint_actions(const YamlValue& entry, Joint& joint, Model& model, const std::vector<std::string>& own = {});
 
 }  // namespace bielle::mechanism

@@ -79,7 +79,7 @@ void JointLock::begin_branch(const LocalState& state, std::span<const int> cross
   if (!crossed.empty()) memory[0] = released;
   if (memory[0] == released) return;
   const bool now = is_due(state.time());
-  if (now && memory[0] == open) memory[1] = value(state).value;
+  if (now && memory[0] == open) memory[1] = start_ ? *start_ : value(state).value;
   memory[0] = now ? locked : open;
 }
 

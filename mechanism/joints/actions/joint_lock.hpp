@@ -6,6 +6,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 
 #include "mechanism/joints/actions/coordinate_action.hpp"
 
@@ -21,6 +22,8 @@ class JointLock final : public CoordinateAction {
  public:
   JointLock(std::string name, const Joint& joint, std::size_t coordinate, const LockTimes& times)
       : CoordinateAction("lock", std::move(name), joint, coordinate), times_(times) {}
+  /// What a lock that is closed from the beginning keeps, where the file gives the coordinate's start value.
+  void close_at(double value) { start_ = value; }
 
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
@@ -41,6 +44,7 @@ class JointLock final : public CoordinateAction {
   bool is_due(double time) const;
   double distance(const LocalState& state, double value) const;
   LockTimes times_;
+  std::optional<double> start_;
 };
 
 }  // namespace bielle::mechanism

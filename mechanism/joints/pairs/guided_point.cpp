@@ -11,7 +11,7 @@ using CoordinateKind = JointCoordinate::Kind;
 void read_guided_point(const std::string& type, const std::string& axis_key, const std::string& name,
                        const YamlValue& entry, Model& model, std::vector<JointCoordinate> coordinates,
                        const std::array<bool, 3>& locked) {
-  check_pair_keys(entry, "a " + type + " joint", {"type", "nodes", "position", axis_key, "second_axis"});
+  check_pair_keys(entry, "a " + type + " joint", {"type", "nodes", "position", "at", axis_key, "second_axis"});
   JointFrames frames = read_joint_frames(entry, model, AxisNeed::required, axis_key);
   add_pair(std::make_unique<LowerPair>(type, name, std::move(frames), std::move(coordinates),
                                        LockedMotions{locked, LockedMotions::Rotation::none}, model),

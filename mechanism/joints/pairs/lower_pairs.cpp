@@ -160,6 +160,13 @@ std::string LowerPair::wrong_branch(const LocalState& state) const {
   return {};
 }
 
+Vector3 LowerPair::misalignment(const LocalState& state) const {
+  if (rows_.empty() || rows_.back().is_translation) return Vector3::Zero();
+  const Matrix3 R_A = state.node(0).R * frames().on_first.R, R_B = state.node(1).R * frames().on_second.R;
+  if (rows_.back().second_axis == 1) return log_so3(Matrix3(R_A * R_B.transpose()));
+  return smallest_turn(R_B.col(2), R_A.col(2), R_A.col(0));
+}
+
 namespace {
 
 void read_lower_pair(const std::string& type, const std::string& words, const std::string& name, const YamlValue& entry,

@@ -37,6 +37,7 @@ class LowerPair final : public Joint {
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   void add_pattern(const Slots& slots, LocalPattern& pattern) const override;
   std::string wrong_branch(const LocalState& state) const override;
+  Vector3 misalignment(const LocalState& state) const override;
   void add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
                             Eigen::Ref<VectorX> acceleration) const override;
 

@@ -18,11 +18,12 @@ inline void check_pair_keys(const YamlValue& entry, const std::string& words, st
   entry.check_keys(keys, words);
 }
 
-/// Adds the joint, and what its entry says of its coordinates. @returns the joint
-inline Joint& add_pair(std::unique_ptr<Joint> made, const YamlValue& entry, Model& model) {
+/// Adds the joint, and what its entry says of its coordinates. @param own  as read_joint_actions @returns the joint
+inline Joint& add_pair(std::unique_ptr<Joint> made, const YamlValue& entry, Model& model,
+                       const std::vector<std::string>& own = {}) {
   Joint& joint = *made;
   model.add(std::move(made), Entry{Section::joints, joint.name()});
-  read_joint_actions(entry, joint, model);
+  read_joint_actions(entry, joint, model, own);
   return joint;
 }
 

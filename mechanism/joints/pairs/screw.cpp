@@ -35,6 +35,11 @@ std::string ScrewJoint::wrong_branch(const LocalState& state) const {
   return first.dot(second) < 0 ? "its axes point in opposite directions" : "";
 }
 
+Vector3 ScrewJoint::misalignment(const LocalState& state) const {
+  const Matrix3 first = state.node(0).R * frames().on_first.R, second = state.node(1).R * frames().on_second.R;
+  return smallest_turn(second.col(2), first.col(2), first.col(0));
+}
+
 void ScrewJoint::describe(const LocalState& state, Description& description) const {
   MeasuredPair::describe(state, description);
   description.add(fmt::format("{:.6g} m per turn", pitch_));

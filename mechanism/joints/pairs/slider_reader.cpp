@@ -114,7 +114,7 @@ void read_slider(const std::string& name, const YamlValue& entry, Model& model) 
   frames.on_second.R = sliding.R.transpose() * joint.R;
   add_pair(std::make_unique<SliderJoint>(name, std::move(frames), std::move(line), start, tangent,
                                          error ? SliderJoint::Ends::error : SliderJoint::Ends::stop, model),
-           entry, model);
+           entry, model, {"start"});
 }
 
 }  // namespace bielle::mechanism

@@ -54,9 +54,12 @@ std::string ConstantVelocityJoint::wrong_branch(const LocalState& state) const {
 
 void read_universal(const std::string& name, const YamlValue& entry, Model& model) {
   check_pair_keys(entry, "a universal joint", joint_frame_keys());
-  const YamlValue second_axis = entry.at("second_axis");
-  const double cosine = second_axis.direction().dot(entry.at("axis").direction());
-  if (std::abs(cosine) > 1e-6)
+  const YamlValue second_axis = entry.at("second_axis"), axis = entry.at("axis");
+  // Of a pair each is made orthogonal to the axis on its node.
+  const auto is_pair = [](const YamlValue& value) {
+    return value.is_sequence() && value.size() > 0 && value.at(std::size_t{0}).is_sequence();
+  };
+  if (!is_pair(axis) && !is_pair(second_axis) && std::abs(second_axis.direction().dot(axis.direction())) > 1e-6)
     second_axis.fail("the two axes of the cross have to be at right angles; `axis` rides on the first node, "
                      "`second_axis` on the second");
   add_pair(std::make_unique<UniversalJoint>(name, read_joint_frames(entry, model, AxisNeed::required), model), entry,

@@ -2,135 +2,213 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include <fmt/format.h>
 
-#include "mechanism/solvers/constraints/mass_saddle.hpp"
+#include "mechanism/solvers/constraints/redundancy.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
+#include "mechanism/solvers/start/closing_newton.hpp"
+#include "mechanism/solvers/start/unclosed.hpp"
 
 namespace bielle::mechanism {
 namespace {
 
-constexpr double satisfied = 1e-13;  // relative to the constraint's size
-constexpr double relaxed = 1e-7;     // motion of the last iteration relative to the mechanism's size
-constexpr double most_turn = 0.3;    // [rad] of a node per iteration
-constexpr int most_iterations = 100;
+/// Whether everything holds as it is: the everyday case, told without factorising anything.
+bool holds(const System& system, const Environment& environment, const State& state, const StartConditions& conditions) {
+  constexpr double satisfied = 1e-13, repeated = 1e-6;  // of those that repeat others, as check_set_aside()
+  std::vector<bool> redundant(static_cast<std::size_t>(system.multipliers()), false);
+  bool any_redundant = false;
+  system.for_each_redundant(state, [&](int multiplier) {
+    redundant[static_cast<std::size_t>(multiplier)] = any_redundant = true;
+  });
+  const State whole = any_redundant ? with_redundant(system, state) : State();
+  const State& all = any_redundant ? whole : state;
+  VectorX r(system.size());
+  system.residual(all, environment, r);
+  const int first = system.size() - system.multipliers();
+  std::vector<bool> off(static_cast<std::size_t>(system.multipliers()), false);
+  system.for_each_idle(all, [&](int multiplier) { off[static_cast<std::size_t>(multiplier)] = true; });
+  std::optional<VectorX> sizes;
+  for (int k = 0; k < system.multipliers(); ++k) {
+    const auto row = static_cast<std::size_t>(k);
+    if (r[first + k] == 0 || off[row] || system.constraint_kind(k) != ConstraintKind::holonomic) continue;
+    if (!sizes) sizes = constraint_sizes(system, environment, all);
+    if (!(std::abs(r[first + k]) <= (redundant[row] ? repeated : satisfied) * (*sizes)[k])) return false;
+  }
+  for (const CoordinateCondition& each : conditions.coordinates) {
+    if (!each.value) continue;
+    const StartCoordinate coordinate = start_coordinate(system, each);
+    const double value = coordinate_row(system, environment, state, each.member, each.coordinate).value;
+    const double size = coordinate.units == "m" ? model_length(state) : 1;
+    if (!(std::abs(coordinate_distance(coordinate, value, *each.value)) <= satisfied * size)) return false;
+  }
+  return true;
+}
+
+/// Turns parts of members whose directions are more than a quarter turn off.
+/// @returns the state with them turned; nothing where none is, or none can be
+std::optional<State> turned_right(const System& system, const Environment& environment, const State& drawn,
+                                  const std::vector<int>& kept_nodes) {
+  constexpr double quarter = M_PI / 2;
+  VectorX dq = VectorX::Zero(system.dofs());
+  bool any = false;
+  for (std::size_t m = 0; m < system.slots().size(); ++m) {
+    const Slots& slots = system.slots()[m];
+    if (slots.multipliers == 0) continue;
+    const Vector3 turn =
+        system.model().members()[m].component->misalignment(LocalState(drawn, slots, environment));
+    if (turn.norm() < quarter) continue;
+    // The second node if it is free to turn, otherwise the first one, the other way.
+    for (const std::size_t k : {1U, 0U}) {
+      const Carry* carry = system.kinematics().carry(slots.nodes[k]);
+      const int root = carry ? carry->carrier : slots.nodes[k];
+      const NodeFreedom& freedom = system.kinematics().freedom(root);
+      const bool kept = std::any_of(kept_nodes.begin(), kept_nodes.end(), [&](int node) {
+        const Carry* of_kept = system.kinematics().carry(node);
+        return (of_kept ? of_kept->carrier : node) == root;
+      });
+      if (kept || !freedom.all_free || !dq.segment<3>(freedom.begin + 3).isZero(0)) continue;
+      dq.segment<3>(freedom.begin + 3) =
+          (k == 1 ? 1.0 : -1.0) * (drawn.nodes[static_cast<std::size_t>(root)].R.transpose() * turn);
+      any = true;
+      break;
+    }
+  }
+  if (!any) return {};
+  State state = drawn;
+  system.displace(state, drawn, dq);
+  return state;
+}
 
 class PositionAssembly {
  public:
-  PositionAssembly(const System& system, const Environment& environment, State& state)
-      : system_(system),
-        environment_(environment),
-        state_(state),
-        sizes_(constraint_sizes(system, environment, state)),
-        length_(model_length(state)),
-        linear_(system),
-        r_(system.size()),
-        step_(system.size()),
-        drawn_(system.size()),
-        elastic_(system.size()) {
-    unloaded_.load_factor = environment.load_factor;
-    // Forces of elastic parts as they are drawn stay as they are; what the motion adds is relaxed.
-    system.residual(unstressed(), unloaded_, drawn_);
-  }
+  PositionAssembly(const System& system, const Environment& environment, const State& drawn,
+                   const StartConditions& conditions)
+      : system_(system), environment_(environment), drawn_(drawn), conditions_(conditions) {}
 
-  void assemble() {
-    double previous = 0, motion = 0;
-    for (int iteration = 0;; ++iteration) {
-      measure();
-      const bool together =
-          worst_ <= satisfied || (iteration > 0 && worst_ <= 1e3 * satisfied && worst_ >= 0.5 * previous);
-      if (together && (iteration == 0 || motion <= relaxed || iteration == most_iterations)) return;
-      if (iteration == most_iterations || !std::isfinite(worst_))
-        throw ComputationError(fmt::format("the mechanism cannot be put together: {} stays violated by {:.3g} {}",
-                                           system_.equation_name(worst_row_), r_[worst_row_],
-                                           system_.equation_units(worst_row_)));
-      previous = worst_;
-      solve();
-      motion = move();
+  State assembled() {
+    State state = drawn_;
+    bool closed = close(state);
+    std::string wrong = closed ? system_.wrong_branch(state, environment_) : "";
+    if (!closed || !wrong.empty()) {
+      if (const std::optional<State> turned = turned_right(system_, environment_, drawn_, conditions_.kept_nodes)) {
+        State other = *turned;
+        if (close(other) && system_.wrong_branch(other, environment_).empty()) return other;
+      }
     }
+    if (closed && wrong.empty()) return state;
+    if (closed)
+      throw ComputationError(fmt::format(
+          "the mechanism is put together the wrong way round; {}: draw it nearer to where it starts", wrong));
+    throw ComputationError("the mechanism cannot be put together: " + why_);
   }
 
  private:
-  /// The state at rest, without reactions.
-  State unstressed() const {
-    State still = state_;
-    still.multiplier.setZero();
-    system_.set_rates(still, VectorX::Zero(system_.dofs()), VectorX::Zero(system_.dofs()));
-    return still;
-  }
-
-  /// Violations, as the residual's last rows, and the worst of them relative to its constraint's size.
-  void measure() {
-    const int first = system_.size() - system_.multipliers();
-    system_.residual(state_, environment_, r_);
-    worst_ = 0;
-    worst_row_ = -1;
-    for (int i = 0; i < system_.multipliers(); ++i) {
-      if (system_.constraint_kind(i) != ConstraintKind::holonomic) {
-        r_[first + i] = 0;
-        continue;
+  /// Closes it from a state. What has a given rate stays where it is, if it can; constraints that repeat others take
+  /// part, unless they only seemed to repeat them.
+  bool close(State& state) {
+    const State from = state;
+    std::string why;
+    for (const TakingPart& who : {TakingPart{true, true}, TakingPart{false, true}, TakingPart{true, false}}) {
+      ClosingEquations equations(system_, environment_, from, conditions_, who);
+      if (!who.nonholonomic && !equations.any_nonholonomic()) continue;
+      if (!who.set_aside && !any_set_aside()) continue;
+      state = from;
+      state.multiplier.setZero();
+      if (close(equations, state, why) && (who.set_aside || repeated_hold(state))) {
+        settle_idle(state);
+        return true;
       }
-      const double violation = std::abs(r_[first + i]) / sizes_[i];
-      if (violation <= worst_ || std::isnan(worst_)) continue;
-      worst_ = violation;
-      worst_row_ = first + i;
     }
+    if (why_.empty()) why_ = why;
+    state = from;
+    return false;
   }
 
-  void solve() {
-    const State still = unstressed();
-    const TangentWeights weights{1, 0, 0, 1, 1, true};
-    linear_.try_factor(still, unloaded_, weights, nullptr);
-    // So little that parts as slender as 1e4 turn rather than bend.
-    const VectorX extra = small_diagonal(system_, linear_, state_, 1e-10);
-    if (!linear_.try_factor(still, unloaded_, weights, nullptr, &extra)) linear_.throw_singular(state_.time);
-    system_.residual(still, unloaded_, elastic_);
-    const int first = system_.size() - system_.multipliers();
-    r_.head(first) = elastic_.head(first) - drawn_.head(first);
-    linear_.solve(r_, step_);
+  /// Tries from the state, from a shaken one, and with bodies that have no stiffness at first.
+  bool close(ClosingEquations& equations, State& state, std::string& why) const {
+    const State from = state;
+    std::optional<State> nearest;
+    double least = 0;
+    const auto closes = [&](State trial) {
+      if (close_gaps(equations, trial)) {
+        state = std::move(trial);
+        return true;
+      }
+      const double open = equations.measure(trial).squared;
+      if (!nearest || open < least) {
+        least = open;
+        nearest = std::move(trial);
+      }
+      return false;
+    };
+    if (closes(from) || closes(equations.shaken(from))) return true;
+    if (equations.any_stiffness()) {
+      equations.leave_stiffness_out(true);
+      State near = from;
+      const bool fits = close_gaps(equations, near);
+      equations.leave_stiffness_out(false);
+      if (fits && closes(near)) return true;
+    }
+    const Unclosed unclosed = explain_unclosed(equations, *nearest);
+    if (unclosed.closes && closes(*nearest)) return true;
+    if (why.empty())
+      why = unclosed.closes ? "no positions were found in which everything fits; draw it nearer to them" : unclosed.text;
+    return false;
   }
 
-  /// Far from assembled, a full step may overshoot: no node turns by more than most_turn per iteration.
-  /// @returns the full step's length: displacements relative to the mechanism's size, or [rad]
-  double move() {
-    double turn = 0, displacement = 0;
-    for (int i = 0; i < system_.dofs(); ++i) {
-      if (system_.kind(i) == Kind::rotation) turn = std::max(turn, std::abs(step_[i]));
-      if (system_.kind(i) == Kind::translation) displacement = std::max(displacement, std::abs(step_[i]) / length_);
+  /// Whether constraints that were set aside hold.
+  bool repeated_hold(State state) const {
+    settle_idle(state);
+    try {
+      check_set_aside(system_, environment_, state);
+    } catch (const ComputationError&) {
+      return false;
     }
-    const double part = turn > most_turn ? most_turn / turn : 1;
-    const State base = state_;
-    system_.displace(state_, base, part * step_.head(system_.dofs()));
-    for (const int k : system_.algebraic()) state_.first_order[k] += part * step_[system_.dofs() + k];
-    return std::max(displacement, turn);
+    return true;
+  }
+
+  bool any_set_aside() const {
+    bool any = false;
+    system_.for_each_redundant(drawn_, [&](int) { any = true; });
+    return any;
+  }
+
+  void settle_idle(State& state) const {
+    state.idle = drawn_.idle;
+    state.multiplier = drawn_.multiplier;
+    state.reaction = drawn_.reaction;
   }
 
   const System& system_;
   const Environment& environment_;
-  Environment unloaded_;
-  State& state_;
-  VectorX sizes_;  ///< of the constraints
-  double length_;
-  LinearStep linear_;
-  VectorX r_, step_, drawn_, elastic_;
-  double worst_ = 0;
-  int worst_row_ = -1;
+  const State& drawn_;
+  const StartConditions& conditions_;
+  std::string why_;
 };
 
 }  // namespace
 
-void assemble_positions(const System& system, const Environment& environment, State& state, StartReport& report) {
-  if (system.multipliers() == 0) return;
-  const State start = state;
-  PositionAssembly(system, environment, state).assemble();
-  if (const std::string wrong = system.wrong_branch(state, environment); !wrong.empty())
-    throw ComputationError(
-        fmt::format("the mechanism is put together the wrong way round; {}: draw it nearer to where it starts", wrong));
-  note_farthest(system, start, state, report.largest_displacement, report.displaced_node);
-  for (std::size_t i = 0; i < state.nodes.size(); ++i)
-    report.largest_rotation =
-        std::max(report.largest_rotation, log_so3(Matrix3(start.nodes[i].R.transpose() * state.nodes[i].R)).norm());
+void assemble_positions(const System& system, const Environment& environment, State& state, StartReport& report,
+                        const StartConditions& conditions) {
+  if (system.multipliers() == 0 && conditions.empty()) return;
+  if (!holds(system, environment, state, conditions)) {
+    const State drawn = state;
+    state = PositionAssembly(system, environment, drawn, conditions).assembled();
+    note_moved(system, environment, drawn, state, report);
+    return;
+  }
+  if (const std::string wrong = system.wrong_branch(state, environment); !wrong.empty()) {
+    const State drawn = state;
+    if (const std::optional<State> turned = turned_right(system, environment, drawn, conditions.kept_nodes))
+      state = PositionAssembly(system, environment, *turned, conditions).assembled();
+    if (const std::string still = system.wrong_branch(state, environment); !still.empty())
+      throw ComputationError(fmt::format(
+          "the mechanism is put together the wrong way round; {}: draw it nearer to where it starts", still));
+    note_moved(system, environment, drawn, state, report);
+  }
 }
 
 }  // namespace bielle::mechanism

@@ -1,6 +1,11 @@
 #include "mechanism/solvers/start/start_report.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "mechanism/solvers/newton/model_length.hpp"
+#include "mechanism/solvers/start/start_conditions.hpp"
 
 namespace bielle::mechanism {
 
@@ -21,6 +26,9 @@ void StartReport::add(const StartReport& later) {
   }
   if (!later.held.empty()) held = later.held;
   if (!later.unbalanced.empty()) unbalanced = later.unbalanced;
+  moved_nodes.insert(moved_nodes.end(), later.moved_nodes.begin(), later.moved_nodes.end());
+  moved_coordinates.insert(moved_coordinates.end(), later.moved_coordinates.begin(), later.moved_coordinates.end());
+  following.insert(following.end(), later.following.begin(), later.following.end());
 }
 
 void note_farthest(const System& system, const State& from, const State& to, double& distance, std::string& node) {
@@ -30,6 +38,48 @@ void note_farthest(const System& system, const State& from, const State& to, dou
     distance = moved;
     node = system.model().node(static_cast<int>(i)).name;
   }
+}
+
+namespace {
+
+constexpr double unmoved = 1e-9;  // [m], [rad]
+
+/// Orders by size, the largest first, and appends.
+template <class Moved>
+void append_by_size(std::vector<std::pair<double, Moved>>& found, std::vector<Moved>& list) {
+  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  for (auto& [size, moved] : found) list.push_back(std::move(moved));
+}
+
+}  // namespace
+
+void note_moved(const System& system, const Environment& environment, const State& from, const State& to,
+                StartReport& report) {
+  note_farthest(system, from, to, report.largest_displacement, report.displaced_node);
+  const double length = 0.5 * model_extent(from);  // at which a rotation counts as a displacement
+  std::vector<std::pair<double, MovedNode>> nodes;
+  for (std::size_t i = 0; i < to.nodes.size(); ++i) {
+    const double rotation = log_so3(Matrix3(from.nodes[i].R.transpose() * to.nodes[i].R)).norm();
+    report.largest_rotation = std::max(report.largest_rotation, rotation);
+    const double displacement = (to.nodes[i].x - from.nodes[i].x).norm();
+    const Node& node = system.model().node(static_cast<int>(i));
+    if (node.internal || (displacement <= unmoved && rotation <= unmoved)) continue;
+    nodes.emplace_back(std::max(displacement, length * rotation), MovedNode{node.name, displacement, rotation});
+  }
+  append_by_size(nodes, report.moved_nodes);
+
+  std::vector<std::pair<double, MovedCoordinate>> coordinates;
+  for (std::size_t m = 0; m < system.slots().size(); ++m) {
+    const std::vector<StartCoordinate> all = system.model().members()[m].component->start_coordinates();
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const double before = coordinate_row(system, environment, from, m, k).value,
+                   change = coordinate_distance(all[k], coordinate_row(system, environment, to, m, k).value, before);
+      if (std::abs(change) <= unmoved) continue;
+      coordinates.emplace_back(std::abs(change) * (all[k].units == "m" ? 1 : length),
+                               MovedCoordinate{coordinate_name(system, m, all[k]), all[k].units, before, before + change});
+    }
+  }
+  append_by_size(coordinates, report.moved_coordinates);
 }
 
 }  // namespace bielle::mechanism

@@ -8,6 +8,20 @@
 
 namespace bielle::mechanism {
 
+/// How far the assembly of positions has moved a node.
+struct MovedNode {
+  std::string name;
+  double displacement = 0;  ///< [m]
+  double rotation = 0;      ///< [rad]
+};
+
+/// By how much it has changed a coordinate of a component.
+struct MovedCoordinate {
+  std::string name;      ///< "angle of joint 'main'"
+  std::string units;     ///< "m" or "rad"
+  double from = 0, to = 0;
+};
+
 struct StartReport {
   double largest_displacement = 0;  ///< of a node by the assembly of positions [m]
   std::string displaced_node;       ///< that node's name
@@ -20,11 +34,18 @@ struct StartReport {
   std::string balanced_node;        ///< that node's name
   std::string unbalanced;           ///< an unknown without mass whose forces could not be balanced; empty: none
   std::vector<std::string> held;    ///< first-order unknowns that static equilibrium has left where they were
+  std::vector<MovedNode> moved_nodes;              ///< by the assembly of positions, in order: the farthest first
+  std::vector<MovedCoordinate> moved_coordinates;  ///< likewise
+  std::vector<std::string> following;  ///< start rates that follow from others and agree with them: "angle of joint 'b'"
   void add(const StartReport& later);
 };
 
 /// The node that has moved farthest from one state to another, where that is farther than what is noted already.
 /// @param distance,node  how far [m], and its name
 void note_farthest(const System& system, const State& from, const State& to, double& distance, std::string& node);
+
+/// Notes what the assembly of positions has moved: the largest motions, and all nodes and coordinates.
+void note_moved(const System& system, const Environment& environment, const State& from, const State& to,
+                StartReport& report);
 
 }  // namespace bielle::mechanism

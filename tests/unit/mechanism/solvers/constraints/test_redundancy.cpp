@@ -143,15 +143,21 @@ drives: {push: {joint: guide, displacement: "t"}}
   CHECK(integration.state().time == Approx(2 * std::hypot(0.5, 0.4) - 1).margin(5e-3));
 }
 
-TEST_CASE("a joint that is assembled the wrong way round is refused, although its constraints hold") {
-  const ReadyModel model(R"yaml(
-nodes: {m: {position: [1, 0, 0]}}
+TEST_CASE("a joint that is assembled the wrong way round is turned, or refused, although its constraints hold") {
+  const auto assembled = [](const std::string& fixed) {
+    const ReadyModel model("nodes: {m: {position: [1, 0, 0], fixed: " + fixed + R"yaml(}}
 elements: {m: {type: rigid_body, node: m, mass: 1, inertia: [1, 1, 1]}}
 joints: {main: {type: hinge, nodes: [ground, m], position: [0, 0, 0], axis: [0, 0, 1]}}
 )yaml");
-  State state = model.system.start(0);
-  state.nodes.back().R = exp_so3(Vector3(3.14159265358979324, 0, 0));
-  StartReport report;
-  CHECK_THROWS_WITH(assemble_positions(model.system, model.environment(), state, report),
-                    Catch::Contains("joint 'main': its axes point in opposite directions"));
+    State state = model.system.start(0);
+    state.nodes.back().R = exp_so3(Vector3(3.14159265358979324, 0, 0));
+    StartReport report;
+    assemble_positions(model.system, model.environment(), state, report);
+    return state;
+  };
+  const State turned = assembled("[]");
+  CHECK((turned.nodes.back().R.col(2) - Vector3::UnitZ()).norm() < 1e-12);
+  CHECK((turned.nodes.back().x - turned.nodes.back().R.col(0)).norm() < 1e-12);
+  // A node that is held in part is not turned.
+  CHECK_THROWS_WITH(assembled("[z]"), Catch::Contains("joint 'main': its axes point in opposite directions"));
 }

@@ -56,7 +56,8 @@ drives: {motor: {joint: axle, angle: "0.5 + 2*t + 3*t^2"}}
   CHECK(arm.Omegadot.z() == Approx(6).epsilon(1e-10));
 }
 
-TEST_CASE("a mechanism that cannot be put together names the constraint") {
+TEST_CASE("a mechanism that cannot be put together names what stays open") {
+  // Two slides hold b's axes parallel to a's and to the ground's: a cannot turn about its ball joint, and b stays.
   const MechanismFile file = read_mechanism_text(R"yaml(
 nodes: {a: {position: [1, 0, 0]}, b: {position: [5, 0, 0]}}
 elements:
@@ -72,7 +73,7 @@ drives: {push: {joint: slide, displacement: "20"}}
                                                  "open.yaml");
   System system(file.model);
   State state = system.start(0);
-  CHECK_THROWS_WITH(make_consistent(system, file.model.environment, state), Catch::Contains("constraint"));
+  CHECK_THROWS_WITH(make_consistent(system, file.model.environment, state), Catch::Contains("drive 'push' stays 20 m away from what it prescribes"));
 }
 
 TEST_CASE("a node without mass that nothing holds is named") {

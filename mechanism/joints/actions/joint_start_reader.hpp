@@ -1,0 +1,20 @@
+// `start` and `start_rate` of a joint's coordinate: where it stands and how fast it goes when the first analysis
+// starts.
+//
+// Both are conditions of that start alone (mechanism/model/start_condition.hpp), and count as coordinates always do:
+// zero where the joint's frames coincide. An angle may be given beyond half a turn; turns are counted from there.
+#pragma once
+
+#include <optional>
+
+#include "mechanism/joints/joint.hpp"
+#include "reduce/common/yaml_file.hpp"
+
+namespace bielle::mechanism {
+
+/// Notes what the entry of a joint asks of one of its coordinates. @param value,rate  empty: nothing is asked
+/// @throws InputError, also when all entries are read and a drive says otherwise
+void read_joint_start(const std::optional<YamlValue>& value, const std::optional<YamlValue>& rate, Joint& joint,
+                      std::size_t coordinate, Model& model);
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,113 @@
+#include "mechanism/joints/joint_frames.hpp"
+
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "mechanism/reading/names.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+/// Something given on each of the two nodes, in inertial components as drawn.
+using OnNodes = std::array<Vector3, 2>;
+
+bool is_pair_of_vectors(const YamlValue& value) {
+  return value.is_sequence() && value.size() > 0 && value.at(std::size_t{0}).is_sequence();
+}
+
+/// A direction, or one in the axes of each node.
+OnNodes read_directions(const YamlValue& value, const Frame& first, const Frame& second) {
+  if (!is_pair_of_vectors(value)) {
+    const Vector3 direction = value.direction();
+    return {direction, direction};
+  }
+  if (value.size() != 2)
+    value.fail("expected a direction [x, y, z], or a pair [[x, y, z], [x, y, z]] of one in the axes of each node");
+  return {first.R * value.at(std::size_t{0}).direction(), second.R * value.at(std::size_t{1}).direction()};
+}
+
+/// The part of x normal to z. @throws InputError when there is none
+Vector3 normal_part(const Vector3& x, const Vector3& z, const YamlValue& given) {
+  const Vector3 normal = x - z * z.dot(x);
+  if (normal.norm() < 1e-6) given.fail("is parallel to the joint's axis");
+  return normal;
+}
+
+/// x turned as the smallest rotation turns z to `to`; where they are opposite, about x.
+Vector3 turned_along(const Vector3& x, const Vector3& z, const Vector3& to) {
+  const double cosine = z.dot(to);
+  if (cosine < -1 + 1e-12) return x;
+  const Vector3 w = z.cross(to);
+  return x + w.cross(x) + w.cross(w.cross(x)) / (1 + cosine);
+}
+
+Matrix3 axes_of(const Vector3& x_direction, const Vector3& z) {
+  const Vector3 x = x_direction.normalized();
+  Matrix3 R;
+  R << x, z.cross(x), z;
+  return R;
+}
+
+/// Axes of the joint's frame on each node, in inertial components as drawn.
+std::array<Matrix3, 2> read_axes(const YamlValue& entry, const Frame& first, const Frame& second, AxisNeed need,
+                                 const std::string& axis_key) {
+  const std::optional<YamlValue> second_axis = entry.find("second_axis");
+  if (need == AxisNeed::optional && !entry.has(axis_key) && !second_axis)
+    return {Matrix3::Identity(), Matrix3::Identity()};
+  const OnNodes z = need == AxisNeed::required || entry.has(axis_key)
+                        ? read_directions(entry.at(axis_key), first, second)
+                        : OnNodes{Vector3::UnitZ(), Vector3::UnitZ()};
+  OnNodes x;
+  if (second_axis) {
+    const OnNodes given = read_directions(*second_axis, first, second);
+    for (std::size_t k = 0; k < 2; ++k) x[k] = normal_part(given[k], z[k], *second_axis);
+  } else {
+    // The inertial axis that is most normal to z.
+    Eigen::Index least = 0;
+    z[0].cwiseAbs().minCoeff(&least);
+    x[0] = Vector3::Unit(least) - z[0] * z[0][least];
+    x[1] = z[0] == z[1] ? x[0] : turned_along(x[0], z[0], z[1]);
+  }
+  return {axes_of(x[0], z[0]), axes_of(x[1], z[1])};
+}
+
+}  // namespace
+
+Vector3 smallest_turn(const Vector3& from, const Vector3& to, const Vector3& normal) {
+  const Vector3 product = from.cross(to);
+  const double sine = product.norm(), angle = std::atan2(sine, from.dot(to));
+  return angle * (sine > 1e-12 ? Vector3(product / sine) : normal);
+}
+
+std::vector<std::string> joint_frame_keys() { return {"type", "nodes", "position", "at", "axis", "second_axis"}; }
+
+JointFrames read_joint_frames(const YamlValue& entry, const Model& model, AxisNeed need, const std::string& axis_key) {
+  JointFrames frames;
+  const std::vector<int> nodes = nodes_named_by(entry.at("nodes"), 2, model);
+  frames.first = nodes[0];
+  frames.second = nodes[1];
+  if (frames.first == frames.second) entry.at("nodes").fail("a joint needs two different nodes");
+  const Frame &first = model.node(nodes[0]).frame, &second = model.node(nodes[1]).frame;
+  const std::optional<YamlValue> position = entry.find("position"), at = entry.find("at");
+  if (position && at)
+    at->fail(
+        "a joint is attached at a `position` as drawn, or `at` a point in the axes of each node: give one of them");
+  const Vector3 place = position ? position->vector3() : second.x;
+  const std::array<Matrix3, 2> axes = read_axes(entry, first, second, need, axis_key);
+  frames.on_first = inverse(first) * Frame{place, axes[0]};
+  frames.on_second = inverse(second) * Frame{place, axes[1]};
+  if (at) {
+    if (!at->is_sequence() || at->size() != 2 || !is_pair_of_vectors(*at))
+      at->fail("expected [[x, y, z], [x, y, z]]: the joint's point in the axes of the first node and of the second");
+    frames.on_first.x = at->at(std::size_t{0}).vector3();
+    frames.on_second.x = at->at(std::size_t{1}).vector3();
+  } else if (!position) {
+    constexpr double rounding = 1e-9;  // [m]
+    const double distance = (second.x - first.x).norm();
+    if (distance > rounding) frames.arm = distance;
+  }
+  return frames;
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,33 @@
+// What the start of a motion may prescribe, keep and report of a joint: its coordinates.
+#include <fmt/format.h>
+
+#include "mechanism/joints/joint.hpp"
+#include "mechanism/model/measure.hpp"
+
+namespace bielle::mechanism {
+
+std::vector<StartCoordinate> Joint::start_coordinates() const {
+  std::vector<StartCoordinate> result;
+  for (const JointCoordinate& each : coordinates_)
+    result.push_back({each.name, each.units(), each.rate_units(), each.kind == JointCoordinate::Kind::angle});
+  return result;
+}
+
+StartCoordinateValue Joint::calc_start_coordinate(std::size_t index, const LocalState& state,
+                                                  MeasureGradient& gradient) const {
+  thread_local CoordinateJet jet;
+  calc_coordinate(index, state, jet);
+  gradient.prepare(state.slots().size());
+  gradient.position() = jet.g();
+  gradient.rate() = jet.w();
+  return {jet.principal, jet.rate};
+}
+
+std::string Joint::remark() const {
+  if (frames_.arm == 0) return {};
+  return fmt::format(
+      "without `position` or `at` it is attached at node '{}'; an arm of {:.3g} m bridges it to node '{}'",
+      second_name_, frames_.arm, first_name_);
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,21 @@
+// Rates of coordinates that a start prescribes, on top of velocities that satisfy the constraints.
+//
+//   min |dv|_M   with   B dv = 0,   W (v + dv) = w:       dv = Z S^-1 (w - W v),   [M B^T; B 0][Z; .] = [W^T; 0],   S =
+//   W Z
+//
+// A rate that follows from the constraints and the rates before it has no say: it has to agree with them.
+#pragma once
+
+#include "mechanism/solvers/constraints/mass_saddle.hpp"
+#include "mechanism/solvers/start/start_conditions.hpp"
+#include "mechanism/solvers/start/start_report.hpp"
+
+namespace bielle::mechanism {
+
+/// @param state   with consistent positions and velocities
+/// @param saddle  with the factors of these positions
+/// @throws ComputationError naming a rate that contradicts constraints, drives or rates before it
+void set_start_rates(const System& system, const Environment& environment, State& state,
+                     const StartConditions& conditions, MassSaddle& saddle, StartReport& report);
+
+}  // namespace bielle::mechanism
