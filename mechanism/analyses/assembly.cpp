@@ -43,7 +43,8 @@ AssemblyOptions::Coordinate read_coordinate(const YamlValue& item, const Compone
   const std::vector<std::string> names = names_of_coordinates(joint);
   if (names.empty()) item.fail(fmt::format("joint '{}' ({}) has no coordinate to keep", joint.name(), joint.type()));
   if (!name && names.size() > 1)
-    item.fail(fmt::format("joint '{}' has several coordinates: give `coordinate`{}", joint.name(), did_you_mean("", names)));
+    item.fail(
+        fmt::format("joint '{}' has several coordinates: give `coordinate`{}", joint.name(), did_you_mean("", names)));
   const std::string wanted = name.value_or(names.front());
   const auto found = std::find(names.begin(), names.end(), wanted);
   if (found == names.end())
@@ -64,8 +65,8 @@ void read_kept(const YamlValue& item, const Model& model, AssemblyOptions& optio
     item.check_keys({"joint", "coordinate"}, "`keep`, which names a node or a coordinate of a joint");
     const Component& joint = component_named_by(Section::joints, item.at("joint"), model);
     const auto coordinate = item.find("coordinate");
-    options.kept_coordinates.push_back(read_coordinate(
-        coordinate ? *coordinate : item, joint, coordinate ? std::optional(coordinate->text()) : std::nullopt));
+    options.kept_coordinates.push_back(read_coordinate(coordinate ? *coordinate : item, joint,
+                                                       coordinate ? std::optional(coordinate->text()) : std::nullopt));
     return;
   }
   const std::string word = item.text();
@@ -78,10 +79,10 @@ void read_kept(const YamlValue& item, const Model& model, AssemblyOptions& optio
     for (const Node& each : model.nodes())
       if (!each.internal) names.push_back(each.name);
     for (const std::string& name : model.names_in(Section::joints))
-      for (const std::string& coordinate :
-           names_of_coordinates(*model.components_of({Section::joints, name}).front()))
+      for (const std::string& coordinate : names_of_coordinates(*model.components_of({Section::joints, name}).front()))
         names.push_back(name + "." + coordinate);
-    item.fail(fmt::format("there is no node '{}', nor a joint with such a coordinate{}", word, did_you_mean(word, names)));
+    item.fail(
+        fmt::format("there is no node '{}', nor a joint with such a coordinate{}", word, did_you_mean(word, names)));
   }
 }
 

@@ -15,7 +15,8 @@
 namespace bielle::mechanism {
 namespace {
 
-const std::vector<std::string> keys = {"stiffness", "damping", "rest", "preload", "stops", "locked", "start", "start_rate"};
+const std::vector<std::string> keys = {"stiffness", "damping", "rest",  "preload",
+                                       "stops",     "locked",  "start", "start_rate"};
 
 /// Of each coordinate, what the keys say: the value itself in a joint with one coordinate, else a map by their names.
 using ByKey = std::map<std::string, YamlValue>;

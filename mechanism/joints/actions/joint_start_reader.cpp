@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "mechanism/joints/actions/drive.hpp"
+#include "mechanism/joints/actions/motion_drive.hpp"
 
 namespace bielle::mechanism {
 namespace {

@@ -16,13 +16,13 @@ namespace bielle::mechanism {
 namespace {
 
 /// Whether everything holds as it is: the everyday case, told without factorising anything.
-bool holds(const System& system, const Environment& environment, const State& state, const StartConditions& conditions) {
+bool holds(const System& system, const Environment& environment, const State& state,
+           const StartConditions& conditions) {
   constexpr double satisfied = 1e-13, repeated = 1e-6;  // of those that repeat others, as check_set_aside()
   std::vector<bool> redundant(static_cast<std::size_t>(system.multipliers()), false);
   bool any_redundant = false;
-  system.for_each_redundant(state, [&](int multiplier) {
-    redundant[static_cast<std::size_t>(multiplier)] = any_redundant = true;
-  });
+  system.for_each_redundant(
+      state, [&](int multiplier) { redundant[static_cast<std::size_t>(multiplier)] = any_redundant = true; });
   const State whole = any_redundant ? with_redundant(system, state) : State();
   const State& all = any_redundant ? whole : state;
   VectorX r(system.size());
@@ -57,8 +57,7 @@ std::optional<State> turned_right(const System& system, const Environment& envir
   for (std::size_t m = 0; m < system.slots().size(); ++m) {
     const Slots& slots = system.slots()[m];
     if (slots.multipliers == 0) continue;
-    const Vector3 turn =
-        system.model().members()[m].component->misalignment(LocalState(drawn, slots, environment));
+    const Vector3 turn = system.model().members()[m].component->misalignment(LocalState(drawn, slots, environment));
     if (turn.norm() < quarter) continue;
     // The second node if it is free to turn, otherwise the first one, the other way.
     for (const std::size_t k : {1U, 0U}) {
@@ -155,7 +154,8 @@ class PositionAssembly {
     const Unclosed unclosed = explain_unclosed(equations, *nearest);
     if (unclosed.closes && closes(*nearest)) return true;
     if (why.empty())
-      why = unclosed.closes ? "no positions were found in which everything fits; draw it nearer to them" : unclosed.text;
+      why =
+          unclosed.closes ? "no positions were found in which everything fits; draw it nearer to them" : unclosed.text;
     return false;
   }
 

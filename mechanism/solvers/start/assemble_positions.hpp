@@ -12,8 +12,8 @@
 // set aside as redundant take part: parts drawn out of their plane come back to it.
 //
 // Where nothing closes, the gaps are brought together in the last joint or start value that disagrees, all others held
-// (unclosed.hpp), and the message names it, the gap, and what it disagrees with. A joint whose axes come out opposite is
-// turned as drawn, and all is tried once more.
+// (unclosed.hpp), and the message names it, the gap, and what it disagrees with. A joint whose axes come out opposite
+// is turned as drawn, and all is tried once more.
 #pragma once
 
 #include "mechanism/solvers/start/start_conditions.hpp"
@@ -21,7 +21,8 @@
 
 namespace bielle::mechanism {
 
-/// Moves the state's positions until all holonomic constraints and the conditions hold. What moved is added to the report.
+/// Moves the state's positions until all holonomic constraints and the conditions hold. What moved is added to the
+/// report.
 /// @throws ComputationError naming what cannot be satisfied, with its gap; the state is then as it was
 void assemble_positions(const System& system, const Environment& environment, State& state, StartReport& report,
                         const StartConditions& conditions = {});

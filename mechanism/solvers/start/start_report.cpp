@@ -75,8 +75,9 @@ void note_moved(const System& system, const Environment& environment, const Stat
       const double before = coordinate_row(system, environment, from, m, k).value,
                    change = coordinate_distance(all[k], coordinate_row(system, environment, to, m, k).value, before);
       if (std::abs(change) <= unmoved) continue;
-      coordinates.emplace_back(std::abs(change) * (all[k].units == "m" ? 1 : length),
-                               MovedCoordinate{coordinate_name(system, m, all[k]), all[k].units, before, before + change});
+      coordinates.emplace_back(
+          std::abs(change) * (all[k].units == "m" ? 1 : length),
+          MovedCoordinate{coordinate_name(system, m, all[k]), all[k].units, before, before + change});
     }
   }
   append_by_size(coordinates, report.moved_coordinates);

@@ -17,26 +17,27 @@ struct MovedNode {
 
 /// By how much it has changed a coordinate of a component.
 struct MovedCoordinate {
-  std::string name;      ///< "angle of joint 'main'"
-  std::string units;     ///< "m" or "rad"
+  std::string name;   ///< "angle of joint 'main'"
+  std::string units;  ///< "m" or "rad"
   double from = 0, to = 0;
 };
 
 struct StartReport {
-  double largest_displacement = 0;  ///< of a node by the assembly of positions [m]
-  std::string displaced_node;       ///< that node's name
-  double largest_rotation = 0;      ///< [rad]
-  double velocity_change = 0;       ///< largest change of a nodal velocity [m/s]
-  double impulse_work = 0;          ///< of drives and supports that bring about such a change [J]
-  double settled = 0;               ///< largest displacement of a node by static equilibrium, if asked for [m]
-  std::string settled_node;         ///< that node's name
-  double balanced = 0;              ///< largest displacement of a node without mass, to where its forces balance [m]
-  std::string balanced_node;        ///< that node's name
-  std::string unbalanced;           ///< an unknown without mass whose forces could not be balanced; empty: none
-  std::vector<std::string> held;    ///< first-order unknowns that static equilibrium has left where they were
-  std::vector<MovedNode> moved_nodes;              ///< by the assembly of positions, in order: the farthest first
+  double largest_displacement = 0;     ///< of a node by the assembly of positions [m]
+  std::string displaced_node;          ///< that node's name
+  double largest_rotation = 0;         ///< [rad]
+  double velocity_change = 0;          ///< largest change of a nodal velocity [m/s]
+  double impulse_work = 0;             ///< of drives and supports that bring about such a change [J]
+  double settled = 0;                  ///< largest displacement of a node by static equilibrium, if asked for [m]
+  std::string settled_node;            ///< that node's name
+  double balanced = 0;                 ///< largest displacement of a node without mass, to where its forces balance [m]
+  std::string balanced_node;           ///< that node's name
+  std::string unbalanced;              ///< an unknown without mass whose forces could not be balanced; empty: none
+  std::vector<std::string> held;       ///< first-order unknowns that static equilibrium has left where they were
+  std::vector<MovedNode> moved_nodes;  ///< by the assembly of positions, in order: the farthest first
   std::vector<MovedCoordinate> moved_coordinates;  ///< likewise
-  std::vector<std::string> following;  ///< start rates that follow from others and agree with them: "angle of joint 'b'"
+  std::vector<std::string>
+      following;  ///< start rates that follow from others and agree with them: "angle of joint 'b'"
   void add(const StartReport& later);
 };
 
