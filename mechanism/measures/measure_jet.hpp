@@ -86,13 +86,13 @@ MeasureJet<N> compose(const MeasureJet<N>& f, double p, double p1, double p2) {
 
 /// p(f, h). @param p_f,..  partial derivatives at (f, h)
 template <int N>
-MeasureJet<N> compose(const MeasureJet<N>& f, const MeasureJet<N>& h, double p, double p_f, double p_h, double p_ff, double p_fh,
-               double p_hh) {
+MeasureJet<N> compose(const MeasureJet<N>& f, const MeasureJet<N>& h, double p, double p_f, double p_h, double p_ff,
+                      double p_fh, double p_hh) {
   MeasureJet<N> result;
   result.value = p;
   result.gradient = p_f * f.gradient + p_h * h.gradient;
   const typename MeasureJet<N>::Vector by_f = p_ff * f.gradient + p_fh * h.gradient,
-                                by_h = p_fh * f.gradient + p_hh * h.gradient;
+                                       by_h = p_fh * f.gradient + p_hh * h.gradient;
   result.second.noalias() = by_f * f.gradient.transpose();
   result.second.noalias() += by_h * h.gradient.transpose();
   result.second += p_f * f.second + p_h * h.second;

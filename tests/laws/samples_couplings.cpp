@@ -13,20 +13,20 @@ Sample coupling(const std::string& type, const std::string& variant, const std::
                 std::vector<BadValue> bad) {
   bad.push_back({"joints", "[one]", "expected"});
   Sample sample{Section::joints, type, variant,
-          "nodes:\n"
-          "  carrier: {position: [0.3, 0.1, -0.2], rotation_vector: [0.3, -0.5, 0.8]}\n"
-          "  a: {position: [1.1, 0.5, 0.4], rotation_vector: [-0.7, 0.2, 0.4]}\n"
-          "  b: {position: [-0.4, 0.6, 0.2], rotation_vector: [0.1, 0.9, 0.4]}\n"
-          "  c: {position: [-0.1, -0.6, 0.5], rotation_vector: [0.5, 0.2, -0.4]}\n"
-          "joints:\n"
-          "  it: {type: " +
-              type + ", " + keys +
-              "}\n"
-              "  one: {type: hinge, nodes: [carrier, a], axis: [1, 2, 3]}\n"
-              "  two: {type: cylindrical, nodes: [carrier, b], axis: [-1, 2, 1]}\n"
-              "  three: {type: hinge, nodes: [a, c], axis: [0.3, -1, 1]}\n"
-              "  ball: {type: spherical, nodes: [a, c]}\n",
-          std::move(bad)};
+                "nodes:\n"
+                "  carrier: {position: [0.3, 0.1, -0.2], rotation_vector: [0.3, -0.5, 0.8]}\n"
+                "  a: {position: [1.1, 0.5, 0.4], rotation_vector: [-0.7, 0.2, 0.4]}\n"
+                "  b: {position: [-0.4, 0.6, 0.2], rotation_vector: [0.1, 0.9, 0.4]}\n"
+                "  c: {position: [-0.1, -0.6, 0.5], rotation_vector: [0.5, 0.2, -0.4]}\n"
+                "joints:\n"
+                "  it: {type: " +
+                    type + ", " + keys +
+                    "}\n"
+                    "  one: {type: hinge, nodes: [carrier, a], axis: [1, 2, 3]}\n"
+                    "  two: {type: cylindrical, nodes: [carrier, b], axis: [-1, 2, 1]}\n"
+                    "  three: {type: hinge, nodes: [a, c], axis: [0.3, -1, 1]}\n"
+                    "  ball: {type: spherical, nodes: [a, c]}\n",
+                std::move(bad)};
   // Angles of frames whose axes point in quite different directions vary too fast for finite differences.
   sample.scales.deformation = 0.2;
   return sample;
@@ -74,7 +74,8 @@ std::vector<Sample> coupling_samples() {
                            {"joints", "[one, twoo]", "did you mean 'two'"},
                            {"joints", "[one, two.angel]", "did you mean 'angle'"},
                            {"joints", "[one, it]", "no joint between two nodes"}}));
-  list.push_back(coupling("gear", "teeth", "joints: [one, {joint: three, coordinate: angle}], teeth: [20, 31], internal: true",
+  list.push_back(coupling("gear", "teeth",
+                          "joints: [one, {joint: three, coordinate: angle}], teeth: [20, 31], internal: true",
                           {{"teeth", "[20]", "teeth"},
                            {"teeth", "[20, -3]", ""},
                            {"internal", "5", ""},
@@ -88,7 +89,8 @@ std::vector<Sample> coupling_samples() {
   list.push_back(coupling("differential", "", "joints: [one, two, three], ratio: 3.5", {{"ratio", "0", ""}}));
   list.push_back(coupling("rack_and_pinion", "", "joints: [three, two], radius: 0.3",
                           {{"radius", "0", "other than 0"}, {"joints", "[three, one]", "it has no displacement"}}));
-  list.push_back(mesh("rigid, helical", "carrier: carrier, axes: [0, 0, 1], radii: [0.4, 0.6], pressure_angle: 0.4, helix_angle: 0.3",
+  list.push_back(mesh("rigid, helical",
+                      "carrier: carrier, axes: [0, 0, 1], radii: [0.4, 0.6], pressure_angle: 0.4, helix_angle: 0.3",
                       {{"carrier", "a", "its own carrier"},
                        {"carrier", "d", "no node 'd'"},
                        {"radii", "[0.4, 0.5]", "1 m apart"},
@@ -96,27 +98,31 @@ std::vector<Sample> coupling_samples() {
                        {"pressure_angle", "-0.1", "0 or more"},
                        {"pressure_angle", "20", "[rad]"},
                        {"helix_angle", "30", "[rad]"}}));
-  list.push_back(mesh("rigid, crossed, on the ground", "axes: [[0.8, -0.6, 0], [0, 0, 1]], position: [0.18, 0.24, 0], helix_angle: 0.7",
+  list.push_back(mesh("rigid, crossed, on the ground",
+                      "axes: [[0.8, -0.6, 0], [0, 0, 1]], position: [0.18, 0.24, 0], helix_angle: 0.7",
                       {{"position", "[0, 0, 0]", "axis of the first wheel"},
                        {"position", "[0.3, 0.3, 0.1]", "common perpendicular"},
                        {"helix_angle", "[1]", ""}}));
-  list.push_back(mesh("elastic, internal",
-                      "carrier: carrier, axes: [0, 0, 1], radii: [1.5, 0.5], internal: true, stiffness: 5, damping: 0.4, backlash: 0",
-                      {{"carrier", "b", "its own carrier"},
-                       {"radii", "[1, 1]", "apart"},
-                       {"internal", "2", ""},
-                       {"stiffness", "0", ""},
-                       {"damping", "-1", ""},
-                       {"backlash", "-1", ""}}));
+  list.push_back(mesh(
+      "elastic, internal",
+      "carrier: carrier, axes: [0, 0, 1], radii: [1.5, 0.5], internal: true, stiffness: 5, damping: 0.4, backlash: 0",
+      {{"carrier", "b", "its own carrier"},
+       {"radii", "[1, 1]", "apart"},
+       {"internal", "2", ""},
+       {"stiffness", "0", ""},
+       {"damping", "-1", ""},
+       {"backlash", "-1", ""}}));
   Sample lift = coupling("cam", "lift", "joints: [one, two.displacement], lift: lift.csv",
                          {{"lift", "profile.csv", "the last value must repeat the first"},
                           {"lift", "none.csv", "no such file"},
                           {"joints", "[two.displacement, one]", "no angle"}});
-  Sample knife = coupling("cam", "knife edge", "joints: [one, three], profile: profile.csv, follower: roller, radius: 0, at: [0.1, 0.2, 0.3]",
-                          {{"profile", "lift.csv", "greater than 0"},
-                           {"follower", "round", ""},
-                           {"radius", "-1", ""},
-                           {"at", "[1, 2]", ""}});
+  Sample knife =
+      coupling("cam", "knife edge",
+               "joints: [one, three], profile: profile.csv, follower: roller, radius: 0, at: [0.1, 0.2, 0.3]",
+               {{"profile", "lift.csv", "greater than 0"},
+                {"follower", "round", ""},
+                {"radius", "-1", ""},
+                {"at", "[1, 2]", ""}});
   knife.scales.amplitude = 0.1;
   for (Sample* sample : {&lift, &knife}) {
     // Few knots, away from the reference: finite differences stay within a piece of the splines.
@@ -157,16 +163,19 @@ std::vector<Sample> coupling_samples() {
     more.insert(more.end(), bad_rope.begin(), bad_rope.end());
     return more;
   };
-  list.push_back(rope("belt", "crossed",
-                      "nodes: [a, b, c], radii: [0.3, -0.2, 0.4], axis: [1, 0.2, 3], EA: 6, pretension: 12, damping: 0.3",
-                      with({{"radii", "[0.3, 0, 0.1]", "other than 0"}, {"radii", "[0.3, 5, 0.1]", "overlap"}})));
-  list.push_back(rope("cable", "over a pulley onto a drum",
-                      "nodes: [a, b, c], radii: [0, -0.2, 0.4], axis: [1, 0.2, 3], at: [[0.1, 0.2, -0.1], ~, ~], EA: 6, "
-                      "pretension: 12, damping: 0.3",
-                      with({{"at", "[[0, 0, 0]]", "3 points"}})));
-  list.push_back(rope("cable", "gripped",
-                      "nodes: [a, b, c], radii: [0, -0.2, 0.4], axis: [1, 0.2, 3], grips: [b], EA: 6, pretension: 14, damping: 0.1",
-                      with({{"grips", "[d]", "no node 'd'"}, {"grips", "[ground]", "none of the cable"}})));
+  list.push_back(
+      rope("belt", "crossed",
+           "nodes: [a, b, c], radii: [0.3, -0.2, 0.4], axis: [1, 0.2, 3], EA: 6, pretension: 12, damping: 0.3",
+           with({{"radii", "[0.3, 0, 0.1]", "other than 0"}, {"radii", "[0.3, 5, 0.1]", "overlap"}})));
+  list.push_back(
+      rope("cable", "over a pulley onto a drum",
+           "nodes: [a, b, c], radii: [0, -0.2, 0.4], axis: [1, 0.2, 3], at: [[0.1, 0.2, -0.1], ~, ~], EA: 6, "
+           "pretension: 12, damping: 0.3",
+           with({{"at", "[[0, 0, 0]]", "3 points"}})));
+  list.push_back(rope(
+      "cable", "gripped",
+      "nodes: [a, b, c], radii: [0, -0.2, 0.4], axis: [1, 0.2, 3], grips: [b], EA: 6, pretension: 14, damping: 0.1",
+      with({{"grips", "[d]", "no node 'd'"}, {"grips", "[ground]", "none of the cable"}})));
   return list;
 }
 

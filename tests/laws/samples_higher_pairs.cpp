@@ -52,48 +52,45 @@ std::vector<Sample> higher_pair_samples() {
                          "springs"));
   list.push_back(higher_pair("constant_velocity", place + ", second_axis: [0, 1, -1]",
                              {bad_position, bad_axis, {"second_axis", "[1, 2, 3]", "parallel"}}));
-  list.push_back(variant(higher_pair("constant_velocity", "position: [0.5, 0.2, 0.1], axes: [[1, 2, 3], [0, 1, 1]]",
-                                     {bad_position, {"axes", "[1, 2, 3]", "two directions"}, {"axes", "[[1, 0, 0], [-1, 0, 0]]", "fold back"}}),
-                         "drawn bent"));
+  list.push_back(variant(
+      higher_pair(
+          "constant_velocity", "position: [0.5, 0.2, 0.1], axes: [[1, 2, 3], [0, 1, 1]]",
+          {bad_position, {"axes", "[1, 2, 3]", "two directions"}, {"axes", "[[1, 0, 0], [-1, 0, 0]]", "fold back"}}),
+      "drawn bent"));
   list.push_back(
       higher_pair("screw", place + ", pitch: 0.8", {bad_position, bad_axis, {"pitch", "0", "take a hinge"}}));
   list.push_back(higher_pair("distance", points + ", length: 0.9", {bad_points, short_length}));
-  list.push_back(variant(higher_pair("distance", points + ", length: \"0.9 + 0.3*t + 0.2*sin(t)\"",
-                                     {bad_points, {"length", "'x'", "x"}}),
-                         "of time"));
+  list.push_back(variant(
+      higher_pair("distance", points + ", length: \"0.9 + 0.3*t + 0.2*sin(t)\"", {bad_points, {"length", "'x'", "x"}}),
+      "of time"));
   list.push_back(higher_pair("spherical_spherical", points, {bad_points}));
   list.push_back(higher_pair("revolute_spherical", points + ", axis: [1, 2, 3], length: 0.9",
-                             {bad_points, bad_axis, short_length,
-                              {"length", "0.05", "along the axis"}}));
+                             {bad_points, bad_axis, short_length, {"length", "0.05", "along the axis"}}));
   list.push_back(higher_pair("point_on_line", "position: [0.5, 0.2, 0.1], line: [1, 2, 3], stiffness: 4",
                              {bad_position, {"line", "[0, 0, 0]", ""}, {"stiffness", "-4", ""}}));
-  list.push_back(higher_pair("point_on_plane",
-                             "position: [0.5, 0.2, 0.1], normal: [1, 2, 3], second_axis: [0, 1, -1]",
+  list.push_back(higher_pair("point_on_plane", "position: [0.5, 0.2, 0.1], normal: [1, 2, 3], second_axis: [0, 1, -1]",
                              {bad_position, {"normal", "[0, 0, 0]", ""}, {"second_axis", "[2, 4, 6]", "parallel"}}));
-  list.push_back(higher_pair("wheel", "normal: [0.1, 0.2, 1], axis: [1, 2, -0.2], radius: 0.5",
-                             {{"normal", "[0, 0, 0]", ""},
-                              {"axis", "[0.1, 0.2, 1]", "lies flat"},
-                              {"radius", "0", ""}}));
-  list.push_back(variant(higher_pair("wheel",
-                                     "normal: [0.1, 0.2, 1], axis: [1, 2, -0.2], radius: 0.5, position: [0, 0, -0.1]",
-                                     {{"position", "[0, 0, 9]", "below the plane"},
-                                      {"normal", "[1, 2]", ""},
-                                      {"axis", "[1, 2]", ""},
-                                      {"radius", "-1", ""}}),
-                         "on a plane through a point"));
+  list.push_back(
+      higher_pair("wheel", "normal: [0.1, 0.2, 1], axis: [1, 2, -0.2], radius: 0.5",
+                  {{"normal", "[0, 0, 0]", ""}, {"axis", "[0.1, 0.2, 1]", "lies flat"}, {"radius", "0", ""}}));
+  list.push_back(
+      variant(higher_pair("wheel", "normal: [0.1, 0.2, 1], axis: [1, 2, -0.2], radius: 0.5, position: [0, 0, -0.1]",
+                          {{"position", "[0, 0, 9]", "below the plane"},
+                           {"normal", "[1, 2]", ""},
+                           {"axis", "[1, 2]", ""},
+                           {"radius", "-1", ""}}),
+              "on a plane through a point"));
   for (const std::string friction : {"", ", friction: 0.7"}) {
-    std::vector<BadValue> bad = {{"normal", "[1, 2]", ""},
-                                 {"axis", "[1, 2]", ""},
-                                 {"radius", "-1", ""},
-                                 {"slip", "some", "none"},
-                                 {"slip.longitudinal", "0", ""},
-                                 {"slip.lateral", "-1", ""},
+    std::vector<BadValue> bad = {{"normal", "[1, 2]", ""}, {"axis", "[1, 2]", ""},         {"radius", "-1", ""},
+                                 {"slip", "some", "none"}, {"slip.longitudinal", "0", ""}, {"slip.lateral", "-1", ""},
                                  {"slip.speed", "0", ""}};
     if (!friction.empty()) bad.push_back({"slip.friction", "-1", ""});
-    Sample tyre = higher_pair("wheel",
-                              "normal: [0.1, 0.2, 1], axis: [1, 2, -0.2], radius: 0.5, slip: {longitudinal: 2, lateral: 1.5, "
-                              "speed: 0.8" + friction + "}",
-                              bad);
+    Sample tyre =
+        higher_pair("wheel",
+                    "normal: [0.1, 0.2, 1], axis: [1, 2, -0.2], radius: 0.5, slip: {longitudinal: 2, lateral: 1.5, "
+                    "speed: 0.8" +
+                        friction + "}",
+                    bad);
     tyre.scales.kinks_unloaded = true;  // at a push of zero
     list.push_back(variant(tyre, friction.empty() ? "linear tyre" : "saturating tyre"));
   }
@@ -108,34 +105,37 @@ std::vector<Sample> higher_pair_samples() {
                                 {"damping", "-1", ""}});
     // One piece, or five: finite differences stay within a piece, where the curve has all derivatives.
     curve.files = [closed](const std::string& folder) {
-      std::ofstream(folder + "/points.csv") << (closed ? "0.2,0.1,0\n1.0,0.3,0.3\n1.2,1.0,0.2\n0.5,1.4,0\n-0.1,0.9,-0.2\n"
-                                                       : "0.2,0.1,0\n1.0,0.3,0.3\n1.2,1.0,0.2\n0.5,1.4,0\n");
+      std::ofstream(folder + "/points.csv")
+          << (closed ? "0.2,0.1,0\n1.0,0.3,0.3\n1.2,1.0,0.2\n0.5,1.4,0\n-0.1,0.9,-0.2\n"
+                     : "0.2,0.1,0\n1.0,0.3,0.3\n1.2,1.0,0.2\n0.5,1.4,0\n");
     };
     curve.scales.amplitude = 0.2;
     list.push_back(variant(curve, closed ? "closed" : "open"));
   }
   for (const std::string orientation : {"free", "tangent"}) {
-    Sample slider{Section::joints,
-                  "slider",
-                  orientation,
-                  "nodes:\n"
-                  "  a: {position: [0.3, 0.1, -0.2], rotation_vector: [0.3, -0.5, 0.8]}\n"
-                  "  b: {position: [1.5, 0.7, 0.4], rotation_vector: [-0.7, 0.2, 0.4]}\n"
-                  "  s: {position: [0.7, 0.4, 0.1], rotation_vector: [0.2, 0.2, 0.4]}\n"
-                  "elements:\n"
-                  "  shaft: {type: beam, nodes: [a, b], elements: 4, arc_through: [1, 0.2, 0.4], section: {circle: 0.1, young: 1e6, "
-                  "poisson: 0.3, density: 100}}\n"
-                  "joints:\n"
-                  "  it: {type: slider, node: s, beam: shaft, at: [0.1, -0.05, 0.1], start: 0.38, ends: stop, orientation: " +
-                      orientation + ", stiffness: 3}\n",
-                  {{"node", "a", "slide on itself"},
-                   {"node", "c", "no node 'c'"},
-                   {"beam", "shft", "did you mean 'shaft'"},
-                   {"at", "[1, 2]", ""},
-                   {"start", "1.5", "from 0"},
-                   {"ends", "open", ""},
-                   {"orientation", "fixed", ""},
-                   {"stiffness", "-1", ""}}};
+    Sample slider{
+        Section::joints,
+        "slider",
+        orientation,
+        "nodes:\n"
+        "  a: {position: [0.3, 0.1, -0.2], rotation_vector: [0.3, -0.5, 0.8]}\n"
+        "  b: {position: [1.5, 0.7, 0.4], rotation_vector: [-0.7, 0.2, 0.4]}\n"
+        "  s: {position: [0.7, 0.4, 0.1], rotation_vector: [0.2, 0.2, 0.4]}\n"
+        "elements:\n"
+        "  shaft: {type: beam, nodes: [a, b], elements: 4, arc_through: [1, 0.2, 0.4], section: {circle: 0.1, young: "
+        "1e6, "
+        "poisson: 0.3, density: 100}}\n"
+        "joints:\n"
+        "  it: {type: slider, node: s, beam: shaft, at: [0.1, -0.05, 0.1], start: 0.38, ends: stop, orientation: " +
+            orientation + ", stiffness: 3}\n",
+        {{"node", "a", "slide on itself"},
+         {"node", "c", "no node 'c'"},
+         {"beam", "shft", "did you mean 'shaft'"},
+         {"at", "[1, 2]", ""},
+         {"start", "1.5", "from 0"},
+         {"ends", "open", ""},
+         {"orientation", "fixed", ""},
+         {"stiffness", "-1", ""}}};
     slider.scales.amplitude = 0.1;  // within one element: the curvature jumps from one to the next
     list.push_back(slider);
   }

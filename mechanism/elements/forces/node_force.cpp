@@ -50,8 +50,7 @@ NodeForce::Map12 NodeForce::of_force(const LocalState& state) const {
   const NodeState &first = state.node(0), &second = state.node(1);
   const Vector3 arm = second.x + second.R * c_ - first.x;
   Map12 map;
-  map << Matrix3::Identity(), first.R.transpose() * skew(arm), -Matrix3::Identity(),
-      -skew(c_) * second.R.transpose();
+  map << Matrix3::Identity(), first.R.transpose() * skew(arm), -Matrix3::Identity(), -skew(c_) * second.R.transpose();
   return map;
 }
 
@@ -79,8 +78,8 @@ void NodeForce::add_tangent(const LocalState& state, LocalTangent& tangent) cons
     if (!components_[k].reads_state()) continue;
     thread_local FormulaGradient gradient;
     components_[k].calc(state, {&t, 1}, gradient);
-    const Vector12 direction = state.environment().load_factor *
-                               (k < 3 ? by_force : by_moment).col(static_cast<Eigen::Index>(k % 3));
+    const Vector12 direction =
+        state.environment().load_factor * (k < 3 ? by_force : by_moment).col(static_cast<Eigen::Index>(k % 3));
     if (tangent.wants_K) tangent.K.dense().topRows<12>() += direction * gradient.by_state.position().transpose();
     if (tangent.wants_C) tangent.C.dense().topRows<12>() += direction * gradient.by_state.rate().transpose();
   }
@@ -104,7 +103,8 @@ void NodeForce::add_energy(const LocalState& state, Energy& energy) const {
   Vector3 f, mu;
   evaluate(state, f, mu);
   const Matrix3 A = axes(state);
-  energy.input -= (of_force(state) * (A * f) + of_moment(state) * (A * mu)).dot(pair_rate(state.node(0), state.node(1)));
+  energy.input -=
+      (of_force(state) * (A * f) + of_moment(state) * (A * mu)).dot(pair_rate(state.node(0), state.node(1)));
 }
 
 void NodeForce::add_break_points(std::vector<double>& times) const {
@@ -144,12 +144,13 @@ void read_node_force(const std::string& name, const YamlValue& entry, Model& mod
   const auto force = entry.find("force"), moment = entry.find("moment"), at = entry.find("at"),
              axes = entry.find("axes");
   if (!force && !moment) entry.fail("a node_force needs `force` or `moment`");
-  const std::string along = axes ? axes->word({"first", "second", "inertial"}, "whose axes the components are along") : "first";
-  auto made = std::make_unique<NodeForce>(name, std::array<int, 2>{nodes[0], nodes[1]},
-                                          at ? at->vector3() : Vector3::Zero(),
-                                          along == "first"    ? NodeForce::Axes::first
-                                          : along == "second" ? NodeForce::Axes::second
-                                                              : NodeForce::Axes::inertial);
+  const std::string along =
+      axes ? axes->word({"first", "second", "inertial"}, "whose axes the components are along") : "first";
+  auto made =
+      std::make_unique<NodeForce>(name, std::array<int, 2>{nodes[0], nodes[1]}, at ? at->vector3() : Vector3::Zero(),
+                                  along == "first"    ? NodeForce::Axes::first
+                                  : along == "second" ? NodeForce::Axes::second
+                                                      : NodeForce::Axes::inertial);
   model.when_read(Model::Stage::formulas, [added = made.get(), force, moment, &model] {
     if (force) added->read(*force, false, model);
     if (moment) added->read(*moment, true, model);

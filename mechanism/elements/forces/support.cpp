@@ -20,7 +20,8 @@ void Support::gather(const State& state, const Slots& slots, const Eigen::Ref<co
   for (std::size_t k = 0; k < slots.nodes.size(); ++k) {
     const int node = slots.nodes[k];
     if (node != node_ && std::find(carried_.begin(), carried_.end(), node) == carried_.end()) continue;
-    const NodeState &here = state.nodes[static_cast<std::size_t>(node)], &held = state.nodes[static_cast<std::size_t>(node_)];
+    const NodeState &here = state.nodes[static_cast<std::size_t>(node)],
+                    &held = state.nodes[static_cast<std::size_t>(node_)];
     const Vector3 force = r.segment<3>(begin + 6 * static_cast<int>(k)),
                   moment = here.R * r.segment<3>(begin + 6 * static_cast<int>(k) + 3);
     sum.head<3>() += force;
@@ -51,7 +52,10 @@ Vector6 Support::reaction(const LocalState& state) const {
 }
 
 std::vector<OutputField> Support::output_fields() const {
-  return {{"reaction", {6}, "N, N m", "force and moment about the node that its support exerts on it, inertial components"}};
+  return {{"reaction",
+           {6},
+           "N, N m",
+           "force and moment about the node that its support exerts on it, inertial components"}};
 }
 
 void Support::write_output(const LocalState& state, double* values) const {
@@ -70,7 +74,8 @@ const std::set<int>& nodes_of(const Component& component, std::map<const Compone
   std::set<int> nodes;
   if (!declaration.passive) nodes.insert(declaration.nodes.begin(), declaration.nodes.end());
   for (const Component* other : declaration.references)
-    if (const std::set<int>& more = nodes_of(*other, known); !declaration.passive) nodes.insert(more.begin(), more.end());
+    if (const std::set<int>& more = nodes_of(*other, known); !declaration.passive)
+      nodes.insert(more.begin(), more.end());
   return known.emplace(&component, std::move(nodes)).first->second;
 }
 

@@ -1,9 +1,9 @@
 // What holds a node: the force and moment of its support.
 //
-// Nodes that are fixed or moved along a prescribed way are eliminated; what the support does follows from the equilibrium
-// of the node afterwards. Of all that acts on the node, and on nodes that it carries rigidly, the residuals (inertia +
-// internal - external forces, reactions of joints) are added up: the support exerts their sum. Along directions that are
-// free the sum is zero.
+// Nodes that are fixed or moved along a prescribed way are eliminated; what the support does follows from the
+// equilibrium of the node afterwards. Of all that acts on the node, and on nodes that it carries rigidly, the residuals
+// (inertia + internal - external forces, reactions of joints) are added up: the support exerts their sum. Along
+// directions that are free the sum is zero.
 #pragma once
 
 #include "mechanism/model/model.hpp"
@@ -26,7 +26,8 @@ class Support final : public Component {
 
  private:
   /// Adds the rows of the held and carried nodes in a local vector.
-  void gather(const State& state, const Slots& slots, const Eigen::Ref<const VectorX>& r, int begin, Vector6& sum) const;
+  void gather(const State& state, const Slots& slots, const Eigen::Ref<const VectorX>& r, int begin,
+              Vector6& sum) const;
   int node_;
   std::vector<int> carried_;
   std::vector<const Component*> acting_;

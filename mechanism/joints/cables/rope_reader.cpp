@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/joints/cables/rope_section.hpp"
+#include "mechanism/math/axes_along.hpp"
 #include "mechanism/model/model.hpp"
 #include "mechanism/reading/names.hpp"
 #include "reduce/common/yaml_file.hpp"
@@ -34,22 +35,20 @@ std::vector<Vector3> read_places(const YamlValue& entry, std::size_t count) {
 
 RopePath read_path(const YamlValue& entry, const Model& model) {
   const YamlValue names = entry.at("nodes");
-  if (!names.is_sequence() || names.size() < 2) names.fail("expected two or more nodes, in the order in which the rope passes");
+  if (!names.is_sequence() || names.size() < 2)
+    names.fail("expected two or more nodes, in the order in which the rope passes");
   const std::size_t count = names.size();
   RopePath path;
   const Eigen::VectorXd radii = entry.at("radii").vector();
   if (static_cast<std::size_t>(radii.size()) != count)
-    entry.at("radii").fail(fmt::format("expected {} radii, one for each node (0: a point); a pulley that the rope turns "
-                                       "backwards about `axis` has a negative one",
-                                       count));
+    entry.at("radii").fail(
+        fmt::format("expected {} radii, one for each node (0: a point); a pulley that the rope turns "
+                    "backwards about `axis` has a negative one",
+                    count));
   const bool turns = (radii.array() != 0).any();
   const Vector3 axis = turns || entry.has("axis") ? Vector3(entry.at("axis").direction()) : Vector3::UnitZ();
   const std::vector<Vector3> places = read_places(entry, count);
-  Eigen::Index least = 0;
-  axis.cwiseAbs().minCoeff(&least);
-  const Vector3 x = axis.cross(Vector3::Unit(least)).normalized();
-  Matrix3 axes;
-  axes << x, axis.cross(x), axis;
+  const Matrix3 axes = axes_along(axis);
   for (std::size_t k = 0; k < count; ++k) {
     const int node = node_named_by(names.at(k), model);
     if (k > 0 && node == path.nodes.back()) names.at(k).fail("follows itself: a span has two different nodes");
@@ -74,8 +73,9 @@ RopeMaterial read_material(const YamlValue& entry) {
 }
 
 /// Adds the section from one place of the path to another.
-void add_section(const char* type, const std::string& name, const RopePath& path, const std::vector<std::size_t>& places,
-                 const RopeMaterial& material, const YamlValue& entry, Recorded recorded, Model& model) {
+void add_section(const char* type, const std::string& name, const RopePath& path,
+                 const std::vector<std::size_t>& places, const RopeMaterial& material, const YamlValue& entry,
+                 Recorded recorded, Model& model) {
   RopePath part;
   for (const std::size_t k : places) {
     part.nodes.push_back(path.nodes[k]);
@@ -98,7 +98,8 @@ void read_belt(const std::string& name, const YamlValue& entry, Model& model) {
   const RopePath path = read_path(entry, model);
   const RopeMaterial material = read_material(entry);
   const std::size_t count = path.nodes.size();
-  if (path.nodes.front() == path.nodes.back()) entry.at("nodes").fail("a belt closes by itself: name its first node once");
+  if (path.nodes.front() == path.nodes.back())
+    entry.at("nodes").fail("a belt closes by itself: name its first node once");
   for (std::size_t k = 0; k < count; ++k)
     if (path.pulleys[k].radius == 0) entry.at("radii").fail("a belt runs over pulleys: radii other than 0");
   for (std::size_t k = 0; k < count; ++k)

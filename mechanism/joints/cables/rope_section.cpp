@@ -44,8 +44,8 @@ RopeSection::RopeSection(std::string type, std::string name, std::vector<int> no
     const NodeState first = at(s), second = at(s + 1);
     const double way = (second.x + second.R * to.on_node.x - first.x - first.R * from.on_node.x).norm();
     if (way <= std::abs(to.radius - from.radius))
-      throw std::domain_error(fmt::format("there is no straight way from '{}' to '{}': the pulleys overlap", names_[s],
-                                          names_[s + 1]));
+      throw std::domain_error(
+          fmt::format("there is no straight way from '{}' to '{}': the pulleys overlap", names_[s], names_[s + 1]));
     const SpanMeasures span = measure_span(first, second, from, to);
     length += span.length.value;
     drawn_turns_.insert(drawn_turns_.end(), {span.first_turn.value, span.second_turn.value});
@@ -98,9 +98,9 @@ void RopeSection::calc_stretch(const LocalState& state, Stretch& stretch) const 
     const Eigen::Index at = per_span * k;
     first_turn.value = drawn_turns_[2 * s] + beyond_drawn(first_turn, drawn_turns_[2 * s], memory.segment<2>(at),
                                                           time_before, first_turn.rate(v), state);
-    second_turn.value = drawn_turns_[2 * s + 1] + beyond_drawn(second_turn, drawn_turns_[2 * s + 1],
-                                                               memory.segment<2>(at + 2), time_before,
-                                                               second_turn.rate(v), state);
+    second_turn.value =
+        drawn_turns_[2 * s + 1] + beyond_drawn(second_turn, drawn_turns_[2 * s + 1], memory.segment<2>(at + 2),
+                                               time_before, second_turn.rate(v), state);
     const PairMeasure e = span.length + from.radius * first_turn - to.radius * second_turn;
     stretch.E += e.value;
     stretch.E_rate += e.rate(v);
@@ -128,7 +128,8 @@ void RopeSection::calc_stretch(const LocalState& state, Stretch& stretch) const 
 void RopeSection::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
   thread_local Stretch stretch;
   calc_stretch(state, stretch);
-  if (stretch.taut || std::isnan(stretch.tension)) r.head(stretch.E_gradient.size()) += stretch.tension * stretch.E_gradient;
+  if (stretch.taut || std::isnan(stretch.tension))
+    r.head(stretch.E_gradient.size()) += stretch.tension * stretch.E_gradient;
 }
 
 // dT = EA/N (dE + tau dEdot) + T/N (dE - dL),   N = L - E
@@ -226,10 +227,9 @@ void RopeSection::describe(const LocalState& state, Description& description) co
   thread_local Stretch s;
   calc_stretch(state, s);
   description.add(fmt::format("from '{}' to '{}': length {:.6g} m, stiffness {:.6g} N/m, tension {:.6g} N",
-                                   names_.front(), names_.back(), s.L, material_.EA / (s.L - s.E), s.tension));
+                              names_.front(), names_.back(), s.L, material_.EA / (s.L - s.E), s.tension));
   if (names_.size() > 2)
-    description.add(
-        fmt::format("slides on {}", fmt::join(names_.begin() + 1, names_.end() - 1, ", ")));
+    description.add(fmt::format("slides on {}", fmt::join(names_.begin() + 1, names_.end() - 1, ", ")));
 }
 
 namespace {

@@ -19,8 +19,8 @@
 namespace bielle::mechanism {
 
 struct RopeMaterial {
-  double EA;            ///< [N]
-  double damping = 0;   ///< tau: time of its Kelvin-Voigt damping [s]
+  double EA;              ///< [N]
+  double damping = 0;     ///< tau: time of its Kelvin-Voigt damping [s]
   double pretension = 0;  ///< as drawn [N]
 };
 
@@ -66,10 +66,10 @@ class RopeSection final : public Component {
   std::vector<std::string> names_;
   std::vector<Pulley> pulleys_;
   RopeMaterial material_;
-  double E_drawn_ = 0;      ///< by the pretension
-  double spans_drawn_ = 0;  ///< sum of l as drawn
-  double turns_drawn_ = 0;  ///< sum of rho_i (alpha_i + gamma) - rho_j (alpha_j + gamma) as drawn
-  double arcs_drawn_ = 0;   ///< length on the pulleys between the ends, as drawn
+  double E_drawn_ = 0;               ///< by the pretension
+  double spans_drawn_ = 0;           ///< sum of l as drawn
+  double turns_drawn_ = 0;           ///< sum of rho_i (alpha_i + gamma) - rho_j (alpha_j + gamma) as drawn
+  double arcs_drawn_ = 0;            ///< length on the pulleys between the ends, as drawn
   std::vector<double> drawn_turns_;  ///< alpha + gamma at both ends of each span as drawn
 };
 

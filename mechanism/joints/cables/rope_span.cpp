@@ -19,8 +19,8 @@ SpanMeasures measure_span(const NodeState& first, const NodeState& second, const
   span.length = sqrt(square(d[0]) + square(d[1]) + square(d[2]) - difference * difference);
   const double l = span.length.value, squared = l * l + difference * difference;
   // gamma = atan2(difference, l): d gamma/dl = -difference/(l^2 + difference^2)
-  const PairMeasure gamma = compose(span.length, std::atan2(difference, l), -difference / squared,
-                                    2 * l * difference / (squared * squared));
+  const PairMeasure gamma =
+      compose(span.length, std::atan2(difference, l), -difference / squared, 2 * l * difference / (squared * squared));
   if (from.radius != 0) span.first_turn = atan2(d[1], d[0]) + gamma;
   if (to.radius != 0) {
     // The way from j to i, reversed.

@@ -5,10 +5,11 @@
 // d = p_j - p_i and the tangent's direction u, the rope touches pulley k at p_k + rho_k u x z, so that
 //     l = sqrt(d . d - (rho_j - rho_i)^2),   angle from d to u about z:  gamma = atan2(rho_i - rho_j, l).
 // alpha_k, the angle of d about z_k in the axes of pulley k, counts over turns how the tangent point runs round the
-// pulley's material. Rope that has been wound off i and not onto j since the start makes the span longer without strain:
+// pulley's material. Rope that has been wound off i and not onto j since the start makes the span longer without
+// strain:
 //     e = l + rho_i (alpha_i + gamma) - rho_j (alpha_j + gamma) - (the same as drawn)
-// is the elongation of a span that slips on neither. Its gradient is the wrench of a unit tension on both bodies. Axes of
-// pulleys are parallel, or nearly: an offset along them counts in l, not in the angles.
+// is the elongation of a span that slips on neither. Its gradient is the wrench of a unit tension on both bodies. Axes
+// of pulleys are parallel, or nearly: an offset along them counts in l, not in the angles.
 #pragma once
 
 #include "mechanism/measures/coordinate.hpp"
@@ -23,7 +24,7 @@ struct Pulley {
 
 /// A span at a state, along the increments of its two nodes.
 struct SpanMeasures {
-  PairMeasure length;               ///< l [m]
+  PairMeasure length;                   ///< l [m]
   PairMeasure first_turn, second_turn;  ///< alpha_i + gamma, alpha_j + gamma; alpha in (-pi, pi] [rad]
 };
 

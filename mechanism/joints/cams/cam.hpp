@@ -2,12 +2,13 @@
 //
 //   roller   the centre of a roller of the follower's node moves on the pitch curve of the contour: PointOnCurve in the
 //            plane of the cam
-//   flat     a flat face of the follower touches the contour: m . (p_F - x_A) + H(psi) = 0, m the direction from the cam
+//   flat     a flat face of the follower touches the contour: m . (p_F - x_A) + H(psi) = 0, m the direction from the
+//   cam
 //            towards the face, p_F a point of the face, psi the angle of m in the cam's frame
 //   lift     the follower's coordinate is a periodic function of the camshaft's angle, c_2 = f(c_1)
-// The contour and f ride on the second node of the camshaft's joint, about its axis (z of its frame), angles from x of the
-// frame as drawn. Contact forces load the bearings of roller and flat followers. Contact only pushes: where it would have
-// to pull, an event is noted ("lifts off").
+// The contour and f ride on the second node of the camshaft's joint, about its axis (z of its frame), angles from x of
+// the frame as drawn. Contact forces load the bearings of roller and flat followers. Contact only pushes: where it
+// would have to pull, an event is noted ("lifts off").
 #pragma once
 
 #include "mechanism/joints/couplings/coordinate_named_by.hpp"

@@ -12,13 +12,16 @@ namespace {
 MatrixX cartesian(const Eigen::Ref<const MatrixX>& polar, const std::string& name) {
   MatrixX points(polar.rows(), 3);
   for (Eigen::Index k = 0; k < polar.rows(); ++k) {
-    if (!(polar(k, 1) > 0)) throw InputError(fmt::format("{}: a cam's radius is greater than 0, row {} has {}", name, k + 1, polar(k, 1)));
+    if (!(polar(k, 1) > 0))
+      throw InputError(fmt::format("{}: a cam's radius is greater than 0, row {} has {}", name, k + 1, polar(k, 1)));
     if (k > 0 && !(polar(k, 0) > polar(k - 1, 0)))
-      throw InputError(fmt::format("{}: the angles must ascend, but {} follows {}", name, polar(k, 0), polar(k - 1, 0)));
+      throw InputError(
+          fmt::format("{}: the angles must ascend, but {} follows {}", name, polar(k, 0), polar(k - 1, 0)));
     points.row(k) << polar(k, 1) * std::cos(polar(k, 0)), polar(k, 1) * std::sin(polar(k, 0)), 0;
   }
   if (polar.rows() > 0 && polar(polar.rows() - 1, 0) - polar(0, 0) >= 2 * M_PI * (1 - 1e-9))
-    throw InputError(fmt::format("{}: the angles of a contour run over less than a turn (2 pi); the first point is not repeated", name));
+    throw InputError(fmt::format(
+        "{}: the angles of a contour run over less than a turn (2 pi); the first point is not repeated", name));
   return points;
 }
 
@@ -45,8 +48,9 @@ Curve CamContour::pitch_curve(double radius) const {
   MatrixX points(static_cast<Eigen::Index>(samples.size()), 3);
   for (std::size_t k = 0; k < samples.size(); ++k) {
     if (1 + radius * samples[k].curvature <= 0)
-      throw InputError(fmt::format("{}: a roller of {:.6g} m does not fit into the hollow at ({:.6g}, {:.6g}) m, whose radius is {:.6g} m",
-                                   name_, radius, samples[k].point.x(), samples[k].point.y(), -1 / samples[k].curvature));
+      throw InputError(fmt::format(
+          "{}: a roller of {:.6g} m does not fit into the hollow at ({:.6g}, {:.6g}) m, whose radius is {:.6g} m",
+          name_, radius, samples[k].point.x(), samples[k].point.y(), -1 / samples[k].curvature));
     points.row(static_cast<Eigen::Index>(k)) = (samples[k].point + radius * samples[k].normal).transpose();
   }
   return {points, true, name_};
@@ -59,9 +63,10 @@ Interpolation CamContour::support() const {
   for (std::size_t k = 0; k < samples.size(); ++k) {
     const Sample& each = samples[k];
     if (!(each.curvature > 0))
-      throw InputError(fmt::format("{}: the contour is hollow at ({:.6g}, {:.6g}) m: a flat follower does not reach it; "
-                                   "take a roller",
-                                   name_, each.point.x(), each.point.y()));
+      throw InputError(
+          fmt::format("{}: the contour is hollow at ({:.6g}, {:.6g}) m: a flat follower does not reach it; "
+                      "take a roller",
+                      name_, each.point.x(), each.point.y()));
     const auto row = static_cast<Eigen::Index>(k);
     psi[row] = std::atan2(each.normal.y(), each.normal.x());
     if (k > 0) psi[row] += 2 * M_PI * std::round((psi[row - 1] - psi[row]) / (2 * M_PI));

@@ -4,6 +4,7 @@
 #include "mechanism/joints/cams/cam.hpp"
 #include "mechanism/joints/cams/cam_contour.hpp"
 #include "mechanism/joints/pairs/point_on_curve.hpp"
+#include "mechanism/math/axes_along.hpp"
 #include "mechanism/model/model.hpp"
 #include "reduce/common/error.hpp"
 #include "reduce/common/table_file.hpp"
@@ -23,7 +24,6 @@ auto read_file(const YamlValue& value, const Read& read) {
     value.fail(error.what());
   }
 }
-
 
 /// @param on_follower  the follower's frame, in its node's axes
 JointFrames frames_of(const Joint& camshaft, const Joint& follower, const Frame& on_follower) {
@@ -72,21 +72,15 @@ void add_flat(const std::string& name, const YamlValue& entry, Model& model) {
               &follower = moved_by(entry.at("joints").at(1), model);
   const Frame& node = model.node(follower.frames().second).frame;
   const Vector3 normal = entry.at("normal").direction();
-  Eigen::Index least = 0;
-  normal.cwiseAbs().minCoeff(&least);
-  const Vector3 x = normal.cross(Vector3::Unit(least)).normalized();
   Frame face;
   if (const auto at = entry.find("at")) face.x = at->vector3();
-  Matrix3 axes;
-  axes << x, normal.cross(x), normal;
-  face.R = node.R.transpose() * axes;
+  face.R = node.R.transpose() * axes_along(normal);
   JointFrames frames = frames_of(camshaft, follower, face);
   const Frame cam = model.node(frames.first).frame * frames.on_first;
   if (std::abs(normal.dot(cam.R.col(2))) > 1e-6)
     entry.at("normal").fail("is not at right angles to the camshaft's axis");
-  Interpolation support = read_file(entry.at("profile"), [](const std::string& path) {
-    return CamContour(read_table(path, 2), path).support();
-  });
+  Interpolation support = read_file(
+      entry.at("profile"), [](const std::string& path) { return CamContour(read_table(path, 2), path).support(); });
   model.add(std::make_unique<FlatFollower>(name, std::move(frames), std::move(support), model),
             Entry{Section::joints, name});
 }
@@ -98,7 +92,8 @@ void read_cam(const std::string& name, const YamlValue& entry, Model& model) {
   const YamlValue joints = entry.at("joints");
   if (!joints.is_sequence() || joints.size() != 2) joints.fail("expected two joints: [camshaft, follower]");
   if (entry.has("lift") == entry.has("profile"))
-    entry.fail("a cam takes either `profile`, its contour, or `lift`, the follower's coordinate over the camshaft's angle");
+    entry.fail(
+        "a cam takes either `profile`, its contour, or `lift`, the follower's coordinate over the camshaft's angle");
   const bool lift = entry.has("lift");
   bool flat = false;
   if (lift) {

@@ -88,8 +88,9 @@ void LinearCoupling::write_output(const LocalState& state, double* values) const
 void LinearCoupling::describe(const LocalState& /*state*/, Description& description) const {
   std::string sum;
   for (const Term& term : terms_)
-    sum += fmt::format("{}{:.10g} '{}'.{}", sum.empty() ? (term.factor < 0 ? "-" : "") : (term.factor < 0 ? " - " : " + "),
-                       std::abs(term.factor), term.joint->name(), term.description().name);
+    sum +=
+        fmt::format("{}{:.10g} '{}'.{}", sum.empty() ? (term.factor < 0 ? "-" : "") : (term.factor < 0 ? " - " : " + "),
+                    std::abs(term.factor), term.joint->name(), term.description().name);
   description.add(sum + " = 0");
 }
 
@@ -139,7 +140,8 @@ double ratio_of_gear(const YamlValue& entry) {
   if (entry.has("ratio") == entry.has("teeth"))
     entry.fail("a gear takes `ratio` (rate of the second joint over that of the first), or `teeth`, or `factors`");
   if (entry.has("ratio")) {
-    if (const auto internal = entry.find("internal")) internal->fail("is a key of `teeth`: the sign of `ratio` says it");
+    if (const auto internal = entry.find("internal"))
+      internal->fail("is a key of `teeth`: the sign of `ratio` says it");
     return other_than_zero(entry.at("ratio"));
   }
   const Eigen::VectorXd teeth = entry.at("teeth").positive_numbers(2, "[teeth of the first wheel, of the second]");
@@ -172,9 +174,8 @@ void read_differential(const std::string& name, const YamlValue& entry, Model& m
   entry.check_keys({"type", "joints", "ratio"}, "a differential");
   const auto given = entry.find("ratio");
   const double ratio = given ? other_than_zero(*given) : 1;
-  connect_later(add_coupling("differential", name, model),
-                joints_of(entry, 3, "three joints: [input, left, right]"), {1, -ratio / 2, -ratio / 2},
-                {Kind::angle, Kind::angle, Kind::angle}, model);
+  connect_later(add_coupling("differential", name, model), joints_of(entry, 3, "three joints: [input, left, right]"),
+                {1, -ratio / 2, -ratio / 2}, {Kind::angle, Kind::angle, Kind::angle}, model);
 }
 
 void read_rack_and_pinion(const std::string& name, const YamlValue& entry, Model& model) {

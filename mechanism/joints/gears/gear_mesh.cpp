@@ -21,8 +21,9 @@ void GearMesh::declare(Declaration& declaration) const {
 void GearMesh::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const { contact_.accept(state, memory); }
 
 std::vector<OutputField> GearMesh::output_fields() const {
-  return {{"approach", {}, "m", "how far the teeth of wheel 1 have moved ahead of those of wheel 2, in the pitch plane"},
-          {"force", {2}, "N", "normal forces of the flanks that drive wheel 2 forwards and backwards"}};
+  return {
+      {"approach", {}, "m", "how far the teeth of wheel 1 have moved ahead of those of wheel 2, in the pitch plane"},
+      {"force", {2}, "N", "normal forces of the flanks that drive wheel 2 forwards and backwards"}};
 }
 
 void GearMesh::write_output(const LocalState& state, double* values) const {
@@ -37,8 +38,8 @@ void GearMesh::describe(const LocalState& state, Description& description) const
   const NodeState& carrier = state.node(0);
   description.add(fmt::format("wheels '{}' and '{}' on '{}'", names_[1], names_[2], names_[0]));
   description.add(fmt::format("teeth meet at {} m", format_vector(carrier.x + carrier.R * g.P)));
-  description.add(fmt::format("rate of '{}' over that of '{}' {:.10g}", names_[2], names_[1],
-                              contact_.arm(0) / contact_.arm(1)));
+  description.add(
+      fmt::format("rate of '{}' over that of '{}' {:.10g}", names_[2], names_[1], contact_.arm(0) / contact_.arm(1)));
 }
 
 // -- rigid
@@ -118,9 +119,9 @@ ElasticGearMesh::ElasticGearMesh(std::string name, std::array<int, 3> nodes, std
 void ElasticGearMesh::declare(Declaration& declaration) const {
   GearMesh::declare(declaration);
   declaration.damping = spring_.damping > 0;
-  declaration.kinks = true;                                               // where a damper lets go
+  declaration.kinks = true;  // where a damper lets go
   const double touch = spring_.backlash == 0 ? 1 : 0;
-  declaration.memory.insert(declaration.memory.end(), {touch, touch});    // which flanks touch
+  declaration.memory.insert(declaration.memory.end(), {touch, touch});  // which flanks touch
   declaration.crossings = {{"teeth touch, forwards"}, {"teeth touch, backwards"}};
 }
 

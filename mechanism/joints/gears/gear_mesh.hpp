@@ -1,13 +1,16 @@
 // A pair of toothed wheels in mesh whose tooth forces load the bearings.
 //
 // Two forms, with the geometry of tooth_contact.hpp:
-//   rigid (no `stiffness`)   u_1(t) - u_2(t) = 0, as pitch surfaces that roll on each other. Its multiplier lambda is the
-//                            force of wheel 1 on wheel 2 along t [N]. The flank that carries is inclined: the teeth push
-//                            each other apart along nu by |lambda| tan(alpha) (GearSeparation, which reads the reaction)
-//   elastic                  a flank of normal n is in contact where p = u_1(n) - u_2(n) - backlash/2 > 0 and pushes with
+//   rigid (no `stiffness`)   u_1(t) - u_2(t) = 0, as pitch surfaces that roll on each other. Its multiplier lambda is
+//   the
+//                            force of wheel 1 on wheel 2 along t [N]. The flank that carries is inclined: the teeth
+//                            push each other apart along nu by |lambda| tan(alpha) (GearSeparation, which reads the
+//                            reaction)
+//   elastic                  a flank of normal n is in contact where p = u_1(n) - u_2(n) - backlash/2 > 0 and pushes
+//   with
 //                            max(0, k p + d pdot): spring and damper of the teeth, and free play between the flanks
-// Contact of a flank begins and ends where p changes its sign: steps end there. Both flanks may touch (bearings that press
-// the wheels together).
+// Contact of a flank begins and ends where p changes its sign: steps end there. Both flanks may touch (bearings that
+// press the wheels together).
 #pragma once
 
 #include "mechanism/joints/gears/tooth_contact.hpp"

@@ -38,7 +38,8 @@ Vector3 pitch_point_of_radii(const YamlValue& given, const DrawnWheels& wheels, 
   const Vector3 across = way - z * z.dot(way);
   const double distance = across.norm(), wanted = internal ? std::abs(radii[0] - radii[1]) : radii[0] + radii[1];
   if (std::abs(distance - wanted) > fit * (radii[0] + radii[1]))
-    given.fail(fmt::format("make a distance of axes of {:.9g} m; the wheels are drawn {:.9g} m apart", wanted, distance));
+    given.fail(
+        fmt::format("make a distance of axes of {:.9g} m; the wheels are drawn {:.9g} m apart", wanted, distance));
   if (wanted <= fit * (radii[0] + radii[1])) given.fail("of an internal gear must differ");
   const double towards = internal && radii[0] < radii[1] ? -1 : 1;
   return wheels.centre[0] + 0.5 * z * z.dot(way) + towards * radii[0] * across / distance;
@@ -46,8 +47,10 @@ Vector3 pitch_point_of_radii(const YamlValue& given, const DrawnWheels& wheels, 
 
 Vector3 read_pitch_point(const YamlValue& entry, const DrawnWheels& wheels, bool internal) {
   if (entry.has("radii") == entry.has("position"))
-    entry.fail("a gear mesh takes either `radii` (of wheels on parallel axes) or `position`, the point where the teeth meet");
-  return entry.has("radii") ? pitch_point_of_radii(entry.at("radii"), wheels, internal) : entry.at("position").vector3();
+    entry.fail(
+        "a gear mesh takes either `radii` (of wheels on parallel axes) or `position`, the point where the teeth meet");
+  return entry.has("radii") ? pitch_point_of_radii(entry.at("radii"), wheels, internal)
+                            : entry.at("position").vector3();
 }
 
 double read_angle_below_quarter(const YamlValue& entry, const char* key, double usual) {
@@ -88,8 +91,8 @@ ToothGeometry read_geometry(const YamlValue& entry, const std::array<int, 3>& no
 }  // namespace
 
 void read_gear_mesh(const std::string& name, const YamlValue& entry, Model& model) {
-  entry.check_keys({"type", "nodes", "carrier", "axes", "radii", "position", "internal", "pressure_angle", "helix_angle",
-                    "stiffness", "damping", "backlash"},
+  entry.check_keys({"type", "nodes", "carrier", "axes", "radii", "position", "internal", "pressure_angle",
+                    "helix_angle", "stiffness", "damping", "backlash"},
                    "a gear mesh");
   const std::vector<int> wheels = nodes_named_by(entry.at("nodes"), 2, model);
   const auto given = entry.find("carrier");
@@ -97,7 +100,8 @@ void read_gear_mesh(const std::string& name, const YamlValue& entry, Model& mode
   if (wheels[0] == wheels[1]) entry.at("nodes").fail("a gear mesh needs two different wheels");
   for (const int wheel : wheels)
     if (wheel == nodes[0]) (given ? *given : entry.at("nodes")).fail("a wheel cannot be its own carrier");
-  const std::array<std::string, 3> names{model.node(nodes[0]).name, model.node(nodes[1]).name, model.node(nodes[2]).name};
+  const std::array<std::string, 3> names{model.node(nodes[0]).name, model.node(nodes[1]).name,
+                                         model.node(nodes[2]).name};
   const ToothGeometry geometry = read_geometry(entry, nodes, model);
   const Entry own{Section::joints, name};
   if (const auto stiffness = entry.find("stiffness")) {

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "mechanism/math/axes_along.hpp"
 #include "mechanism/measures/turns.hpp"
 
 namespace bielle::mechanism {
@@ -21,19 +22,10 @@ MeshMeasure in_mesh(const PairMeasure& pair, int wheel) {
   return m;
 }
 
-Matrix3 frame_about(const Vector3& z) {
-  Eigen::Index least = 0;
-  z.cwiseAbs().minCoeff(&least);
-  const Vector3 x = z.cross(Vector3::Unit(least)).normalized();
-  Matrix3 axes;
-  axes << x, z.cross(x), z;
-  return axes;
-}
-
 }  // namespace
 
 ToothContact::ToothContact(const ToothGeometry& geometry)
-    : geometry_(geometry), on_carrier_{frame_about(geometry.axis[0]), frame_about(geometry.axis[1])} {
+    : geometry_(geometry), on_carrier_{axes_along(geometry.axis[0]), axes_along(geometry.axis[1])} {
   // The wheels' frames are given by where they are drawn: in the axes of the wheels, those of the carrier.
   for (std::size_t k = 0; k < 2; ++k) geometry_.wheel[k] = geometry_.wheel[k] * on_carrier_[k];
 }

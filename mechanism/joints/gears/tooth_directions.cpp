@@ -26,7 +26,8 @@ void set_tooth_directions(ToothGeometry& geometry, double helix, bool inside) {
     const Vector3 arm = geometry.P - geometry.centre[k];
     v[k] = geometry.axis[k].cross(arm);
     if (v[k].norm() <= 1e-9 * arm.norm() || arm.norm() == 0)
-      throw std::domain_error(k == 0 ? "it lies on the axis of the first wheel" : "it lies on the axis of the second wheel");
+      throw std::domain_error(k == 0 ? "it lies on the axis of the first wheel"
+                                     : "it lies on the axis of the second wheel");
   }
   const Vector3 &z_1 = geometry.axis[0], along = v[0].normalized();
   Vector3 g;

@@ -3,9 +3,9 @@
 // At the pitch point P the pitch surfaces move with v_i = z_i x (P - c_i) per unit of rate. Where both directions agree
 // up to sign (parallel axes, axes that meet in a point) the pitch surfaces roll on each other, along the line
 //     g = z_1/a_1 - z_2/a_2,   a_i = v_i . v_1/|v_1|,   the axis of their relative rotation,
-// and the pitch plane holds v_1 and g. Where they cross (worms, screw gears) the pitch plane holds v_1 and v_2. The tooth
-// trace is turned by the helix angle beta from g (in crossed gears: from z_1 in the pitch plane); a right-handed helix
-// on wheel 1 has beta > 0. With v^ = v_1/|v_1| and g^ the unit vector along g on the side of z_1:
+// and the pitch plane holds v_1 and g. Where they cross (worms, screw gears) the pitch plane holds v_1 and v_2. The
+// tooth trace is turned by the helix angle beta from g (in crossed gears: from z_1 in the pitch plane); a right-handed
+// helix on wheel 1 has beta > 0. With v^ = v_1/|v_1| and g^ the unit vector along g on the side of z_1:
 //     t = cos(beta) v^ - sin(beta) g^.
 #pragma once
 

@@ -126,9 +126,10 @@ LinkFrames read_link_frames(const YamlValue& entry, const Model& model) {
 
 void check_drawn_length(const YamlValue& entry, const Vector3& d, const char* what) {
   if (d.norm() == 0)
-    entry.fail(fmt::format("{} has no length: its two points are drawn at the same place; give `at`, or take a "
-                           "spherical joint",
-                           what));
+    entry.fail(
+        fmt::format("{} has no length: its two points are drawn at the same place; give `at`, or take a "
+                    "spherical joint",
+                    what));
 }
 
 void read_rod(const char* type, const std::string& name, const YamlValue& entry, Model& model) {

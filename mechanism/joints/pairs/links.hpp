@@ -1,10 +1,11 @@
 // Links without a body: two points of two nodes at a distance, d from the first to the second, |d| = L.
 //
-//   distance             (d . d - L^2)/(2 L) = 0: a rod with a ball at either end (`spherical_spherical`). The multiplier
+//   distance             (d . d - L^2)/(2 L) = 0: a rod with a ball at either end (`spherical_spherical`). The
+//   multiplier
 //                        is the tension [N]. L may be a formula of time: a rod that is drawn in or let out
 //   revolute_spherical   a rod with a hinge on the first node, about z of the joint's frame (`axis`), and a ball on the
-//                        second: the ball also stays in its plane, z_A . d = h, as drawn. Coordinate `angle`: of the rod
-//                        about the hinge, from where it is drawn
+//                        second: the ball also stays in its plane, z_A . d = h, as drawn. Coordinate `angle`: of the
+//                        rod about the hinge, from where it is drawn
 //
 // The squared form has a derivative everywhere, at d = 0 too, and its gradient is that of |d| where the row holds.
 #pragma once

@@ -9,8 +9,8 @@
 
 namespace bielle::mechanism {
 namespace {
-constexpr int parameter = 12;    ///< local row of u
-constexpr int first_row = 13;    ///< of the constraints
+constexpr int parameter = 12;  ///< local row of u
+constexpr int first_row = 13;  ///< of the constraints
 }  // namespace
 
 PointOnCurve::PointOnCurve(std::string type, std::string name, JointFrames frames, Curve curve, double start,
@@ -116,8 +116,8 @@ void PointOnCurve::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> v
 
 void PointOnCurve::describe(const LocalState& state, Description& description) const {
   Joint::describe(state, description);
-  description.add(fmt::format("{} curve, length {:.6g} m", curve_.closed() ? "closed" : "open",
-                              curve_.arc_length(curve_.end())));
+  description.add(
+      fmt::format("{} curve, length {:.6g} m", curve_.closed() ? "closed" : "open", curve_.arc_length(curve_.end())));
 }
 
 namespace {
@@ -147,7 +147,8 @@ void read_point_on_curve(const std::string& name, const YamlValue& entry, Model&
   Curve curve = read_curve(entry.at("curve"), closed, joint);
   const double start = curve.nearest(Vector3::Zero());
   add_pair(std::make_unique<PointOnCurve>("point_on_curve", name, std::move(frames), std::move(curve), start,
-                                          PointOnCurve::Guide::space, model), entry, model);
+                                          PointOnCurve::Guide::space, model),
+           entry, model);
 }
 
 }  // namespace bielle::mechanism

@@ -1,6 +1,7 @@
 // A point of the second node on a curve of the first; its rotation is free.
 //
-// The curve c(u) is fixed in J_A (math/curve.hpp). Its parameter u is an unknown of the joint, an amplitude without mass:
+// The curve c(u) is fixed in J_A (math/curve.hpp). Its parameter u is an unknown of the joint, an amplitude without
+// mass:
 //     Phi = d - c(u) = 0,   d the way from J_A to J_B along the axes of J_A                     (three rows)
 // The equation of u is -c' . lambda = 0: without friction the reaction is normal to the curve. That holds at any
 // curvature, and u tells places apart where the curve passes the same point twice. Coordinate `displacement`: the arc
@@ -16,7 +17,8 @@ namespace bielle::mechanism {
 class PointOnCurve final : public Joint {
  public:
   enum class Guide { space, plane };
-  /// @param curve  in J_A; of a plane guide closed, anticlockwise about z   @param start  the value of u next to which the
+  /// @param curve  in J_A; of a plane guide closed, anticlockwise about z   @param start  the value of u next to which
+  /// the
   ///               point is drawn
   PointOnCurve(std::string type, std::string name, JointFrames frames, Curve curve, double start, Guide guide,
                const Model& model);

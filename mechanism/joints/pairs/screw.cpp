@@ -13,10 +13,10 @@ constexpr std::size_t screw_angle = 1;  ///< among the coordinates
 }
 
 ScrewJoint::ScrewJoint(std::string name, JointFrames frames, double pitch, const Model& model)
-    : MeasuredPair("screw", std::move(name), std::move(frames),
-                   {{"displacement", JointCoordinate::Kind::displacement, 2},
-                    {"angle", JointCoordinate::Kind::angle, 2}},
-                   {{"x", "N"}, {"y", "N"}, {"rx", "N m"}, {"ry", "N m"}, {"thread", "N"}}, model),
+    : MeasuredPair(
+          "screw", std::move(name), std::move(frames),
+          {{"displacement", JointCoordinate::Kind::displacement, 2}, {"angle", JointCoordinate::Kind::angle, 2}},
+          {{"x", "N"}, {"y", "N"}, {"rx", "N m"}, {"ry", "N m"}, {"thread", "N"}}, model),
       pitch_(pitch) {}
 
 void ScrewJoint::calc_rows(const LocalState& state, std::span<PairMeasure> rows) const {

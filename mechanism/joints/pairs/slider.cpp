@@ -26,8 +26,7 @@ Weights weights(double xi, double L, int order) {
       return {{1 + xi * xi * (2 * xi - 3), xi * xi * (3 - 2 * xi)},
               {L * xi * (1 - xi) * (1 - xi), L * xi * xi * (xi - 1)}};
     case 1:
-      return {{scale * 6 * xi * (xi - 1), scale * 6 * xi * (1 - xi)},
-              {1 + xi * (3 * xi - 4), xi * (3 * xi - 2)}};
+      return {{scale * 6 * xi * (xi - 1), scale * 6 * xi * (1 - xi)}, {1 + xi * (3 * xi - 4), xi * (3 * xi - 2)}};
     case 2:
       return {{scale * (12 * xi - 6), scale * (6 - 12 * xi)}, {(6 * xi - 4) / L, (6 * xi - 2) / L}};
     default:
@@ -205,9 +204,10 @@ void SliderJoint::accept(const LocalState& state, Eigen::Ref<VectorX> memory) co
   Joint::accept(state, memory);
   const double u = state.amplitude()[0], length = line_.place.back();
   if (ends_ == Ends::error && (u < -1e-9 * length || u > (1 + 1e-9) * length))
-    throw ComputationError(fmt::format("slider '{}' leaves its beam at the {} (`ends: stop` would end the run there; "
-                                       "`stops` keep it on the beam)",
-                                       name(), u < 0 ? "start" : "end"));
+    throw ComputationError(
+        fmt::format("slider '{}' leaves its beam at the {} (`ends: stop` would end the run there; "
+                    "`stops` keep it on the beam)",
+                    name(), u < 0 ? "start" : "end"));
 }
 
 void SliderJoint::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const {
@@ -218,9 +218,10 @@ void SliderJoint::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> va
 
 void SliderJoint::describe(const LocalState& state, Description& description) const {
   const NodeState& node = state.node(slider);
-  description.add(fmt::format("node '{}' at {} m", second_name(),
-                              format_vector(node.x + node.R * frames().on_second.x)));
-  description.add(fmt::format("{:.6g} m from the start of a beam of {:.6g} m", state.amplitude()[0], line_.place.back()));
+  description.add(
+      fmt::format("node '{}' at {} m", second_name(), format_vector(node.x + node.R * frames().on_second.x)));
+  description.add(
+      fmt::format("{:.6g} m from the start of a beam of {:.6g} m", state.amplitude()[0], line_.place.back()));
 }
 
 }  // namespace bielle::mechanism

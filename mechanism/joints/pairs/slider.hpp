@@ -4,10 +4,11 @@
 // drawn arc length u from the beam's start, xi = (u - s_e)/L_e,
 //     p(u) = sum_k N_k x_k + M_k t_k,   N = {1 - 3 xi^2 + 2 xi^3, 3 xi^2 - 2 xi^3},
 //                                       M = L_e {xi - 2 xi^2 + xi^3, xi^3 - xi^2},
-// t_k the unit tangent that rides on node k. u is an unknown of the joint, without mass. Rows, in the axes of J_A, which
-// rides on the beam's first node:
+// t_k the unit tangent that rides on node k. u is an unknown of the joint, without mass. Rows, in the axes of J_A,
+// which rides on the beam's first node:
 //     x y z     d - p(u) = 0, d to the slider's attachment point: its equation of u makes the force normal to the beam
-//     ry rz     with `orientation: tangent`: y_B . p' = z_B . p' = 0, x_B along the beam as drawn; turning about it is free
+//     ry rz     with `orientation: tangent`: y_B . p' = z_B . p' = 0, x_B along the beam as drawn; turning about it is
+//     free
 // The force goes to the two nodes of the element as N_k f and moments M_k t_k x f: it passes from element to element
 // without a jump. Local nodes: the beam's first, the slider, the beam's others.
 // Reference: the sliding joint of A. Cardona's thesis is the rigid-beam case; curves by Hermite's interpolation of node
@@ -22,9 +23,9 @@ namespace bielle::mechanism {
 
 /// A beam's line as drawn.
 struct BeamLine {
-  std::vector<int> nodes;         ///< of the model, at least two
-  std::vector<Vector3> tangent;   ///< unit, in the axes of each node
-  std::vector<double> place;      ///< arc length from the start to each node [m]
+  std::vector<int> nodes;        ///< of the model, at least two
+  std::vector<Vector3> tangent;  ///< unit, in the axes of each node
+  std::vector<double> place;     ///< arc length from the start to each node [m]
 };
 
 class SliderJoint final : public Joint {

@@ -7,6 +7,7 @@
 
 #include "mechanism/joints/pairs/read_pair.hpp"
 #include "mechanism/joints/pairs/slider.hpp"
+#include "mechanism/math/axes_along.hpp"
 #include "mechanism/reading/names.hpp"
 
 namespace bielle::mechanism {
@@ -88,8 +89,7 @@ void read_slider(const std::string& name, const YamlValue& entry, Model& model) 
   const auto ends = entry.find("ends");
   const auto orientation = entry.find("orientation");
   const bool error = !ends || ends->word({"error", "stop"}, "what happens at the ends") == "error";
-  const bool tangent =
-      orientation && orientation->word({"free", "tangent"}, "an orientation of a slider") == "tangent";
+  const bool tangent = orientation && orientation->word({"free", "tangent"}, "an orientation of a slider") == "tangent";
   const Frame& sliding = model.node(node).frame;
   const auto at = entry.find("at");
   const Vector3 attachment = at ? at->vector3() : Vector3::Zero();
@@ -100,12 +100,10 @@ void read_slider(const std::string& name, const YamlValue& entry, Model& model) 
     if (share < 0 || share > 1) given->fail("expected a place on the beam from 0 (its start) to 1 (its end)");
     start = share * line.place.back();
   }
-  Eigen::Index least = 0;
-  foot.tangent.cwiseAbs().minCoeff(&least);
-  const Vector3 y = foot.tangent.cross(Vector3::Unit(least)).normalized();
   Frame joint;
   joint.x = model.node(chain.nodes.front()).frame.x;
-  joint.R << foot.tangent, y, foot.tangent.cross(y);
+  const Matrix3 axes = axes_along(foot.tangent);
+  joint.R << axes.col(2), axes.col(0), axes.col(1);  // x along the line
   JointFrames frames;
   frames.first = chain.nodes.front();
   frames.second = node;

@@ -33,8 +33,8 @@ TyreForce::Force TyreForce::calc(const LocalState& of_wheel) const {
   const double forward = force.slip.forward.value, V = std::hypot(forward, law_.speed);
   force.sigma = v / V;
   const Vector2 s = C.cwiseProduct(force.sigma);
-  const Eigen::Matrix2d ds = (C / V).asDiagonal();             // by v
-  const Vector2 ds_forward = -s * (forward / (V * V));          // by V_x
+  const Eigen::Matrix2d ds = (C / V).asDiagonal();      // by v
+  const Vector2 ds_forward = -s * (forward / (V * V));  // by V_x
   double f = 1;
   Eigen::RowVector2d df = Eigen::RowVector2d::Zero();  // by s
   double df_N = 0;
@@ -74,7 +74,8 @@ void TyreForce::add_tangent(const LocalState& state, LocalTangent& tangent) cons
   const WheelJoint::Slip& slip = force.slip;
   Eigen::Matrix<double, 2, 12> w, by_position;
   w << slip.longitudinal.gradient.transpose(), slip.lateral.gradient.transpose();
-  by_position << (slip.longitudinal.second.transpose() * v).transpose(), (slip.lateral.second.transpose() * v).transpose();
+  by_position << (slip.longitudinal.second.transpose() * v).transpose(),
+      (slip.lateral.second.transpose() * v).transpose();
   const int at = state.slots().reference_row(0);
   if (tangent.wants_K) {
     auto K = tangent.K.dense();

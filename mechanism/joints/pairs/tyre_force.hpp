@@ -5,9 +5,8 @@
 //     s = (C_x sigma_x, C_y sigma_y)                                      linear force
 //     F = -s f(psi),  psi = |s|/(3 mu N),  f = 1 - psi + psi^2/3 for psi < 1, 1/(3 psi) beyond:
 // the brush model with a parabolic distribution of pressure, whose force has two continuous derivatives and reaches
-// mu N in full sliding. Without mu: F = -s at any slip. N is the push of the plane. Forces settle at once (no relaxation
-// length).
-// Reference: H. B. Pacejka, Tire and Vehicle Dynamics, 3rd ed. (2012), section 3.2.
+// mu N in full sliding. Without mu: F = -s at any slip. N is the push of the plane. Forces settle at once (no
+// relaxation length). Reference: H. B. Pacejka, Tire and Vehicle Dynamics, 3rd ed. (2012), section 3.2.
 #pragma once
 
 #include <optional>

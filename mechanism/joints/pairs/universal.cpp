@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "mechanism/joints/pairs/read_pair.hpp"
+#include "mechanism/math/axes_along.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -48,7 +49,8 @@ void ConstantVelocityJoint::calc_rows(const LocalState& state, std::span<PairMea
 std::string ConstantVelocityJoint::wrong_branch(const LocalState& state) const {
   // Without twist x_A . x_B + y_A . y_B = 1 + cos(bend); turned by half a turn about the axis it is -2.
   const Matrix3 A = state.node(0).R * frames().on_first.R, B = state.node(1).R * frames().on_second.R;
-  if (A.col(x).dot(B.col(x)) + A.col(y).dot(B.col(y)) < 0) return "its shafts are turned by half a turn about their axis";
+  if (A.col(x).dot(B.col(x)) + A.col(y).dot(B.col(y)) < 0)
+    return "its shafts are turned by half a turn about their axis";
   return {};
 }
 
@@ -60,8 +62,9 @@ void read_universal(const std::string& name, const YamlValue& entry, Model& mode
     return value.is_sequence() && value.size() > 0 && value.at(std::size_t{0}).is_sequence();
   };
   if (!is_pair(axis) && !is_pair(second_axis) && std::abs(second_axis.direction().dot(axis.direction())) > 1e-6)
-    second_axis.fail("the two axes of the cross have to be at right angles; `axis` rides on the first node, "
-                     "`second_axis` on the second");
+    second_axis.fail(
+        "the two axes of the cross have to be at right angles; `axis` rides on the first node, "
+        "`second_axis` on the second");
   add_pair(std::make_unique<UniversalJoint>(name, read_joint_frames(entry, model, AxisNeed::required), model), entry,
            model);
 }
@@ -70,15 +73,14 @@ namespace {
 
 /// Turns the frames so that their z axes are the two shafts as drawn: the second by the bend between them.
 void bend_frames(JointFrames& frames, const YamlValue& axes, const Model& model) {
-  if (!axes.is_sequence() || axes.size() != 2) axes.fail("expected two directions: of the first shaft and of the second");
+  if (!axes.is_sequence() || axes.size() != 2)
+    axes.fail("expected two directions: of the first shaft and of the second");
   const Vector3 first = axes.at(0).direction(), second = axes.at(1).direction();
   if (first.dot(second) < -1 + 1e-6)
-    axes.fail("fold back onto each other: the joint bends by less than 180 degrees; give both from the first shaft to the second");
-  Eigen::Index least = 0;
-  first.cwiseAbs().minCoeff(&least);
-  const Vector3 side = (Vector3::Unit(least) - first * first[least]).normalized();
-  Matrix3 straight;
-  straight << side, first.cross(side), first;
+    axes.fail(
+        "fold back onto each other: the joint bends by less than 180 degrees; give both from the first shaft to the "
+        "second");
+  const Matrix3 straight = axes_along(first);
   const Matrix3 bend = Eigen::Quaterniond::FromTwoVectors(first, second).toRotationMatrix();
   frames.on_first.R = model.node(frames.first).frame.R.transpose() * straight;
   frames.on_second.R = model.node(frames.second).frame.R.transpose() * bend * straight;
@@ -93,7 +95,8 @@ void read_constant_velocity(const std::string& name, const YamlValue& entry, Mod
   const auto axes = entry.find("axes");
   if (axes)
     for (const char* key : {"axis", "second_axis"})
-      if (const auto too_much = entry.find(key)) too_much->fail("a constant-velocity joint has either `axis` or `axes`");
+      if (const auto too_much = entry.find(key))
+        too_much->fail("a constant-velocity joint has either `axis` or `axes`");
   JointFrames frames = read_joint_frames(entry, model, axes ? AxisNeed::optional : AxisNeed::required);
   if (axes) bend_frames(frames, *axes, model);
   add_pair(std::make_unique<ConstantVelocityJoint>(name, std::move(frames), model), entry, model);

@@ -6,16 +6,16 @@
 // of the second node about x_B relative to the cross:
 //     angle_1 = atan2(y_A . x_B, x_A . x_B),   angle_2 = atan2(z_A . y_B, z_A . z_B).
 //
-// Constant velocity: z_A and z_B are the axes of the two shafts, from the first to the second (`axis` where the joint is
-// drawn straight, `axes` where it is drawn bent). Rows: the point, and
+// Constant velocity: z_A and z_B are the axes of the two shafts, from the first to the second (`axis` where the joint
+// is drawn straight, `axes` where it is drawn bent). Rows: the point, and
 //     (y_A . x_B - x_A . y_B)/2 = 0.
 // The left side is sin(theta) n_z of the rotation by theta about n that takes J_A to J_B: the row keeps n normal to
 // z_A, and then n is normal to z_B as well (the rotation leaves n where it is). So the shafts bend about an axis that
 // is normal to both, they are mirrored by the plane through the joint that halves their bend (the homokinetic plane),
 // and equal rates follow. With C = exp(theta n~), n = (cos(beta), sin(beta), 0), the second shaft turns relative to the
-// first by dphi = C^T n (..): let the two shafts turn by phi_1 and phi_2 in bearings that keep the bend theta. The bend's
-// axis is then fixed in space. Seen from the first shaft it stands at beta = beta_0 - phi_1; from the second, whose
-// axes see it in the same components (C n = n), at beta = beta_0 - phi_2. Hence phi_1 = phi_2 at every bend below
+// first by dphi = C^T n (..): let the two shafts turn by phi_1 and phi_2 in bearings that keep the bend theta. The
+// bend's axis is then fixed in space. Seen from the first shaft it stands at beta = beta_0 - phi_1; from the second,
+// whose axes see it in the same components (C n = n), at beta = beta_0 - phi_2. Hence phi_1 = phi_2 at every bend below
 // half a turn. There, at 180 degrees, the two axes fold onto each other and n is no longer determined.
 // Coordinates: `bend_x` and `bend_y`, the rotation vector theta n of J_B relative to J_A; its z component is zero.
 #pragma once

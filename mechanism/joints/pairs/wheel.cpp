@@ -30,8 +30,7 @@ Vector3 value_of(const VectorJet& jet) { return {jet[0].value, jet[1].value, jet
 VectorJet turned(const Matrix3& axes, const VectorJet& vector) {
   VectorJet result;
   for (std::size_t row = 0; row < 3; ++row)
-    for (std::size_t k = 0; k < 3; ++k)
-      result[row] += axes(static_cast<int>(row), static_cast<int>(k)) * vector[k];
+    for (std::size_t k = 0; k < 3; ++k) result[row] += axes(static_cast<int>(row), static_cast<int>(k)) * vector[k];
   return result;
 }
 
@@ -115,8 +114,7 @@ void read_wheel(const std::string& name, const YamlValue& entry, Model& model) {
   const double s = std::sqrt(std::max(0.0, 1 - std::pow(normal.dot(axis), 2)));
   if (s < 1e-3) entry.at("axis").fail("the wheel lies flat on the plane: its axis is parallel to `normal`");
   // Below the hub: as far as the rim says, or in the plane through `position`.
-  const double height =
-      entry.has("position") ? normal.dot(hub.x - entry.at("position").vector3()) : radius * s;
+  const double height = entry.has("position") ? normal.dot(hub.x - entry.at("position").vector3()) : radius * s;
   if (!(height > 0)) entry.at("position").fail("the hub is drawn below the plane: `normal` points to the wheel");
   const auto frame_with = [](const Vector3& origin, const Vector3& z, const Vector3& x) {
     Frame frame;

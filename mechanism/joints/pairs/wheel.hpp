@@ -1,8 +1,8 @@
 // A thin wheel on a plane.
 //
 // The plane rides on the first node: J_A stands in it below the hub, z_A its `normal`. The wheel rides on the second
-// node: J_B stands in the middle of the hub, z_B along the wheel's `axis`. With c = z_A . z_B, s = sqrt(1 - c^2) and the
-// unit vector from the lowest point of the rim to the hub m = (z_A - c z_B)/s:
+// node: J_B stands in the middle of the hub, z_B along the wheel's `axis`. With c = z_A . z_B, s = sqrt(1 - c^2) and
+// the unit vector from the lowest point of the rim to the hub m = (z_A - c z_B)/s:
 //     normal         r s - z_A . d = 0,   d from J_A to J_B: the rim touches the plane          (holonomic)
 //     longitudinal   t . v_c = 0,   t = z_B x z_A / s: the way of a wheel that turns about +z_B (non-holonomic)
 //     lateral        l . v_c = 0,   l = z_A x t                                                 (non-holonomic)

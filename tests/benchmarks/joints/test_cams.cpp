@@ -19,14 +19,16 @@ namespace {
 
 constexpr double R = 0.03, e = 0.01, r = 0.008, speed = 20, m = 0.5, g = 9.81;
 
-std::string cam(const bielle::test::TemporaryFolder& folder, double start, const std::string& contact, double turns = 1) {
+std::string cam(const bielle::test::TemporaryFolder& folder, double start, const std::string& contact,
+                double turns = 1) {
   const std::string path = folder.path() + "/circle.csv";
   std::ofstream out(path);
   constexpr int n = 720;  // the spline's curvature is right to (2 pi/n)^2/12 = 6e-6
   for (int k = 0; k < n; ++k) {
     // The distance from the shaft to the circle along the direction phi.
     const double phi = 2 * M_PI * k / n;
-    out << fmt::format("{:.17g}, {:.17g}\n", phi, e * std::cos(phi) + std::sqrt(R * R - std::pow(e * std::sin(phi), 2)));
+    out << fmt::format("{:.17g}, {:.17g}\n", phi,
+                       e * std::cos(phi) + std::sqrt(R * R - std::pow(e * std::sin(phi), 2)));
   }
   return fmt::format(R"yaml(
 gravity: [0, -9.81, 0]
@@ -60,7 +62,8 @@ TEST_CASE("a flat follower on an eccentric circle moves harmonically and takes i
 
 TEST_CASE("a roller on an eccentric circle moves as its closed form, over several turns") {
   const bielle::test::TemporaryFolder folder;
-  const std::string text = cam(folder, std::sqrt(std::pow(R + r, 2) - e * e), fmt::format("follower: roller, radius: {}", r));
+  const std::string text =
+      cam(folder, std::sqrt(std::pow(R + r, 2) - e * e), fmt::format("follower: roller, radius: {}", r));
   move(text, 1e-3, 0.7, [](const Session& session) {
     const double theta = speed * session.time(), c = e * std::cos(theta);
     const double y = e * std::sin(theta) + std::sqrt((R + r) * (R + r) - c * c);

@@ -212,12 +212,13 @@ joints:
            drive,
        0.01, 0.5, check);
   // By teeth: both meshes on the carrier; the ring is the ground, seen from the carrier by a node of its own.
-  move(text +
-           "  outer: {type: gear_mesh, nodes: [sun, planet], carrier: carrier, axes: [0, 0, 1], radii: [0.02, 0.03]}\n"
-           "  inner: {type: gear_mesh, nodes: [ground, planet], carrier: carrier, axes: [0, 0, 1], radii: [0.08, 0.03], "
-           "internal: true}\n" +
-           drive,
-       0.01, 0.5, check);
+  move(
+      text +
+          "  outer: {type: gear_mesh, nodes: [sun, planet], carrier: carrier, axes: [0, 0, 1], radii: [0.02, 0.03]}\n"
+          "  inner: {type: gear_mesh, nodes: [ground, planet], carrier: carrier, axes: [0, 0, 1], radii: [0.08, 0.03], "
+          "internal: true}\n" +
+          drive,
+      0.01, 0.5, check);
 }
 
 TEST_CASE("a differential shares the rate of its input and doubles no torque") {

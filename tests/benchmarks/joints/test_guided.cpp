@@ -39,9 +39,10 @@ joints: {{wire: {{type: point_on_curve, nodes: [ground, bead], curve: "{}", clos
 )yaml",
                                        path);
   Vector2 z(0, 7.5);  // angle from x, rate
-  bielle::test::advance_by_runge_kutta(z, 2.0, 8000,
-                                       [](const Vector2& y) -> Vector2 { return {y[1], -9.81 * std::cos(y[0])}; });
-  REQUIRE(z[0] > 2 * M_PI);  // once round at least
+  bielle::test::advance_by_runge_kutta(z, 2.0, 8000, [](const Vector2& y) -> Vector2 {
+    return {y[1], -9.81 * std::cos(y[0])};
+  });
+  REQUIRE(z[0] > 2 * M_PI);                                        // once round at least
   const double force = 2 * (z[1] * z[1] - 9.81 * std::sin(z[0]));  // towards the middle, less the weight's part
   const auto error = [&](double h) {
     Eigen::VectorXd left(3);
@@ -56,7 +57,8 @@ joints: {{wire: {{type: point_on_curve, nodes: [ground, bead], curve: "{}", clos
 }
 
 TEST_CASE("a slider on a simply supported beam bends it as a load at its place, wherever it stands") {
-  // w(a) = P a^2 b^2/(3 E I l) under the load (S. Timoshenko, Strength of Materials): small deflection of a slender beam.
+  // w(a) = P a^2 b^2/(3 E I l) under the load (S. Timoshenko, Strength of Materials): small deflection of a slender
+  // beam.
   const double E = 2e11, width = 0.02, I = std::pow(width, 4) / 12, l = 2;
   for (const double share : {0.125, 0.25, 0.3, 0.5, 0.81}) {
     const std::string text = fmt::format(R"yaml(

@@ -33,8 +33,9 @@ Vector3d angular_momentum(const Session& session) {
 
 TEST_CASE("a force between nodes keeps momentum and angular momentum, along whatever axes") {
   for (const char* axes : {"first", "second", "inertial"}) {
-    const std::string text = bodies + "  push: {type: node_force, nodes: [a, b], at: [0.1, 0.2, -0.1], axes: " + axes +
-                             ", force: [1, \"2*sin(5*t)\", \"-b.velocity.x\"], moment: [0.1, 0, \"0.2*distance(a, b)\"]}\n";
+    const std::string text =
+        bodies + "  push: {type: node_force, nodes: [a, b], at: [0.1, 0.2, -0.1], axes: " + axes +
+        ", force: [1, \"2*sin(5*t)\", \"-b.velocity.x\"], moment: [0.1, 0, \"0.2*distance(a, b)\"]}\n";
     // Momentum to rounding; angular momentum to the scheme's own error, of second order.
     const auto gained = [&](double h) {
       Vector3d p, L, left;
@@ -59,14 +60,17 @@ TEST_CASE("a force between nodes keeps momentum and angular momentum, along what
 }
 
 TEST_CASE("a force along the line of two nodes does as a spring and damper") {
-  const std::string spring = bodies + "  s: {type: spring_damper, nodes: [a, b], stiffness: 40, damping: 3, length: 1}\n";
+  const std::string spring =
+      bodies + "  s: {type: spring_damper, nodes: [a, b], stiffness: 40, damping: 3, length: 1}\n";
   // The unit vector from a to b by measures of positions.
-  const std::string law = "(40*(distance(a, b) - 1) + 3*((b.position.x - a.position.x)*(b.velocity.x - a.velocity.x) + "
-                          "(b.position.y - a.position.y)*(b.velocity.y - a.velocity.y) + (b.position.z - "
-                          "a.position.z)*(b.velocity.z - a.velocity.z))/distance(a, b))/distance(a, b)";
+  const std::string law =
+      "(40*(distance(a, b) - 1) + 3*((b.position.x - a.position.x)*(b.velocity.x - a.velocity.x) + "
+      "(b.position.y - a.position.y)*(b.velocity.y - a.velocity.y) + (b.position.z - "
+      "a.position.z)*(b.velocity.z - a.velocity.z))/distance(a, b))/distance(a, b)";
   std::string force = bodies + "  s: {type: node_force, nodes: [a, b], axes: inertial, force: [";
   for (const char* axis : {"x", "y", "z"})
-    force += std::string(axis[0] == 'x' ? "" : ", ") + "\"-(b.position." + axis + " - a.position." + axis + ")*" + law + "\"";
+    force += std::string(axis[0] == 'x' ? "" : ", ") + "\"-(b.position." + axis + " - a.position." + axis + ")*" + law +
+             "\"";
   force += "]}\n";
   std::vector<Vector3d> seen;
   for (const std::string& text : {spring, force})

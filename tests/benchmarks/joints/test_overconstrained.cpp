@@ -1,10 +1,10 @@
 // Loops that move although counting says that they do not: Bennett's, Bricard's, a planar four-bar of hinges in space.
 //
-// Bennett (G. T. Bennett, Engineering 76, 1903): four hinges, opposite links equal, lengths a, b and twists alpha, beta with
-// a/sin(alpha) = b/sin(beta); consecutive angles obey tan(t_1/2) tan(t_2/2) = sin((beta + alpha)/2)/sin((beta - alpha)/2).
-// Bricard, threefold symmetric with twists of +-90 degrees (Y. Chen, Z. You, T. Tarnai, Int. J. Solids Struct. 42, 2005,
-// 2287): six hinges, angles t and p in turn, cos(t) + cos(p) + cos(t) cos(p) = 0.
-// Both relations were checked by multiplying the transformations of the links: the loops close to 2e-16.
+// Bennett (G. T. Bennett, Engineering 76, 1903): four hinges, opposite links equal, lengths a, b and twists alpha, beta
+// with a/sin(alpha) = b/sin(beta); consecutive angles obey tan(t_1/2) tan(t_2/2) = sin((beta + alpha)/2)/sin((beta -
+// alpha)/2). Bricard, threefold symmetric with twists of +-90 degrees (Y. Chen, Z. You, T. Tarnai, Int. J. Solids
+// Struct. 42, 2005, 2287): six hinges, angles t and p in turn, cos(t) + cos(p) + cos(t) cos(p) = 0. Both relations were
+// checked by multiplying the transformations of the links: the loops close to 2e-16.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -24,20 +24,24 @@ struct Link {
   double angle, length, twist;  ///< about z, along x, about x
 };
 
-/// A loop of links: link k carries hinge k + 1; the first hinge is on the ground and driven. Angles count from as drawn.
+/// A loop of links: link k carries hinge k + 1; the first hinge is on the ground and driven. Angles count from as
+/// drawn.
 std::string loop(const std::vector<Link>& links, const std::string& drive) {
   std::string nodes = "nodes:\n", elements = "elements:\n", joints = "joints:\n";
   Isometry3d frame = Isometry3d::Identity();
   const std::size_t n = links.size();
   for (std::size_t k = 0; k < n; ++k) {
     const Vector3d at = frame.translation(), z = frame.linear().col(2);
-    const std::string here = k + 1 < n ? fmt::format("l{}", k) : "ground", before = k == 0 ? "ground" : fmt::format("l{}", k - 1);
+    const std::string here = k + 1 < n ? fmt::format("l{}", k) : "ground",
+                      before = k == 0 ? "ground" : fmt::format("l{}", k - 1);
     if (k + 1 < n) {
       nodes += fmt::format("  l{}: {{position: [{:.17g}, {:.17g}, {:.17g}]}}\n", k, at.x(), at.y(), at.z());
       elements += fmt::format("  b{}: {{type: rigid_body, node: l{}, mass: 1, inertia: [0.01, 0.01, 0.01]}}\n", k, k);
     }
-    joints += fmt::format("  h{}: {{type: hinge, nodes: [{}, {}], position: [{:.17g}, {:.17g}, {:.17g}], axis: [{:.17g}, {:.17g}, {:.17g}]}}\n",
-                          k, before, here, at.x(), at.y(), at.z(), z.x(), z.y(), z.z());
+    joints += fmt::format(
+        "  h{}: {{type: hinge, nodes: [{}, {}], position: [{:.17g}, {:.17g}, {:.17g}], axis: [{:.17g}, {:.17g}, "
+        "{:.17g}]}}\n",
+        k, before, here, at.x(), at.y(), at.z(), z.x(), z.y(), z.z());
     frame = frame * AngleAxisd(links[k].angle, Vector3d::UnitZ()) * Eigen::Translation3d(links[k].length, 0, 0) *
             AngleAxisd(links[k].twist, Vector3d::UnitX());
   }
@@ -54,8 +58,9 @@ TEST_CASE("Bennett's loop moves with one degree of freedom as its relation says"
   const double k = std::sin(0.5 * (beta + alpha)) / std::sin(0.5 * (beta - alpha));
   const auto second = [&](double first) { return 2 * std::atan(k / std::tan(0.5 * first)); };
   const double start = 0.7;
-  const std::string text = loop({{start, a, alpha}, {second(start), b, beta}, {-start, a, alpha}, {-second(start), b, beta}},
-                                "drives: {motor: {joint: h0, angle: \"1.2*t\"}}\n");
+  const std::string text =
+      loop({{start, a, alpha}, {second(start), b, beta}, {-start, a, alpha}, {-second(start), b, beta}},
+           "drives: {motor: {joint: h0, angle: \"1.2*t\"}}\n");
   const bielle::mechanism::MechanismFile file = bielle::mechanism::read_mechanism_text(text, "bennett.yaml");
   Session session(file.model);
   CHECK(session.redundant().size() >= 1);

@@ -1,8 +1,8 @@
 // A thin disk that rolls on a plane without slip.
 //
 // m = 1 kg, radius a = 0.5 m, inertia m a^2/2 about its axis and m a^2/4 across it, g = 9.81 m/s^2. References: the
-// equations of the rolling disk (J. I. Neimark, N. A. Fufaev, Dynamics of Nonholonomic Systems, 1972, ch. I) integrated by
-// DOP853 to 1e-13; the steady circle and the wobble of an upright disk in closed form.
+// equations of the rolling disk (J. I. Neimark, N. A. Fufaev, Dynamics of Nonholonomic Systems, 1972, ch. I) integrated
+// by DOP853 to 1e-13; the steady circle and the wobble of an upright disk in closed form.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -195,7 +195,8 @@ TEST_CASE("a tyre that runs at an angle has the lateral force of its slip") {
 
 TEST_CASE("a braked tyre slides with its friction against its velocity") {
   // The axle is locked from the start: the whole contact slides at 10 m/s along x.
-  std::string text = towed(0.06, "longitudinal: 80, lateral: 60, friction: 0.5", "  brake: {joint: axle, torque: \"-200*axle.angle.rate\"}\n");
+  std::string text = towed(0.06, "longitudinal: 80, lateral: 60, friction: 0.5",
+                           "  brake: {joint: axle, torque: \"-200*axle.angle.rate\"}\n");
   move_to(text, 1e-3, 1, [&](const Session& session) {
     const std::vector<double> force = session.read("joints/rim/tyre_force");
     CHECK(std::hypot(force[0], force[1]) == Approx(0.5 * 2 * 9.81).epsilon(1e-3));

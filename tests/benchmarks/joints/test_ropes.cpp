@@ -43,7 +43,8 @@ TEST_CASE("an open and a crossed belt turn pulleys in the ratio of their radii")
               CHECK(first > 300);
               // The flywheel lags by its inertia: J alpha/r_2^2 over the stiffness of the spans, some 1e-4 rad.
               CHECK(session.read("joints/h2/coordinate")[0] == Approx(each.ratio * first).margin(2e-4));
-              for (const double tension : session.read("joints/belt/tension")) CHECK(tension == Approx(300).epsilon(0.02));
+              for (const double tension : session.read("joints/belt/tension"))
+                CHECK(tension == Approx(300).epsilon(0.02));
             });
 }
 
@@ -58,7 +59,8 @@ TEST_CASE("spans of a belt share the torque: the tight side and the slack side")
     const double slope = EA * l * (1 / std::pow(l - e_0 - stretch, 2) + 1 / std::pow(l - e_0 + stretch, 2));
     stretch -= f / slope;
   }
-  std::string text = belt_drive("[0.1, 0.2]", "drives: {load: {joint: h1, torque: 10}, brake: {joint: h2, angle: 0}}\n");
+  std::string text =
+      belt_drive("[0.1, 0.2]", "drives: {load: {joint: h1, torque: 10}, brake: {joint: h2, angle: 0}}\n");
   const bielle::mechanism::MechanismFile file = bielle::mechanism::read_mechanism_text(text, "model.yaml");
   Session session(file.model);
   session.statics();

@@ -14,8 +14,8 @@ using bielle::test::move_to;
 using Vector2 = Eigen::Vector2d;
 
 TEST_CASE("a nut runs down a vertical screw with the acceleration of its closed form") {
-  // m = 2 kg, J = 0.01 kg m^2, 0.1 m per turn: alpha = m g p/(J + m p^2), p = pitch/(2 pi); constant, so that the scheme
-  // integrates it exactly.
+  // m = 2 kg, J = 0.01 kg m^2, 0.1 m per turn: alpha = m g p/(J + m p^2), p = pitch/(2 pi); constant, so that the
+  // scheme integrates it exactly.
   const double p = 0.1 / (2 * M_PI), alpha = 2 * 9.81 * p / (0.01 + 2 * p * p);
   const std::string text = R"yaml(
 gravity: [0, 0, -9.81]
@@ -104,8 +104,9 @@ joints: {{rod: {{type: revolute_spherical, nodes: [ground, ball], axis: [{:.17g}
 )yaml",
                                        start.x(), start.y(), start.z(), axis.x(), axis.z());
   Vector2 z(M_PI / 2, 0);  // from `down`
-  bielle::test::advance_by_runge_kutta(
-      z, 1.1, 4000, [&](const Vector2& y) -> Vector2 { return {y[1], -g / rho * std::sin(y[0])}; });
+  bielle::test::advance_by_runge_kutta(z, 1.1, 4000, [&](const Vector2& y) -> Vector2 {
+    return {y[1], -g / rho * std::sin(y[0])};
+  });
   const Eigen::Vector3d expected =
       offset * axis + rho * (std::cos(z[0]) * down + std::sin(z[0]) * Eigen::Vector3d::UnitY());
   const auto error = [&](double h) {

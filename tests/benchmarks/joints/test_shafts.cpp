@@ -73,9 +73,7 @@ TEST_CASE("the torque in a universal joint is that of the flywheel that it drive
   const auto error = [](double h) {
     Eigen::VectorXd left(1);
     move_to(cardan("drives: {motor: {joint: in, angle: \"10*t + pi/4 - 10*pi/40\"}}\n"), h, M_PI / 40,
-            [&](const Session& session) {
-              left << session.read("joints/in/drive_force")[0] + 0.55976676384840;
-            });
+            [&](const Session& session) { left << session.read("joints/in/drive_force")[0] + 0.55976676384840; });
     return left;
   };
   bielle::test::check_second_order(error, M_PI / 40 / 32, 2, 0.15);

@@ -1,9 +1,8 @@
-#include "mechanism/math/curve.hpp"
-
 #include <cmath>
 
 #include <catch2/catch.hpp>
 
+#include "mechanism/math/curve.hpp"
 #include "reduce/common/error.hpp"
 #include "tests/support/finite_difference.hpp"
 
