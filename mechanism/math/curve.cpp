@@ -63,7 +63,7 @@ double Curve::length_within(double from, double to) const {
 double Curve::arc_length(double u) const {
   const double rounds = closed_ ? std::floor(u / end()) : 0, within = u - rounds * end();
   if (!closed_ && within > end()) return lengths_.back() + (within - end()) * (*this)(end()).first.norm();
-  if (within < 0) return within * (*this)(0).first.norm();
+  if (!closed_ && within < 0) return within * (*this)(0).first.norm();
   const auto next = std::upper_bound(knots_.begin() + 1, knots_.end() - 1, within);
   const auto k = static_cast<std::size_t>(next - knots_.begin()) - 1;
   return rounds * lengths_.back() + lengths_[k] + length_within(knots_[k], within);

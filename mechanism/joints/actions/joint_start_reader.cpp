@@ -48,7 +48,7 @@ void read_joint_start(const std::optional<YamlValue>& value, const std::optional
     condition.value = value->number();
     if (kind == JointCoordinate::Kind::rotation && std::abs(*condition.value) >= M_PI)
       value->fail("a component of a rotation vector is less than half a turn, pi");
-    if (kind == JointCoordinate::Kind::angle) joint.start_at(coordinate, *condition.value, false);
+    joint.start_at(coordinate, *condition.value, false);
   }
   if (rate) condition.rate = rate->number();
   model.add_start_condition(condition);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/joints/cables/rope_section.hpp"
+#include "mechanism/joints/counted_from_drawing.hpp"
 #include "mechanism/math/axes_along.hpp"
 #include "mechanism/model/model.hpp"
 #include "mechanism/reading/names.hpp"
@@ -65,6 +66,13 @@ RopePath read_path(const YamlValue& entry, const Model& model) {
   return path;
 }
 
+std::vector<int> nodes_with_pulleys(const RopePath& path) {
+  std::vector<int> nodes;
+  for (std::size_t k = 0; k < path.nodes.size(); ++k)
+    if (path.pulleys[k].radius != 0 && path.nodes[k] != 0) nodes.push_back(path.nodes[k]);
+  return nodes;
+}
+
 RopeMaterial read_material(const YamlValue& entry) {
   RopeMaterial material{entry.at("EA").positive_number()};
   if (const auto damping = entry.find("damping")) material.damping = damping->non_negative_number();
@@ -97,6 +105,7 @@ void read_belt(const std::string& name, const YamlValue& entry, Model& model) {
   entry.check_keys({"type", "nodes", "radii", "axis", "at", "EA", "pretension", "damping"}, "a belt");
   const RopePath path = read_path(entry, model);
   const RopeMaterial material = read_material(entry);
+  refuse_starts_beyond_half_a_turn(entry, nodes_with_pulleys(path), model);
   const std::size_t count = path.nodes.size();
   if (path.nodes.front() == path.nodes.back())
     entry.at("nodes").fail("a belt closes by itself: name its first node once");
@@ -110,6 +119,7 @@ void read_cable(const std::string& name, const YamlValue& entry, Model& model) {
   entry.check_keys({"type", "nodes", "radii", "axis", "at", "grips", "EA", "pretension", "damping"}, "a cable");
   const RopePath path = read_path(entry, model);
   const RopeMaterial material = read_material(entry);
+  refuse_starts_beyond_half_a_turn(entry, nodes_with_pulleys(path), model);
   std::vector<bool> grips(path.nodes.size(), false);
   grips.front() = grips.back() = true;
   if (const auto given = entry.find("grips"))

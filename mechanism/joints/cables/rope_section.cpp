@@ -20,7 +20,8 @@ constexpr int per_span = 4;  ///< memory: two angles with their rates
 /// Angle, from 0 to one turn, by which the rope turns about a pulley in its own sense.
 double arc_angle(double turn, double radius) {
   const double angle = std::fmod(radius > 0 ? turn : -turn, 2 * M_PI);
-  return angle < 0 ? angle + 2 * M_PI : angle;
+  const double positive = angle < 0 ? angle + 2 * M_PI : angle;
+  return positive > 2 * M_PI - 1e-9 ? 0 : positive;  // it just touches
 }
 
 }  // namespace
@@ -118,10 +119,10 @@ void RopeSection::calc_stretch(const LocalState& state, Stretch& stretch) const 
     stretch.tension = std::numeric_limits<double>::quiet_NaN();  // wound up to its end: no trial state
     return;
   }
-  const bool stretched = state.environment().statics ? stretch.E > 0 : memory[time_memory() + 1] != 0;
+  const bool stretched = state.environment().statics ? stretch.E >= 0 : memory[time_memory() + 1] != 0;
   const double T = material_.EA * (stretch.E + material_.damping * stretch.E_rate) / natural;
   stretch.stretched = stretched;
-  stretch.taut = stretched && T > 0;
+  stretch.taut = stretched && T >= 0;
   stretch.tension = stretch.taut ? T : 0;
 }
 

@@ -120,9 +120,7 @@ std::vector<OutputField> LiftedCoordinate::output_fields() const {
   return {{"force", {}, lifted_.coordinate().force_units(), "of the cam on the follower's coordinate"}};
 }
 
-void LiftedCoordinate::write_output(const LocalState& state, double* values) const {
-  values[0] = -state.multiplier()[0];
-}
+void LiftedCoordinate::write_output(const LocalState& state, double* values) const { values[0] = -state.reaction()[0]; }
 
 void LiftedCoordinate::describe(const LocalState& /*state*/, Description& description) const {
   description.add(fmt::format("'{}'.{} follows a lift over '{}'.{}, which repeats itself every {:.6g} rad",

@@ -25,6 +25,14 @@ auto read_file(const YamlValue& value, const Read& read) {
   }
 }
 
+/// @throws InputError  where cam and follower are the same
+void check_two(const NamedCoordinate& angle, const NamedCoordinate& lifted, const YamlValue& joints) {
+  if (angle.joint == lifted.joint)
+    joints.at(1).fail("is coupled with itself: name the camshaft and the follower's joint");
+  if (angle.joint->frames().second == lifted.joint->frames().second)
+    joints.at(1).fail("moves the cam itself: both joints have the same second node");
+}
+
 /// @param on_follower  the follower's frame, in its node's axes
 JointFrames frames_of(const Joint& camshaft, const Joint& follower, const Frame& on_follower) {
   JointFrames frames;
@@ -35,22 +43,24 @@ JointFrames frames_of(const Joint& camshaft, const Joint& follower, const Frame&
   return frames;
 }
 
-const Joint& moved_by(const YamlValue& joint, Model& model) { return *coordinate_named_by(joint, model).joint; }
-
 void add_lift(const std::string& name, const YamlValue& entry, Model& model) {
   Interpolation lift = read_file(entry.at("lift"), [](const std::string& path) {
     return Interpolation::from_file(path, Interpolation::Kind::periodic);
   });
   const YamlValue joints = entry.at("joints");
-  const NamedCoordinate angle = coordinate_named_by(joints.at(0), model, Kind::angle);
-  model.add(std::make_unique<LiftedCoordinate>(name, angle, coordinate_named_by(joints.at(1), model), std::move(lift)),
-            Entry{Section::joints, name});
+  const NamedCoordinate angle = coordinate_named_by(joints.at(0), model, Kind::angle),
+                        lifted = coordinate_named_by(joints.at(1), model);
+  check_two(angle, lifted, joints);
+  model.add(std::make_unique<LiftedCoordinate>(name, angle, lifted, std::move(lift)), Entry{Section::joints, name});
 }
 
 void add_roller(const std::string& name, const YamlValue& entry, Model& model) {
   const double radius = entry.has("radius") ? entry.at("radius").non_negative_number() : 0;
-  const Joint &camshaft = *coordinate_named_by(entry.at("joints").at(0), model, Kind::angle).joint,
-              &follower = moved_by(entry.at("joints").at(1), model);
+  const YamlValue joints = entry.at("joints");
+  const NamedCoordinate angle = coordinate_named_by(joints.at(0), model, Kind::angle),
+                        moved = coordinate_named_by(joints.at(1), model);
+  check_two(angle, moved, joints);
+  const Joint &camshaft = *angle.joint, &follower = *moved.joint;
   Frame middle;
   if (const auto at = entry.find("at")) middle.x = at->vector3();
   JointFrames frames = frames_of(camshaft, follower, middle);
@@ -68,8 +78,11 @@ void add_roller(const std::string& name, const YamlValue& entry, Model& model) {
 }
 
 void add_flat(const std::string& name, const YamlValue& entry, Model& model) {
-  const Joint &camshaft = *coordinate_named_by(entry.at("joints").at(0), model, Kind::angle).joint,
-              &follower = moved_by(entry.at("joints").at(1), model);
+  const YamlValue joints = entry.at("joints");
+  const NamedCoordinate angle = coordinate_named_by(joints.at(0), model, Kind::angle),
+                        moved = coordinate_named_by(joints.at(1), model);
+  check_two(angle, moved, joints);
+  const Joint &camshaft = *angle.joint, &follower = *moved.joint;
   const Frame& node = model.node(follower.frames().second).frame;
   const Vector3 normal = entry.at("normal").direction();
   Frame face;

@@ -82,7 +82,7 @@ std::vector<OutputField> LinearCoupling::output_fields() const {
 }
 
 void LinearCoupling::write_output(const LocalState& state, double* values) const {
-  for (std::size_t k = 0; k < terms_.size(); ++k) values[k] = -terms_[k].factor * state.multiplier()[0];
+  for (std::size_t k = 0; k < terms_.size(); ++k) values[k] = -terms_[k].factor * state.reaction()[0];
 }
 
 void LinearCoupling::describe(const LocalState& /*state*/, Description& description) const {

@@ -120,9 +120,9 @@ void ElasticGearMesh::declare(Declaration& declaration) const {
   GearMesh::declare(declaration);
   declaration.damping = spring_.damping > 0;
   declaration.kinks = true;  // where a damper lets go
-  const double touch = spring_.backlash == 0 ? 1 : 0;
+  const double touch = plays() ? 0 : 1;
   declaration.memory.insert(declaration.memory.end(), {touch, touch});  // which flanks touch
-  declaration.crossings = {{"teeth touch, forwards"}, {"teeth touch, backwards"}};
+  if (plays()) declaration.crossings = {{"teeth touch, forwards"}, {"teeth touch, backwards"}};
 }
 
 Vector3 ElasticGearMesh::normal(int side) const {
@@ -134,9 +134,11 @@ ElasticGearMesh::Flank ElasticGearMesh::flank(int side, const LocalState& state)
   Flank flank;
   flank.p = contact().approach(normal(side), state) - 0.5 * spring_.backlash;
   flank.rate = flank.p.rate(ToothContact::rates(state));
-  flank.touches = state.environment().statics ? flank.p.value > 0 : state.memory()[ToothContact::memories + side] != 0;
+  // Without play one flank or the other always carries: nothing jumps where they change.
+  flank.touches = !plays() || (state.environment().statics ? flank.p.value >= 0
+                                                           : state.memory()[ToothContact::memories + side] != 0);
   const double push = spring_.stiffness * flank.p.value + spring_.damping * flank.rate;
-  flank.pushes = flank.touches && push > 0;
+  flank.pushes = flank.touches && push >= 0;
   flank.force = flank.pushes ? push : 0;
   return flank;
 }
@@ -168,16 +170,18 @@ void ElasticGearMesh::add_energy(const LocalState& state, Energy& energy) const 
   for (const int side : {0, 1}) {
     const Flank f = flank(side, state);
     if (!f.touches) continue;
-    energy.elastic += 0.5 * spring_.stiffness * f.p.value * f.p.value;
-    energy.dissipation += (f.force - spring_.stiffness * f.p.value) * f.rate;
+    const double pressed = plays() ? f.p.value : std::max(0.0, f.p.value);
+    energy.elastic += 0.5 * spring_.stiffness * pressed * pressed;
+    energy.dissipation += (f.force - spring_.stiffness * pressed) * f.rate;
   }
 }
 
 void ElasticGearMesh::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const {
-  for (const int side : {0, 1}) values[side] = flank(side, state).p.value;
+  for (int side = 0; side < values.size(); ++side) values[side] = flank(side, state).p.value;
 }
 
 bool ElasticGearMesh::leaves_branch(const LocalState& state) const {
+  if (!plays()) return false;
   for (const int side : {0, 1})
     if (const Flank f = flank(side, state); f.touches && f.p.value < 0) return true;
   return false;
@@ -185,6 +189,7 @@ bool ElasticGearMesh::leaves_branch(const LocalState& state) const {
 
 void ElasticGearMesh::begin_branch(const LocalState& state, std::span<const int> /*crossed*/,
                                    Eigen::Ref<VectorX> memory) const {
+  if (!plays()) return;
   for (const int side : {0, 1}) {
     const Flank f = flank(side, state);
     memory[ToothContact::memories + side] = f.p.value > 0 || (f.p.value == 0 && f.rate >= 0) ? 1 : 0;

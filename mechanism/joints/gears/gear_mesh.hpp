@@ -9,8 +9,8 @@
 //   elastic                  a flank of normal n is in contact where p = u_1(n) - u_2(n) - backlash/2 > 0 and pushes
 //   with
 //                            max(0, k p + d pdot): spring and damper of the teeth, and free play between the flanks
-// Contact of a flank begins and ends where p changes its sign: steps end there. Both flanks may touch (bearings that
-// press the wheels together).
+// With backlash contact of a flank begins and ends where p changes its sign: steps end there. Both flanks may touch
+// (bearings that press the wheels together).
 #pragma once
 
 #include "mechanism/joints/gears/tooth_contact.hpp"
@@ -94,6 +94,7 @@ class ElasticGearMesh final : public GearMesh {
     bool touches = false, pushes = false;
     double force = 0;  ///< [N]
   };
+  bool plays() const { return spring_.backlash > 0; }
   Flank flank(int side, const LocalState& state) const;
   Vector3 normal(int side) const;  ///< 0: n_+, 1: n_-
   std::array<double, 2> flank_forces(const LocalState& state) const override;

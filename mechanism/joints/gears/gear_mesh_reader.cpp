@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/joints/counted_from_drawing.hpp"
 #include "mechanism/joints/gears/gear_mesh.hpp"
 #include "mechanism/joints/gears/tooth_directions.hpp"
 #include "mechanism/model/model.hpp"
@@ -103,6 +104,7 @@ void read_gear_mesh(const std::string& name, const YamlValue& entry, Model& mode
   const std::array<std::string, 3> names{model.node(nodes[0]).name, model.node(nodes[1]).name,
                                          model.node(nodes[2]).name};
   const ToothGeometry geometry = read_geometry(entry, nodes, model);
+  refuse_starts_beyond_half_a_turn(entry, wheels, model);
   const Entry own{Section::joints, name};
   if (const auto stiffness = entry.find("stiffness")) {
     ToothSpring spring{stiffness->positive_number(), 0, 0};

@@ -43,7 +43,14 @@ void set_tooth_directions(ToothGeometry& geometry, double helix, bool inside) {
     g = z_1;
   }
   const Vector3 arm = geometry.P - geometry.centre[0];
-  const bool outwards = geometry.nu.dot(arm - z_1 * z_1.dot(arm)) > 0;
+  // Away from the axis of wheel 1; of a crown wheel, whose teeth point along its axis, towards the axis of wheel 2.
+  const Vector3 &z_2 = geometry.axis[1], arm_2 = geometry.P - geometry.centre[1];
+  const double from_first = geometry.nu.dot(arm - z_1 * z_1.dot(arm)) / v[0].norm(),
+               from_second = geometry.nu.dot(arm_2 - z_2 * z_2.dot(arm_2)) / v[1].norm();
+  const bool crown = std::abs(from_first) < 1e-6;
+  if (crown && helix != 0)
+    throw std::domain_error("the first wheel is flat: name the other first, whose helix has a hand");
+  const bool outwards = crown ? from_second < 0 : from_first > 0;
   if (outwards == inside) geometry.nu = -geometry.nu;
   geometry.t = std::cos(helix) * along - std::sin(helix) * g;
   if (std::abs(v[1].dot(geometry.t)) < 1e-6 * v[1].norm())

@@ -7,14 +7,32 @@
 #include "mechanism/joints/pairs/read_pair.hpp"
 #include "mechanism/model/description.hpp"
 #include "mechanism/reading/names.hpp"
+#include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
 namespace {
+
+/// @throws ComputationError  where a length of time is no length any more
+double length_at(const Expression& length, double t, const std::string& name) {
+  const double L = length(t);
+  if (!(L > 0))
+    throw ComputationError(
+        fmt::format("the length of joint '{}' is {:.6g} m at t = {:.6g} s: expected one greater than 0", name, L, t));
+  return L;
+}
 
 using RowList = std::vector<MeasuredPair::Row>;
 
 /// (d . d - L^2)/(2 L)
 PairMeasure length_row(const PairMeasure& dd, double L) { return (0.5 / L) * (dd - L * L); }
+
+/// How fast the line between the two points turns [rad/s].
+double turning_of_rod(const LocalState& state, const JointFrames& frames) {
+  const NodeState &first = state.node(0), &second = state.node(1);
+  const PointGap gap(first, second, frames.on_first.x, frames.on_second.x);
+  const double squared = gap.value().squaredNorm();
+  return squared > 0 ? gap.value().cross(gap.rate(first, second)).norm() / squared : 0;
+}
 
 Vector3 point_of(const NodeState& node, const Vector3& c) { return node.x + node.R * c; }
 
@@ -29,7 +47,7 @@ DistanceJoint::DistanceJoint(std::string type, std::string name, JointFrames fra
 
 void DistanceJoint::calc_rows(const LocalState& state, std::span<PairMeasure> rows) const {
   const PairMeasure dd = square(position(0, state)) + square(position(1, state)) + square(position(2, state));
-  rows[0] = length_row(dd, length_(state.time()));
+  rows[0] = length_row(dd, length_at(length_, state.time(), name()));
 }
 
 // L' d/dL of the row: -L' (1 + d.d/L^2)/2, and once more along the motion.
@@ -56,13 +74,7 @@ void DistanceJoint::add_break_points(std::vector<double>& times) const {
   times.insert(times.end(), points.begin(), points.end());
 }
 
-double DistanceJoint::turning_rate(const LocalState& state) const {
-  const NodeState &first = state.node(0), &second = state.node(1);
-  const Vector3 &c_1 = frames().on_first.x, &c_2 = frames().on_second.x;
-  const PointGap gap(first, second, c_1, c_2);
-  const double squared = gap.value().squaredNorm();
-  return squared > 0 ? gap.value().cross(gap.rate(first, second)).norm() / squared : 0;
-}
+double DistanceJoint::turning_rate(const LocalState& state) const { return turning_of_rod(state, frames()); }
 
 void DistanceJoint::describe(const LocalState& state, Description& description) const {
   const Vector3 from = point_of(state.node(0), frames().on_first.x), to = point_of(state.node(1), frames().on_second.x);
@@ -90,6 +102,8 @@ void RevoluteSphericalLink::calc_rows(const LocalState& state, std::span<PairMea
 PairMeasure RevoluteSphericalLink::calc_own_coordinate(std::size_t /*index*/, const LocalState& state) const {
   return atan2(position(1, state), position(0, state));
 }
+
+double RevoluteSphericalLink::turning_rate(const LocalState& state) const { return turning_of_rod(state, frames()); }
 
 void RevoluteSphericalLink::describe(const LocalState& state, Description& description) const {
   MeasuredPair::describe(state, description);

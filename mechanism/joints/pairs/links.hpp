@@ -34,6 +34,7 @@ class RevoluteSphericalLink final : public MeasuredPair {
  public:
   /// @param length,offset  |d| and z_A . d [m]
   RevoluteSphericalLink(std::string name, JointFrames frames, double length, double offset, const Model& model);
+  double turning_rate(const LocalState& state) const override;
   void describe(const LocalState& state, Description& description) const override;
 
  private:

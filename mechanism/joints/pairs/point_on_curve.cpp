@@ -1,5 +1,7 @@
 #include "mechanism/joints/pairs/point_on_curve.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "mechanism/joints/pairs/read_pair.hpp"
@@ -19,6 +21,7 @@ PointOnCurve::PointOnCurve(std::string type, std::string name, JointFrames frame
             {{"displacement", JointCoordinate::Kind::displacement, JointCoordinate::by_type}}, model),
       curve_(std::move(curve)),
       start_(start),
+      length_to_start_(curve_.arc_length(start)),
       guide_(guide) {}
 
 void PointOnCurve::declare(Declaration& declaration) const {
@@ -34,9 +37,9 @@ void PointOnCurve::declare(Declaration& declaration) const {
     return;
   }
   if (curve_.closed()) return;
-  Crossing leaves{"leaves the curve at its end", Crossing::Direction::both};
+  Crossing leaves{"leaves the curve at its end", Crossing::Direction::falling};
   leaves.stops = true;
-  Crossing leaves_start{"leaves the curve at its beginning", Crossing::Direction::both};
+  Crossing leaves_start{"leaves the curve at its beginning", Crossing::Direction::falling};
   leaves_start.stops = true;
   declaration.crossings = {leaves_start, leaves};
 }
@@ -86,9 +89,16 @@ void PointOnCurve::add_constraint_rates(const LocalState& state, Eigen::Ref<Vect
   }
 }
 
+double PointOnCurve::turning_rate(const LocalState& state) const {
+  // The curve's tangent turns as the point runs along.
+  const Curve::Place c = curve_(state.amplitude()[0]);
+  const double along = std::abs(state.amplitude_rate()[0]) * c.first.cross(c.second).norm() / c.first.squaredNorm();
+  return Joint::turning_rate(state) + along;
+}
+
 CoordinateRate PointOnCurve::principal_coordinate(std::size_t /*index*/, const LocalState& state) const {
   const double u = state.amplitude()[0];
-  return {curve_.arc_length(u) - curve_.arc_length(start_), curve_(u).first.norm() * state.amplitude_rate()[0]};
+  return {curve_.arc_length(u) - length_to_start_, curve_(u).first.norm() * state.amplitude_rate()[0]};
 }
 
 void PointOnCurve::calc_coordinate(std::size_t index, const LocalState& state, CoordinateJet& jet) const {

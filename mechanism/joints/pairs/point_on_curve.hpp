@@ -28,6 +28,7 @@ class PointOnCurve final : public Joint {
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   void add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
                             Eigen::Ref<VectorX> acceleration) const override;
+  double turning_rate(const LocalState& state) const override;
   void calc_coordinate(std::size_t index, const LocalState& state, CoordinateJet& jet) const override;
   void calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const override;
   void describe(const LocalState& state, Description& description) const override;
@@ -37,7 +38,7 @@ class PointOnCurve final : public Joint {
   PairMeasure position(int axis, const LocalState& state) const;
   int rows() const { return guide_ == Guide::space ? 3 : 2; }
   Curve curve_;
-  double start_;
+  double start_, length_to_start_;
   Guide guide_;
 };
 

@@ -29,6 +29,13 @@ void ScrewJoint::calc_rows(const LocalState& state, std::span<PairMeasure> rows)
   rows[4] = position(2, state) - (pitch_ / (2 * M_PI)) * angle;
 }
 
+void ScrewJoint::declare(Declaration& declaration) const {
+  MeasuredPair::declare(declaration);
+  // Where it starts along its axis says how many turns it has made (memory: value and rate of each coordinate).
+  if (const double displacement = declaration.memory[0]; displacement != 0 && declaration.memory[2] == 0)
+    declaration.memory[2] = 2 * M_PI * displacement / pitch_;
+}
+
 std::string ScrewJoint::wrong_branch(const LocalState& state) const {
   const Vector3 first = state.node(0).R * frames().on_first.R.col(2),
                 second = state.node(1).R * frames().on_second.R.col(2);

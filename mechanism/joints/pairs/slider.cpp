@@ -188,6 +188,17 @@ void SliderJoint::add_constraint_rates(const LocalState& state, Eigen::Ref<Vecto
   }
 }
 
+double SliderJoint::turning_rate(const LocalState& state) const {
+  // The beam's tangent turns as the slider runs along: by the angle between the tangents of the element's nodes per
+  // length.
+  const std::size_t element = element_at(state.amplitude()[0]);
+  const Vector3 first = state.node(local(element)).R * line_.tangent[element],
+                second = state.node(local(element + 1)).R * line_.tangent[element + 1];
+  const double bend = std::acos(std::clamp(first.dot(second), -1.0, 1.0));
+  const double L = line_.place[element + 1] - line_.place[element];
+  return Joint::turning_rate(state) + std::abs(state.amplitude_rate()[0]) * bend / L;
+}
+
 CoordinateRate SliderJoint::principal_coordinate(std::size_t /*index*/, const LocalState& state) const {
   return {state.amplitude()[0] - start_, state.amplitude_rate()[0]};
 }

@@ -23,7 +23,7 @@ TyreForce::TyreForce(std::string name, const WheelJoint& wheel, const TyreLaw& l
 void TyreForce::declare(Declaration& declaration) const {
   declaration.references = {&wheel_};
   declaration.stiffness = declaration.damping = true;
-  declaration.reads_reactions = law_.friction.has_value();
+  declaration.reads_reactions = declaration.kinks = law_.friction.has_value();
 }
 
 TyreForce::Force TyreForce::calc(const LocalState& of_wheel) const {

@@ -51,6 +51,7 @@ std::string ConstantVelocityJoint::wrong_branch(const LocalState& state) const {
   const Matrix3 A = state.node(0).R * frames().on_first.R, B = state.node(1).R * frames().on_second.R;
   if (A.col(x).dot(B.col(x)) + A.col(y).dot(B.col(y)) < 0)
     return "its shafts are turned by half a turn about their axis";
+  if (A.col(z).dot(B.col(z)) < -1 + 1e-6) return "its shafts fold back onto each other";
   return {};
 }
 
