@@ -47,7 +47,7 @@ nodes:
 elements:
   b: {type: rigid_body, node: base, mass: 1, inertia: [1, 1, 1], also: [top]}
   m: {type: point_mass, node: top, mass: 2}
-  w: {type: rigid_body, node: arm, mass: 1, inertia: [0.1, 0.1, 0.3]}
+  w: {type: rigid_body, node: arm, mass: 1, inertia: [0.1, 0.1, 0.15]}
 joints: {hinge: {type: hinge, nodes: [base, arm], axis: [0, 0, 1]}}
 drives: {motor: {joint: hinge, torque: 0.6}}
 )yaml";
@@ -64,8 +64,8 @@ TEST_CASE("supports of free directions bear nothing, and all together the weight
   const std::string text = R"yaml(
 gravity: [0, 0, -9.81]
 nodes:
-  left: {fixed: [x, y, z]}
-  right: {position: [3, 0, 0], fixed: [y, z]}
+  left: {fixed: true}
+  right: {position: [3, 0, 0], fixed: [y, z, rx, ry, rz]}
   middle: {position: [1, 0, 0]}
 elements:
   l: {type: spring_damper, nodes: [left, right], stiffness: 10}
