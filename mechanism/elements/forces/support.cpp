@@ -79,6 +79,13 @@ const std::set<int>& nodes_of(const Component& component, std::map<const Compone
   return known.emplace(&component, std::move(nodes)).first->second;
 }
 
+/// Whether a node's rotations alone are held because what stands there has no inertia: there is nothing to bear.
+bool holds_a_point_mass(const Node& node, const std::vector<const Component*>& acting) {
+  const auto& freedom = node.freedom;
+  return std::all_of(freedom.begin(), freedom.begin() + 3, [](Freedom f) { return f == Freedom::free; }) &&
+         std::any_of(acting.begin(), acting.end(), [](const Component* c) { return c->type() == "point_mass"; });
+}
+
 }  // namespace
 
 void add_supports(Model& model) {
@@ -93,6 +100,9 @@ void add_supports(Model& model) {
       held_by[k] = top;
   }
   if (held_by.empty()) return;
+  std::map<int, std::vector<int>> carried_by;
+  for (const auto& [node, top] : held_by)
+    if (node != top) carried_by[top].push_back(node);
   std::map<int, std::vector<const Component*>> acting;
   std::map<const Component*, std::set<int>> known;
   for (const Member& member : model.members()) {
@@ -102,11 +112,9 @@ void add_supports(Model& model) {
     for (const int support : supports) acting[support].push_back(member.component.get());
   }
   for (auto& [node, components] : acting) {
-    std::vector<int> carried;
-    for (const auto& [each, top] : held_by)
-      if (top == node && each != node) carried.push_back(each);
+    if (holds_a_point_mass(model.node(node), components)) continue;
     const std::string name = model.node(node).name;
-    model.add(std::make_unique<Support>(name, node, std::move(carried), std::move(components)),
+    model.add(std::make_unique<Support>(name, node, std::move(carried_by[node]), std::move(components)),
               Entry{Section::supports, name});
   }
 }

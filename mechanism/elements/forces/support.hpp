@@ -33,7 +33,8 @@ class Support final : public Component {
   std::vector<const Component*> acting_;
 };
 
-/// Makes one of each node of the model that is held in some direction. Call when all components are there.
+/// Makes one of each node of the model that is held in some direction (but of a point mass that is held against turning
+/// alone). Call when all components are there.
 void add_supports(Model& model);
 
 }  // namespace bielle::mechanism
