@@ -21,14 +21,12 @@ inline void refuse_starts_beyond_half_a_turn(const YamlValue& entry, std::vector
       for (const int node : nodes)
         bears = bears || (node != 0 && (node == joint->frames().first || node == joint->frames().second));
       if (!bears || nodes.empty()) continue;
-      Declaration declaration;
-      joint->declare(declaration);
       for (std::size_t k = 0; k < joint->coordinates().size(); ++k)
-        if (joint->coordinates()[k].kind == JointCoordinate::Kind::angle && std::abs(declaration.memory[2 * k]) > M_PI)
+        if (joint->coordinates()[k].kind == JointCoordinate::Kind::angle && std::abs(joint->starts_at(k)) > M_PI)
           entry.fail(
               fmt::format("counts turns from where the model is drawn, and joint '{}' starts {:.6g} rad from there: "
                           "start within half a turn (pi)",
-                          joint->name(), declaration.memory[2 * k]));
+                          joint->name(), joint->starts_at(k)));
     }
   });
 }

@@ -47,6 +47,11 @@ CoordinateRate Joint::principal_coordinate(std::size_t index, const LocalState& 
   return {value, rate};
 }
 
+PairMeasure Joint::position(int axis, const LocalState& state) const {
+  const Frame &A = frames().on_first, &B = frames().on_second;
+  return measure_position(state.node(0), state.node(1), A.R.col(axis), A.x, B.x);
+}
+
 PairMeasure Joint::calc_own_coordinate(std::size_t index, const LocalState& /*state*/) const {
   throw std::logic_error(fmt::format("a {} does not define its coordinate '{}'", type(), coordinates_[index].name));
 }
@@ -84,6 +89,15 @@ void Joint::calc_coordinate(std::size_t index, const LocalState& state, Coordina
   jet.principal = m.value;
   jet.rate = m.rate(pair_rate(first, second));
   jet.value = counted(index, state, {jet.principal, jet.rate});
+}
+
+std::pair<double, double> Joint::calc_coordinate_rates(const LocalState& state, CoordinateJet& jet) {
+  thread_local VectorX v, a;
+  v.resize(jet.g().size());
+  a.resize(jet.g().size());
+  get_local_velocities(state, v);
+  get_local_accelerations(state, a);
+  return {jet.g().dot(v), jet.g().dot(a) + v.dot(jet.S() * v)};
 }
 
 void Joint::declare(Declaration& declaration) const {

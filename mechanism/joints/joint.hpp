@@ -7,6 +7,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mechanism/joints/joint_frames.hpp"
@@ -29,6 +30,8 @@ class Joint : public Component {
   CoordinateRate coordinate(std::size_t index, const LocalState& state) const;
   /// The same with all derivatives over the joint's local layout.
   virtual void calc_coordinate(std::size_t index, const LocalState& state, CoordinateJet& jet) const;
+  /// First and second time derivative of the coordinate. @param jet  of calc_coordinate at the state
+  static std::pair<double, double> calc_coordinate_rates(const LocalState& state, CoordinateJet& jet);
 
   /// Force and moment that the joint exerts on its second node, about the attachment point there, along the axes of its
   /// frame: those of the multipliers as reported, in whatever axes the rows are written.
@@ -51,9 +54,10 @@ class Joint : public Component {
 
   /// The value of an angle at the start [rad], to count turns from (a drive begins some turns away). Default 0.
   /// @param by_motion  statics bring it there with the factor of motions
-  void start_at(std::size_t coordinate, double value, bool by_motion = true) {
+  virtual void start_at(std::size_t coordinate, double value, bool by_motion = true) {
     start_[coordinate] = {value, by_motion};
   }
+  double starts_at(std::size_t coordinate) const { return start_[coordinate].value; }
 
   void declare(Declaration& declaration) const override;
   std::vector<OutputField> output_fields() const override;
@@ -74,6 +78,8 @@ class Joint : public Component {
   std::string remark() const override;
 
  protected:
+  /// x, y or z component, in the frame J_A, of the way from the origin of J_A to that of J_B.
+  PairMeasure position(int axis, const LocalState& state) const;
   /// A coordinate that the type defines (JointCoordinate::by_type): an angle in (-pi, pi].
   virtual PairMeasure calc_own_coordinate(std::size_t index, const LocalState& state) const;
   /// A coordinate's value, angles in (-pi, pi], and its rate.

@@ -22,9 +22,8 @@ std::span<const PairMeasure> MeasuredPair::calc(const LocalState& state, Rows& r
   return declared;
 }
 
-PairMeasure MeasuredPair::position(int axis, const LocalState& state) const {
-  const Frame &A = frames().on_first, &B = frames().on_second;
-  return measure_position(state.node(0), state.node(1), A.R.col(axis), A.x, B.x);
+PairMeasure MeasuredPair::squared_distance(const LocalState& state) const {
+  return square(position(0, state)) + square(position(1, state)) + square(position(2, state));
 }
 
 PairMeasure MeasuredPair::alignment(int first_axis, int second_axis, const LocalState& state) const {

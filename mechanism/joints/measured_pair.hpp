@@ -32,11 +32,10 @@ class MeasuredPair : public Joint {
  protected:
   /// @param rows  as many as declared
   virtual void calc_rows(const LocalState& state, std::span<PairMeasure> rows) const = 0;
-  const std::vector<Row>& rows() const { return rows_; }
 
-  // What rows are made of.
-  /// x, y or z component, in the frame J_A, of the way from the origin of J_A to that of J_B.
-  PairMeasure position(int axis, const LocalState& state) const;
+  // What rows are made of, besides positions.
+  /// d . d, with d the way from the origin of J_A to that of J_B.
+  PairMeasure squared_distance(const LocalState& state) const;
   /// Alignment of an axis of J_A with one of J_B.
   PairMeasure alignment(int first_axis, int second_axis, const LocalState& state) const;
 

@@ -6,10 +6,9 @@
 // tangent is unsymmetric. Loads are multiplied by the environment's load factor.
 #pragma once
 
-#include <array>
 #include <string>
 
-#include "mechanism/measures/state_formula.hpp"
+#include "mechanism/elements/forces/force_formulas.hpp"
 #include "mechanism/model/model.hpp"
 #include "reduce/common/yaml_file.hpp"
 
@@ -33,15 +32,11 @@ class Load : public Component {
   void describe(const LocalState& state, Description& description) const override;
 
  private:
-  /// Force and moment along the axes in which they are given, with the load factor.
-  void evaluate(const LocalState& state, Vector3& F, Vector3& m) const;
-
   /// Generalised direction of a component of the force or moment: its contribution to the residual per unit.
   Vector6 direction(const LocalState& state, std::size_t component) const;
 
   int node_;
-  std::array<StateFormula, 6> components_;  ///< of the force, of the moment
-  bool has_force_ = false, has_moment_ = false;
+  ForceFormulas formulas_;
   References references_;
   Vector3 c_;
   bool follower_;

@@ -5,10 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "mechanism/measures/read_measure.hpp"
 #include "mechanism/model/description.hpp"
 #include "mechanism/reading/names.hpp"
-#include "reduce/common/plausible.hpp"
 
 namespace bielle::mechanism {
 
@@ -16,30 +14,15 @@ NodeForce::NodeForce(std::string name, std::array<int, 2> nodes, const Vector3& 
     : Component("node_force", std::move(name)), nodes_(nodes), c_(at), axes_(axes) {}
 
 void NodeForce::read(const YamlValue& components, bool moment, Model& model) {
-  if (!components.is_sequence() || components.size() != 3)
-    components.fail("expected three components, numbers or formulas of t and the state");
-  for (std::size_t k = 0; k < 3; ++k) {
-    StateFormula& component = components_[(moment ? 3 : 0) + k];
-    component = read_state_formula(components.at(k), {"t"}, model, references_);
-    if (component.is_constant()) doubt_outside(components.at(k), components.at(k).number(), plausible_load);
-  }
+  formulas_.read(components, moment, "expected three components, numbers or formulas of t and the state", model,
+                 references_);
 }
 
 void NodeForce::declare(Declaration& declaration) const {
   declaration.nodes.assign(nodes_.begin(), nodes_.end());
   declaration.stiffness = true;
   references_.declare(declaration);
-  for (const StateFormula& component : components_) {
-    if (component.reads_state()) declaration.damping = true;
-    if (component.reads_reactions()) declaration.reads_reactions = true;
-  }
-}
-
-void NodeForce::evaluate(const LocalState& state, Vector3& f, Vector3& mu) const {
-  const double t = state.time();
-  for (std::size_t k = 0; k < 6; ++k)
-    (k < 3 ? f : mu)[static_cast<Eigen::Index>(k % 3)] =
-        state.environment().load_factor * components_[k].value(state, {&t, 1});
+  formulas_.declare(declaration);
 }
 
 Matrix3 NodeForce::axes(const LocalState& state) const {
@@ -62,7 +45,7 @@ NodeForce::Map12 NodeForce::of_moment(const LocalState& state) {
 
 void NodeForce::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
   Vector3 f, mu;
-  evaluate(state, f, mu);
+  formulas_.evaluate(state, f, mu);
   const Matrix3 A = axes(state);
   r.head<12>() += of_force(state) * (A * f) + of_moment(state) * (A * mu);
 }
@@ -75,9 +58,9 @@ void NodeForce::add_tangent(const LocalState& state, LocalTangent& tangent) cons
   const Map12 by_force = of_force(state) * A, by_moment = of_moment(state) * A;
   const double t = state.time();
   for (std::size_t k = 0; k < 6; ++k) {
-    if (!components_[k].reads_state()) continue;
+    if (!formulas_.component(k).reads_state()) continue;
     thread_local FormulaGradient gradient;
-    components_[k].calc(state, {&t, 1}, gradient);
+    formulas_.component(k).calc(state, {&t, 1}, gradient);
     const Vector12 direction =
         state.environment().load_factor * (k < 3 ? by_force : by_moment).col(static_cast<Eigen::Index>(k % 3));
     if (tangent.wants_K) tangent.K.dense().topRows<12>() += direction * gradient.by_state.position().transpose();
@@ -85,7 +68,7 @@ void NodeForce::add_tangent(const LocalState& state, LocalTangent& tangent) cons
   }
   if (!tangent.wants_K) return;
   Vector3 f, mu;
-  evaluate(state, f, mu);
+  formulas_.evaluate(state, f, mu);
   const Vector3 F = A * f, m = A * mu, arm = second.x + second.R * c_ - first.x;
   const Vector3 F_2 = second.R.transpose() * F;
   const Matrix3 by_arm = -first.R.transpose() * skew(F);
@@ -101,15 +84,13 @@ void NodeForce::add_tangent(const LocalState& state, LocalTangent& tangent) cons
 
 void NodeForce::add_energy(const LocalState& state, Energy& energy) const {
   Vector3 f, mu;
-  evaluate(state, f, mu);
+  formulas_.evaluate(state, f, mu);
   const Matrix3 A = axes(state);
   energy.input -=
       (of_force(state) * (A * f) + of_moment(state) * (A * mu)).dot(pair_rate(state.node(0), state.node(1)));
 }
 
-void NodeForce::add_break_points(std::vector<double>& times) const {
-  for (const StateFormula& component : components_) component.add_break_points(0, times);
-}
+void NodeForce::add_break_points(std::vector<double>& times) const { formulas_.add_break_points(times); }
 
 std::vector<OutputField> NodeForce::output_fields() const {
   return {{"force", {3}, "N", "on the second node, inertial components"},
@@ -118,19 +99,15 @@ std::vector<OutputField> NodeForce::output_fields() const {
 
 void NodeForce::write_output(const LocalState& state, double* values) const {
   Vector3 f, mu;
-  evaluate(state, f, mu);
+  formulas_.evaluate(state, f, mu);
   const Matrix3 A = axes(state);
   Eigen::Map<Vector6> result(values);
   result << A * f, A * mu;
 }
 
 void NodeForce::describe(const LocalState& /*state*/, Description& description) const {
-  const auto vector = [&](std::size_t first) {
-    return fmt::format("({}, {}, {})", components_[first].text(), components_[first + 1].text(),
-                       components_[first + 2].text());
-  };
   description.add(fmt::format("on node {}, back on {}", description.node(nodes_[1]), description.node(nodes_[0])));
-  description.add(fmt::format("force {} N, moment {} N m", vector(0), vector(3)));
+  description.add(fmt::format("force {} N, moment {} N m", formulas_.force_text(), formulas_.moment_text()));
   if (!c_.isZero(0)) description.add(fmt::format("at the point {} m in the second node's axes", format_vector(c_)));
   description.add(axes_ == Axes::first    ? "along the first node's axes"
                   : axes_ == Axes::second ? "along the second node's axes"

@@ -9,8 +9,8 @@
 
 #include <array>
 
+#include "mechanism/elements/forces/force_formulas.hpp"
 #include "mechanism/measures/pair_measure.hpp"
-#include "mechanism/measures/state_formula.hpp"
 #include "mechanism/model/model.hpp"
 #include "reduce/common/yaml_file.hpp"
 
@@ -36,8 +36,6 @@ class NodeForce final : public Component {
 
  private:
   using Map12 = Eigen::Matrix<double, 12, 3>;
-  /// Components f and mu with the load factor.
-  void evaluate(const LocalState& state, Vector3& f, Vector3& mu) const;
   Matrix3 axes(const LocalState& state) const;  ///< A
   /// What inertial components of the force, and of the moment, add to the residual.
   Map12 of_force(const LocalState& state) const;
@@ -45,7 +43,7 @@ class NodeForce final : public Component {
   std::array<int, 2> nodes_;
   Vector3 c_;
   Axes axes_;
-  std::array<StateFormula, 6> components_;  ///< of the force, of the moment
+  ForceFormulas formulas_;  ///< f and mu
   References references_;
 };
 

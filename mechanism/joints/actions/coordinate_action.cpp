@@ -47,12 +47,7 @@ void CoordinateAction::add_kept_tangent(const LocalState& state, CoordinateJet& 
 }
 
 std::pair<double, double> CoordinateAction::calc_kept_rates(const LocalState& state) const {
-  CoordinateJet& jet = calc(state);
-  const LocalState of_joint = state.of(0);
-  VectorX v(of_joint.slots().size()), a(v.size());
-  get_local_velocities(of_joint, v);
-  get_local_accelerations(of_joint, a);
-  return {jet.g().dot(v), jet.g().dot(a) + v.dot(jet.S() * v)};
+  return Joint::calc_coordinate_rates(state.of(0), calc(state));
 }
 
 OutputField CoordinateAction::force_field(const std::string& name, const std::string& description) const {

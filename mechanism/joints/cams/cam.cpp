@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/joints/lift_off.hpp"
 #include "mechanism/model/description.hpp"
 
 namespace bielle::mechanism {
@@ -23,9 +24,7 @@ void FlatFollower::calc_rows(const LocalState& state, std::span<PairMeasure> row
 
 void FlatFollower::declare(Declaration& declaration) const {
   MeasuredPair::declare(declaration);
-  Crossing lift_off{"lifts off", Crossing::Direction::falling};
-  lift_off.restarts = false;
-  declaration.crossings = {lift_off};
+  declaration.crossings = {lift_off()};
 }
 
 void FlatFollower::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const {
@@ -52,9 +51,7 @@ void LiftedCoordinate::declare(Declaration& declaration) const {
   references_.declare(declaration);
   declaration.stiffness = true;
   declaration.multipliers.push_back({"lift", lifted_.coordinate().force_units()});
-  Crossing lift_off{"lifts off", Crossing::Direction::falling};
-  lift_off.restarts = false;
-  declaration.crossings = {lift_off};
+  declaration.crossings = {lift_off()};
 }
 
 // Phi = c_2 - f(c_1)
@@ -88,26 +85,14 @@ void LiftedCoordinate::add_tangent(const LocalState& state, LocalTangent& tangen
   K.block(0, of_lifted, 1, m) += jets.lifted.g().transpose();
 }
 
-namespace {
-
-/// First and second time derivatives of a coordinate.
-std::pair<double, double> rates_of(CoordinateJet& jet, const LocalState& of_joint) {
-  VectorX v(jet.g().size()), a(jet.g().size());
-  get_local_velocities(of_joint, v);
-  get_local_accelerations(of_joint, a);
-  return {jet.g().dot(v), jet.g().dot(a) + v.dot(jet.S() * v)};
-}
-
-}  // namespace
-
 void LiftedCoordinate::add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
                                             Eigen::Ref<VectorX> acceleration) const {
   thread_local Jets jets;
   angle_.joint->calc_coordinate(angle_.index, state.of(of_angle_), jets.angle);
   lifted_.joint->calc_coordinate(lifted_.index, state.of(of_lifted_), jets.lifted);
   const Interpolation::Values f = lift_(jets.angle.value);
-  const auto [turning, turning_rate] = rates_of(jets.angle, state.of(of_angle_));
-  const auto [lifting, lifting_rate] = rates_of(jets.lifted, state.of(of_lifted_));
+  const auto [turning, turning_rate] = Joint::calc_coordinate_rates(state.of(of_angle_), jets.angle);
+  const auto [lifting, lifting_rate] = Joint::calc_coordinate_rates(state.of(of_lifted_), jets.lifted);
   velocity[0] += lifting - f.slope * turning;
   acceleration[0] += lifting_rate - f.slope * turning_rate - f.curvature * turning * turning;
 }

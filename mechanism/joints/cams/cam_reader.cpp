@@ -6,24 +6,13 @@
 #include "mechanism/joints/pairs/point_on_curve.hpp"
 #include "mechanism/math/axes_along.hpp"
 #include "mechanism/model/model.hpp"
-#include "reduce/common/error.hpp"
+#include "mechanism/reading/read_file.hpp"
 #include "reduce/common/table_file.hpp"
 
 namespace bielle::mechanism {
 namespace {
 
 using Kind = JointCoordinate::Kind;
-
-/// What a file says; its faults are told with the key's place.
-template <class Read>
-auto read_file(const YamlValue& value, const Read& read) {
-  const std::string path = value.file_path();
-  try {
-    return read(path);
-  } catch (const InputError& error) {
-    value.fail(error.what());
-  }
-}
 
 /// @throws InputError  where cam and follower are the same
 void check_two(const NamedCoordinate& angle, const NamedCoordinate& lifted, const YamlValue& joints) {
@@ -44,7 +33,7 @@ JointFrames frames_of(const Joint& camshaft, const Joint& follower, const Frame&
 }
 
 void add_lift(const std::string& name, const YamlValue& entry, Model& model) {
-  Interpolation lift = read_file(entry.at("lift"), [](const std::string& path) {
+  Interpolation lift = read_named_file(entry.at("lift"), [](const std::string& path) {
     return Interpolation::from_file(path, Interpolation::Kind::periodic);
   });
   const YamlValue joints = entry.at("joints");
@@ -64,7 +53,7 @@ void add_roller(const std::string& name, const YamlValue& entry, Model& model) {
   Frame middle;
   if (const auto at = entry.find("at")) middle.x = at->vector3();
   JointFrames frames = frames_of(camshaft, follower, middle);
-  Curve pitch = read_file(entry.at("profile"), [&](const std::string& path) {
+  Curve pitch = read_named_file(entry.at("profile"), [&](const std::string& path) {
     return CamContour(read_table(path, 2), path).pitch_curve(radius);
   });
   const Frame cam = model.node(frames.first).frame * frames.on_first;

@@ -52,16 +52,12 @@ void LinearCoupling::add_tangent(const LocalState& state, LocalTangent& tangent)
 void LinearCoupling::add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
                                           Eigen::Ref<VectorX> acceleration) const {
   thread_local CoordinateJet jet;
-  thread_local VectorX v, a;
   for (const Term& term : terms_) {
     const LocalState of_joint = state.of(term.reference);
     term.joint->calc_coordinate(term.coordinate, of_joint, jet);
-    v.resize(jet.g().size());
-    a.resize(jet.g().size());
-    get_local_velocities(of_joint, v);
-    get_local_accelerations(of_joint, a);
-    velocity[0] += term.factor * jet.g().dot(v);
-    acceleration[0] += term.factor * (jet.g().dot(a) + v.dot(jet.S() * v));
+    const auto [first, second] = Joint::calc_coordinate_rates(of_joint, jet);
+    velocity[0] += term.factor * first;
+    acceleration[0] += term.factor * second;
   }
 }
 

@@ -46,8 +46,7 @@ DistanceJoint::DistanceJoint(std::string type, std::string name, JointFrames fra
       length_(std::move(length)) {}
 
 void DistanceJoint::calc_rows(const LocalState& state, std::span<PairMeasure> rows) const {
-  const PairMeasure dd = square(position(0, state)) + square(position(1, state)) + square(position(2, state));
-  rows[0] = length_row(dd, length_at(length_, state.time(), name()));
+  rows[0] = length_row(squared_distance(state), length_at(length_, state.time(), name()));
 }
 
 // L' d/dL of the row: -L' (1 + d.d/L^2)/2, and once more along the motion.
@@ -56,7 +55,7 @@ void DistanceJoint::add_constraint_rates(const LocalState& state, Eigen::Ref<Vec
   MeasuredPair::add_constraint_rates(state, velocity, acceleration);
   if (length_.is_constant()) return;
   const double t = state.time(), L = length_(t), L1 = length_.derivative(t, 1), L2 = length_.derivative(t, 2);
-  const PairMeasure dd = square(position(0, state)) + square(position(1, state)) + square(position(2, state));
+  const PairMeasure dd = squared_distance(state);
   const double u = dd.value / (L * L), dd_rate = dd.rate(pair_rate(state.node(0), state.node(1)));
   velocity[0] -= 0.5 * L1 * (1 + u);
   acceleration[0] += -0.5 * L2 * (1 + u) + L1 * L1 * u / L - L1 * dd_rate / (L * L);
@@ -94,9 +93,8 @@ RevoluteSphericalLink::RevoluteSphericalLink(std::string name, JointFrames frame
       offset_(offset) {}
 
 void RevoluteSphericalLink::calc_rows(const LocalState& state, std::span<PairMeasure> rows) const {
-  const PairMeasure z = position(2, state);
-  rows[0] = length_row(square(position(0, state)) + square(position(1, state)) + square(z), length_);
-  rows[1] = z - offset_;
+  rows[0] = length_row(squared_distance(state), length_);
+  rows[1] = position(2, state) - offset_;
 }
 
 PairMeasure RevoluteSphericalLink::calc_own_coordinate(std::size_t /*index*/, const LocalState& state) const {

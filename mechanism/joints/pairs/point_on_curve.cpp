@@ -4,9 +4,10 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/joints/lift_off.hpp"
 #include "mechanism/joints/pairs/read_pair.hpp"
 #include "mechanism/model/description.hpp"
-#include "reduce/common/error.hpp"
+#include "mechanism/reading/read_file.hpp"
 #include "reduce/common/table_file.hpp"
 
 namespace bielle::mechanism {
@@ -31,9 +32,7 @@ void PointOnCurve::declare(Declaration& declaration) const {
   constexpr const char* names[] = {"x", "y", "z"};
   for (int axis = 0; axis < rows(); ++axis) declaration.multipliers.push_back({names[axis], "N"});
   if (guide_ == Guide::plane) {
-    Crossing lift_off{"lifts off", Crossing::Direction::falling};
-    lift_off.restarts = false;
-    declaration.crossings = {lift_off};
+    declaration.crossings = {lift_off()};
     return;
   }
   if (curve_.closed()) return;
@@ -42,11 +41,6 @@ void PointOnCurve::declare(Declaration& declaration) const {
   Crossing leaves_start{"leaves the curve at its beginning", Crossing::Direction::falling};
   leaves_start.stops = true;
   declaration.crossings = {leaves_start, leaves};
-}
-
-PairMeasure PointOnCurve::position(int axis, const LocalState& state) const {
-  const Frame &A = frames().on_first, &B = frames().on_second;
-  return measure_position(state.node(0), state.node(1), A.R.col(axis), A.x, B.x);
 }
 
 void PointOnCurve::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
@@ -134,15 +128,12 @@ namespace {
 
 /// @param frame  in whose axes the curve is wanted
 Curve read_curve(const YamlValue& value, bool closed, const Frame& frame) {
-  const std::string path = value.file_path();
-  try {
+  return read_named_file(value, [&](const std::string& path) -> Curve {
     MatrixX points = read_table(path, 3);
     for (Eigen::Index k = 0; k < points.rows(); ++k)
       points.row(k) = (frame.R.transpose() * (points.row(k).transpose() - frame.x)).transpose();
     return {points, closed, path};
-  } catch (const InputError& error) {
-    value.fail(error.what());
-  }
+  });
 }
 
 }  // namespace

@@ -35,7 +35,6 @@ class PointOnCurve final : public Joint {
 
  private:
   CoordinateRate principal_coordinate(std::size_t index, const LocalState& state) const override;
-  PairMeasure position(int axis, const LocalState& state) const;
   int rows() const { return guide_ == Guide::space ? 3 : 2; }
   Curve curve_;
   double start_, length_to_start_;

@@ -29,11 +29,10 @@ void ScrewJoint::calc_rows(const LocalState& state, std::span<PairMeasure> rows)
   rows[4] = position(2, state) - (pitch_ / (2 * M_PI)) * angle;
 }
 
-void ScrewJoint::declare(Declaration& declaration) const {
-  MeasuredPair::declare(declaration);
-  // Where it starts along its axis says how many turns it has made (memory: value and rate of each coordinate).
-  if (const double displacement = declaration.memory[0]; displacement != 0 && declaration.memory[2] == 0)
-    declaration.memory[2] = 2 * M_PI * displacement / pitch_;
+void ScrewJoint::start_at(std::size_t coordinate, double value, bool by_motion) {
+  MeasuredPair::start_at(coordinate, value, by_motion);
+  // Where it starts along its axis says how many turns it has made.
+  if (coordinate != screw_angle) MeasuredPair::start_at(screw_angle, 2 * M_PI * value / pitch_, by_motion);
 }
 
 std::string ScrewJoint::wrong_branch(const LocalState& state) const {

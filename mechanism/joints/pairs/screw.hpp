@@ -11,7 +11,7 @@ namespace bielle::mechanism {
 class ScrewJoint final : public MeasuredPair {
  public:
   ScrewJoint(std::string name, JointFrames frames, double pitch, const Model& model);
-  void declare(Declaration& declaration) const override;
+  void start_at(std::size_t coordinate, double value, bool by_motion = true) override;
   std::string wrong_branch(const LocalState& state) const override;
   Vector3 misalignment(const LocalState& state) const override;
   void describe(const LocalState& state, Description& description) const override;

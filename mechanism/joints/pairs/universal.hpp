@@ -13,11 +13,11 @@
 // z_A, and then n is normal to z_B as well (the rotation leaves n where it is). So the shafts bend about an axis that
 // is normal to both, they are mirrored by the plane through the joint that halves their bend (the homokinetic plane),
 // and equal rates follow. Let the two shafts turn by phi_1 and phi_2 in bearings that keep the bend theta, with
-// n = (cos(beta), sin(beta), 0) in the axes of the first. The bend's axis is fixed in space. Seen from the first shaft it
-// stands at beta = beta_0 - phi_1; from the second, whose axes see it in the same components (C n = n, C from J_B to
-// J_A), at beta = beta_0 - phi_2. Hence phi_1 = phi_2 at every bend below half a turn. There, at 180 degrees, the two axes
-// fold onto each other and n is no longer determined.
-// Coordinates: `bend_x` and `bend_y`, the rotation vector theta n of J_B relative to J_A; its z component is zero.
+// n = (cos(beta), sin(beta), 0) in the axes of the first. The bend's axis is fixed in space. Seen from the first shaft
+// it stands at beta = beta_0 - phi_1; from the second, whose axes see it in the same components (C n = n, C from J_B to
+// J_A), at beta = beta_0 - phi_2. Hence phi_1 = phi_2 at every bend below half a turn. There, at 180 degrees, the two
+// axes fold onto each other and n is no longer determined. Coordinates: `bend_x` and `bend_y`, the rotation vector
+// theta n of J_B relative to J_A; its z component is zero.
 #pragma once
 
 #include "mechanism/joints/measured_pair.hpp"

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/joints/lift_off.hpp"
 #include "mechanism/joints/pairs/read_pair.hpp"
 #include "mechanism/joints/pairs/tyre_force.hpp"
 #include "mechanism/model/description.hpp"
@@ -64,9 +65,7 @@ WheelJoint::WheelJoint(std::string name, JointFrames frames, double radius, bool
 
 void WheelJoint::declare(Declaration& declaration) const {
   MeasuredPair::declare(declaration);
-  Crossing lift_off{"lifts off", Crossing::Direction::falling};
-  lift_off.restarts = false;
-  declaration.crossings.push_back(lift_off);
+  declaration.crossings = {lift_off()};
 }
 
 void WheelJoint::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const {

@@ -21,7 +21,6 @@ class WheelJoint final : public MeasuredPair {
  public:
   /// @param rolls  with the two rows that keep it from slipping
   WheelJoint(std::string name, JointFrames frames, double radius, bool rolls, const Model& model);
-  double radius() const { return radius_; }
   void declare(Declaration& declaration) const override;
   void calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const override;
   void describe(const LocalState& state, Description& description) const override;

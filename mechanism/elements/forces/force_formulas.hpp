@@ -1,0 +1,37 @@
+// The formulas of a force and of a moment: three components each, of time and state.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "mechanism/measures/state_formula.hpp"
+#include "mechanism/model/model.hpp"
+#include "reduce/common/yaml_file.hpp"
+
+namespace bielle::mechanism {
+
+class ForceFormulas {
+ public:
+  /// Takes three components of the force [N] or of the moment [N m], once the model is read.
+  /// @param expected    what the list should have held, for the message
+  /// @param references  of the component that owns the formulas
+  void read(const YamlValue& components, bool moment, const char* expected, Model& model, References& references);
+  void declare(Declaration& declaration) const;  ///< what formulas of the state make the owner depend on
+  void add_break_points(std::vector<double>& times) const;
+
+  bool has_force() const { return has_force_; }
+  bool has_moment() const { return has_moment_; }
+  /// Components with the load factor, along the axes in which they are given.
+  void evaluate(const LocalState& state, Vector3& force, Vector3& moment) const;
+  /// A component, of the force (0 to 2) or of the moment (3 to 5).
+  const StateFormula& component(std::size_t k) const { return components_[k]; }
+  std::string force_text() const { return text(0); }  ///< "(0, 5*t, 2)"
+  std::string moment_text() const { return text(3); }
+
+ private:
+  std::string text(std::size_t first) const;
+  std::array<StateFormula, 6> components_;
+  bool has_force_ = false, has_moment_ = false;
+};
+
+}  // namespace bielle::mechanism
