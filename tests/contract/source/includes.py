@@ -11,7 +11,7 @@ import re
 # "" is the program's own folder: what stands beside main.
 FOLDERS = {
     "reduce": ["common", "spectral", "superelement", "mesh", "fe", "reduction", ""],
-    "mechanism": ["math", "model", "reading", "measures",
+    "mechanism": ["math", "model", "reading", "contact_laws", "measures",
                   "elements/beam", "elements/control", "elements/forces", "elements/rigid_body",
                   "elements/superelement/recovery", "elements/superelement",
                   "joints", "joints/actions", "joints/cables", "joints/couplings", "joints/gears", "joints/pairs", "joints/cams",
@@ -19,7 +19,7 @@ FOLDERS = {
                   "session", "analyses", "io", ""],
 }
 SHARED = ["common", "spectral", "superelement"]
-COMPONENTS = [f for f in FOLDERS["mechanism"] if f.split("/")[0] in ("measures", "elements", "joints")]
+COMPONENTS = [f for f in FOLDERS["mechanism"] if f.split("/")[0] in ("contact_laws", "measures", "elements", "joints")]
 SOLVING = [f for f in FOLDERS["mechanism"] if f.split("/")[0] in ("system", "solvers")]
 
 
