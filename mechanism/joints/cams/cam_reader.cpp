@@ -81,7 +81,7 @@ void add_flat(const std::string& name, const YamlValue& entry, Model& model) {
   const Frame cam = model.node(frames.first).frame * frames.on_first;
   if (std::abs(normal.dot(cam.R.col(2))) > 1e-6)
     entry.at("normal").fail("is not at right angles to the camshaft's axis");
-  Interpolation support = read_file(
+  Interpolation support = read_named_file(
       entry.at("profile"), [](const std::string& path) { return CamContour(read_table(path, 2), path).support(); });
   model.add(std::make_unique<FlatFollower>(name, std::move(frames), std::move(support), model),
             Entry{Section::joints, name});
