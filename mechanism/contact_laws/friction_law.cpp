@@ -45,7 +45,8 @@ std::string FrictionLaw::describe() const {
   if (model == Model::coulomb) text += fmt::format(", smooth within {:.6g} m/s: creeps at rest", velocity);
   if (model == Model::stick_slip) text += ", sticks at rest";
   if (model == Model::lugre)
-    text += fmt::format(", bristles of stiffness {:.6g} 1/m and damping {:.6g} s/m", bristle_stiffness, bristle_damping);
+    text +=
+        fmt::format(", bristles of stiffness {:.6g} 1/m and damping {:.6g} s/m", bristle_stiffness, bristle_damping);
   return text;
 }
 

@@ -7,8 +7,8 @@
 // e the restitution, whatever k, n and the mass: m v dv = -F dp, and the integral of v/(1 + d v) from v_i to -e v_i
 // vanishes. For slow impacts e = 1 - (2/3) d v_i + ..; it falls with the speed. With a `restitution` in place of the
 // damping, d = delta(e)/v_i follows from the speed at which they touch: e at every speed.
-// Reference: K. H. Hunt, F. R. E. Crossley, Coefficient of restitution interpreted as damping in vibroimpact, J. Applied
-// Mechanics 42 (1975) 440-445.
+// Reference: K. H. Hunt, F. R. E. Crossley, Coefficient of restitution interpreted as damping in vibroimpact, J.
+// Applied Mechanics 42 (1975) 440-445.
 #pragma once
 
 #include <string>

@@ -151,6 +151,20 @@ void Joint::write_output(const LocalState& state, double* values) const {
   reaction << in_axes, axes * in_axes.head<3>(), axes * in_axes.tail<3>();
 }
 
+std::vector<SlidingSurface> Joint::sliding_surfaces() const {
+  if (coordinates_.empty()) return {};
+  SlidingSurface all;
+  for (std::size_t k = 0; k < coordinates_.size(); ++k) all.coordinates.push_back(k);
+  return {all};
+}
+
+OutputField Joint::force_field(const std::string& name, const std::string& description) const {
+  std::string units;
+  for (const JointCoordinate& each : coordinates_)
+    units += (units.empty() ? "" : ", ") + std::string(each.force_units());
+  return {name, {coordinates_.size()}, units, description, true};
+}
+
 std::vector<std::pair<std::string, std::string>> Joint::attributes() const {
   return {{"first_node", first_name_}, {"second_node", second_name_}};
 }

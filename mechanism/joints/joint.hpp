@@ -17,6 +17,12 @@
 
 namespace bielle::mechanism {
 
+/// Coordinates along which a joint's bodies slide on each other at one surface.
+struct SlidingSurface {
+  std::vector<std::size_t> coordinates;
+  double lead = 0;  ///< of a thread, whose displacement and angle are one motion: [m] per radian; 0: none
+};
+
 class Joint : public Component {
  public:
   Joint(std::string type, std::string name, JointFrames frames, std::vector<JointCoordinate> coordinates,
@@ -48,6 +54,11 @@ class Joint : public Component {
     bool locked = false;
   };
   CoordinateUse& use(std::size_t coordinate) { return uses_[coordinate]; }
+
+  /// Where friction acts. Default: at one surface along all coordinates.
+  virtual std::vector<SlidingSurface> sliding_surfaces() const;
+  /// A result of what acts along the coordinates: a force or torque for each, summed over all that acts so.
+  OutputField force_field(const std::string& name, const std::string& description) const;
 
   const std::string& first_name() const { return first_name_; }
   const std::string& second_name() const { return second_name_; }

@@ -58,6 +58,7 @@ std::vector<Sample> element_samples();
 std::vector<Sample> joint_samples();
 std::vector<Sample> higher_pair_samples();
 std::vector<Sample> coupling_samples();
+std::vector<Sample> friction_samples();
 std::vector<Sample> drive_samples();
 std::vector<Sample> state_samples();
 

@@ -50,13 +50,6 @@ std::pair<double, double> CoordinateAction::calc_kept_rates(const LocalState& st
   return Joint::calc_coordinate_rates(state.of(0), calc(state));
 }
 
-OutputField CoordinateAction::force_field(const std::string& name, const std::string& description) const {
-  std::string units;
-  for (const JointCoordinate& each : joint_.coordinates())
-    units += (units.empty() ? "" : ", ") + std::string(each.force_units());
-  return {name, {joint_.coordinates().size()}, units, description, true};
-}
-
 void CoordinateAction::write_force(double force, double* values) const {
   for (std::size_t k = 0; k < joint_.coordinates().size(); ++k) values[k] = k == coordinate_ ? force : 0.0;
 }

@@ -39,7 +39,9 @@ class CoordinateAction : public Component {
   std::pair<double, double> calc_kept_rates(const LocalState& state) const;
 
   /// A force on the coordinate as one of the results of the joint, which are the sums of what acts there.
-  OutputField force_field(const std::string& name, const std::string& description) const;
+  OutputField force_field(const std::string& name, const std::string& description) const {
+    return joint_.force_field(name, description);
+  }
   void write_force(double force, double* values) const;
 
  private:

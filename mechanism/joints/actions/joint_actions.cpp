@@ -11,10 +11,12 @@
 #include "mechanism/joints/actions/joint_spring.hpp"
 #include "mechanism/joints/actions/joint_start_reader.hpp"
 #include "mechanism/joints/actions/joint_stop.hpp"
+#include "mechanism/joints/friction/friction_reader.hpp"
 
 namespace bielle::mechanism {
 namespace {
 
+/// Of each coordinate by itself.
 const std::vector<std::string> keys = {"stiffness", "damping", "rest",  "preload",
                                        "stops",     "locked",  "start", "start_rate"};
 
@@ -102,7 +104,11 @@ LockTimes read_lock_times(const YamlValue& entry) {
 
 }  // namespace
 
-std::vector<std::string> joint_action_keys() { return keys; }
+std::vector<std::string> joint_action_keys() {
+  std::vector<std::string> all = keys;
+  all.push_back("friction");
+  return all;
+}
 
 void read_joint_actions(const YamlValue& entry, Joint& joint, Model& model, const std::vector<std::string>& own) {
   const Entry of_joint{Section::joints, joint.name()};
@@ -125,6 +131,7 @@ void read_joint_actions(const YamlValue& entry, Joint& joint, Model& model, cons
     }
     read_joint_start(find(sorted[k], "start"), find(sorted[k], "start_rate"), joint, k, model);
   }
+  if (const auto friction = entry.find("friction")) read_joint_friction(*friction, joint, model);
 }
 
 }  // namespace bielle::mechanism

@@ -4,8 +4,9 @@
 //   rest       value of the coordinate at which the spring is free       preload   constant force of the spring
 //   stops      {range: [lower, upper], stiffness, damping}
 //   locked     {from, to, release}
+//   friction   of the surfaces that slide, friction_reader.hpp
 //   start, start_rate   value and rate where the first analysis starts (joint_start_reader.hpp)
-// In a joint with several coordinates each key is a map from their names.
+// In a joint with several coordinates each key but `friction` is a map from their names.
 #pragma once
 
 #include <string>

@@ -35,6 +35,8 @@ void ScrewJoint::start_at(std::size_t coordinate, double value, bool by_motion) 
   if (coordinate != screw_angle) MeasuredPair::start_at(screw_angle, 2 * M_PI * value / pitch_, by_motion);
 }
 
+std::vector<SlidingSurface> ScrewJoint::sliding_surfaces() const { return {{{0, screw_angle}, pitch_ / (2 * M_PI)}}; }
+
 std::string ScrewJoint::wrong_branch(const LocalState& state) const {
   const Vector3 first = state.node(0).R * frames().on_first.R.col(2),
                 second = state.node(1).R * frames().on_second.R.col(2);

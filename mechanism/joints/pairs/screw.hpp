@@ -12,6 +12,7 @@ class ScrewJoint final : public MeasuredPair {
  public:
   ScrewJoint(std::string name, JointFrames frames, double pitch, const Model& model);
   void start_at(std::size_t coordinate, double value, bool by_motion = true) override;
+  std::vector<SlidingSurface> sliding_surfaces() const override;  ///< its thread
   std::string wrong_branch(const LocalState& state) const override;
   Vector3 misalignment(const LocalState& state) const override;
   void describe(const LocalState& state, Description& description) const override;

@@ -27,6 +27,8 @@ namespace bielle::mechanism {
 class UniversalJoint final : public MeasuredPair {
  public:
   UniversalJoint(std::string name, JointFrames frames, const Model& model);
+  /// The bearings of the two axes of its cross.
+  std::vector<SlidingSurface> sliding_surfaces() const override { return {{{0}}, {{1}}}; }
 
  private:
   void calc_rows(const LocalState& state, std::span<PairMeasure> rows) const override;

@@ -1,0 +1,96 @@
+#include "mechanism/joints/friction/friction_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "mechanism/joints/friction/bristle_friction.hpp"
+#include "mechanism/joints/friction/creeping_friction.hpp"
+#include "mechanism/joints/friction/stick_slip_friction.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+std::vector<std::string> keys() {
+  std::vector<std::string> all = friction_law_keys();
+  all.insert(all.end(), {"radius", "arm", "preload"});
+  return all;
+}
+
+FrictionSurface read_surface(const YamlValue& entry, const Joint& joint, const SlidingSurface& slides) {
+  const auto turns = [&](std::size_t k) { return joint.coordinates()[k].kind != JointCoordinate::Kind::displacement; };
+  const bool any_turns = std::any_of(slides.coordinates.begin(), slides.coordinates.end(), turns);
+  const auto radius = entry.find("radius");
+  if (radius && !any_turns)
+    radius->fail(fmt::format("a {} joint does not turn: it rubs without a radius", joint.type()));
+  if (!radius && any_turns)
+    entry.fail(fmt::format("a {} joint turns: give the `radius` of the surface that rubs [m]", joint.type()));
+  const double r = radius ? radius->positive_number() : 0;
+  FrictionSurface surface;
+  for (const std::size_t k : slides.coordinates)
+    surface.parts.push_back({k, static_cast<int>(surface.parts.size()), turns(k) ? r : 1.0});
+  surface.components = static_cast<int>(surface.parts.size());
+  if (slides.lead != 0) {  // along the helix
+    const double c = std::hypot(r, slides.lead);
+    for (FrictionSurface::Part& part : surface.parts) {
+      part.component = 0;
+      part.arm = turns(part.coordinate) ? r * r / c : slides.lead / c;
+    }
+    surface.components = 1;
+    surface.thread_radius = r;
+  }
+  if (const auto arm = entry.find("arm")) surface.moment_arm = arm->positive_number();
+  if (const auto preload = entry.find("preload")) surface.preload = preload->non_negative_number();
+  return surface;
+}
+
+void add_friction(const YamlValue& entry, const Joint& joint, const SlidingSurface& slides, Model& model) {
+  FrictionSurface surface = read_surface(entry, joint, slides);
+  if (const auto kind = entry.find("model");
+      kind && slides.coordinates.size() > 1 && slides.lead == 0 && kind->text() == "stick_slip")
+    kind->fail(
+        fmt::format("`stick_slip` is for joints that slide along one coordinate; a {} joint slides along {} at "
+                    "once: take `lugre`, which sticks too",
+                    joint.type(), slides.coordinates.size()));
+  const FrictionLaw law = read_friction_law(entry, {"coulomb", "lugre", "stick_slip"});
+  std::unique_ptr<Component> friction;
+  switch (law.model) {
+    case FrictionLaw::Model::coulomb:
+      friction = std::make_unique<CreepingFriction>(joint, std::move(surface), law);
+      break;
+    case FrictionLaw::Model::lugre:
+      friction = std::make_unique<BristleFriction>(joint, std::move(surface), law);
+      break;
+    case FrictionLaw::Model::stick_slip:
+      friction = std::make_unique<StickSlipFriction>(joint, std::move(surface), law);
+      break;
+  }
+  model.add(std::move(friction), Entry{Section::joints, joint.name()});
+}
+
+}  // namespace
+
+void read_joint_friction(const YamlValue& value, const Joint& joint, Model& model) {
+  const std::vector<SlidingSurface> surfaces = joint.sliding_surfaces();
+  if (surfaces.empty()) value.fail(fmt::format("nothing slides in a {} joint", joint.type()));
+  if (!value.is_map()) value.fail("expected a map: {coefficient: 0.1, ..}");
+  std::vector<std::string> names;
+  if (surfaces.size() > 1)
+    for (const SlidingSurface& each : surfaces) names.push_back(joint.coordinates()[each.coordinates.front()].name);
+  const auto is_named = [&](const std::string& name) { return value.has(name); };
+  if (std::any_of(names.begin(), names.end(), is_named)) {
+    value.check_keys(names, "`friction`, which names coordinates");
+    for (std::size_t k = 0; k < surfaces.size(); ++k)
+      if (const auto entry = value.find(names[k])) {
+        entry->check_keys(keys(), "`friction`");
+        add_friction(*entry, joint, surfaces[k], model);
+      }
+    return;
+  }
+  value.check_keys(keys(), "`friction`");
+  for (const SlidingSurface& each : surfaces) add_friction(value, joint, each, model);
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,14 @@
+// `friction` of a joint: {coefficient, static, stribeck_velocity, viscous, model: coulomb | lugre | stick_slip,
+// velocity, bristle_stiffness, bristle_damping, radius, arm, preload}; joints with several surfaces that slide take it
+// for all of them, or {angle_1: {..}, ..} by coordinate.
+#pragma once
+
+#include "mechanism/joints/joint.hpp"
+#include "reduce/common/yaml_file.hpp"
+
+namespace bielle::mechanism {
+
+/// Adds the friction of a joint to the model, recorded with the joint. @throws InputError
+void read_joint_friction(const YamlValue& value, const Joint& joint, Model& model);
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,94 @@
+// Dry friction in a joint, driven by the joint's own reaction.
+//
+// The bodies slide on each other at a surface whose velocity v [m/s] has a component for each of some coordinates of
+// the joint, c rate: c = 1 for displacements, the radius of the bearing for angles and rotations. A thread of radius r
+// and lead l per radian slides along its helix, v = (l zdot + r^2 thetadot)/sqrt(r^2 + l^2). They are pressed by
+//     N = |F| + |M|/arm + preload,
+// F and M the reaction of the joint's constraints. Along what is free there is none, so that F is normal to the motion
+// and M across it. In a thread F has a fourth component M_z/r: the force normal to the thread is made of F_z and it.
+// The surface resists by R = N rho(v, ..) [N], rho from the law of friction; R acts along the same combination of
+// coordinates that makes v. It is in the equations of this step, not of the step before: N depends on multipliers, and
+// its derivatives are in the tangent. Where redundancy leaves reactions undetermined, those of smallest norm are taken.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "mechanism/contact_laws/friction_law.hpp"
+#include "mechanism/joints/joint.hpp"
+
+namespace bielle::mechanism {
+
+struct FrictionSurface {
+  /// A part of a component of v: `arm` times the rate of a coordinate.
+  struct Part {
+    std::size_t coordinate;
+    int component;  ///< of v
+    double arm;     ///< c: of a displacement without dimension, else [m]
+  };
+  std::vector<Part> parts;                                      ///< at most three
+  int components = 1;                                           ///< of v, one to three
+  double moment_arm = std::numeric_limits<double>::infinity();  ///< [m]; infinite: moments do not press
+  double preload = 0;                                           ///< [N]
+  double thread_radius = 0;                                     ///< [m]; 0: no thread
+};
+
+class JointFriction : public Component {
+ public:
+  JointFriction(const Joint& joint, FrictionSurface surface, const FrictionLaw& law);
+
+  void declare(Declaration& declaration) const override;
+  void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
+  void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
+  void add_energy(const LocalState& state, Energy& energy) const override;
+  /// `friction`: force or torque along the joint's coordinates. `normal_force` N.
+  std::vector<OutputField> output_fields() const override;
+  void write_output(const LocalState& state, double* values) const override;
+  void describe(const LocalState& state, Description& description) const override;
+
+ protected:
+  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1>;
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
+
+  /// rho and its derivatives.
+  struct Resistance {
+    Vector rho;
+    Matrix by_v;
+    Matrix by_z;  ///< by first-order unknowns of the kind of friction; empty where it has none
+  };
+  virtual Resistance resistance(const LocalState& state, const Vector& v) const = 0;
+  /// Power that is lost per unit of N, never negative [m/s]. @param resistance  at this state
+  virtual double loss(const LocalState& state, const Vector& v, const Resistance& resistance) const;
+  /// Friction along the surface's directions that is no function of N: of a constraint that makes it stick [N].
+  virtual Vector held(const LocalState& /*state*/) const { return Vector::Zero(size()); }
+
+  int size() const { return surface_.components; }
+  const FrictionLaw& law() const { return law_; }
+  const Joint& joint() const { return joint_; }
+  const FrictionSurface& surface() const { return surface_; }
+  /// v without derivatives.
+  Vector velocity(const LocalState& state) const;
+  double normal_force(const LocalState& state) const;
+
+  /// v with its derivatives over the joint's layout: valid until the next call in this thread.
+  struct Slip {
+    Vector v;
+    MatrixX w;                          ///< (n, components): v = w^T velocities
+    MatrixX by_position;                ///< (n, components): dv = by_position^T increments; where asked for
+    std::array<CoordinateJet, 3> jets;  ///< of the parts
+  };
+  Slip& slip(const LocalState& state, bool with_positions) const;
+  /// First local row of the joint.
+  static int row(const LocalState& state) { return state.slots().reference_row(0); }
+
+ private:
+  /// N with its derivatives over the joint's layout.
+  double normal_force(const LocalState& of_joint, VectorX& gradient) const;
+  const Joint& joint_;
+  FrictionSurface surface_;
+  FrictionLaw law_;
+};
+
+}  // namespace bielle::mechanism

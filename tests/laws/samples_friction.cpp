@@ -1,0 +1,97 @@
+// Samples of friction in joints.
+#include "tests/laws/sample.hpp"
+
+namespace bielle::laws {
+namespace {
+
+using mechanism::Section;
+
+/// A joint with friction. Sizes of order one: slow surfaces of an armful, bristles that yield.
+Sample rubbing(const std::string& type, const std::string& variant, const std::string& keys,
+               const std::string& friction, std::vector<BadValue> bad) {
+  const char* const second_axis = type == "universal" ? ", second_axis: [3, 0, -1]" : "";
+  bad.push_back({"friction.coefficient", "0", ""});
+  bad.push_back({"friction.coefficient", "", "coefficient"});
+  bad.push_back({"friction.model", "dry", "a model of friction"});
+  bad.push_back({"friction", "0.3", "expected a map"});
+  bad.push_back({"friction.mu", "0.3", "'mu' is not a key"});
+  bad.push_back({"nodes", "[a, a]", "two different nodes"});
+  bad.push_back({"position", "[1, 2]", ""});
+  bad.push_back({keys.substr(0, keys.find(':')), "[0, 0, 0]", ""});
+  if (type == "universal") bad.push_back({"second_axis", "[1, 2, 4]", "right angles"});
+  Sample sample{Section::joints, type, variant,
+                "nodes:\n"
+                "  a: {position: [0.3, 0.1, -0.2], rotation_vector: [0.3, -0.5, 0.8]}\n"
+                "  b: {position: [1.1, 0.5, 0.4], rotation_vector: [-0.7, 0.2, 0.4]}\n"
+                "joints:\n  it: {type: " +
+                    type + ", nodes: [a, b], position: [0.5, 0.2, 0.1], " + keys + second_axis + ", friction: {" +
+                    friction + "}}\n",
+                std::move(bad)};
+  sample.scales.kinks_unloaded = true;  // |F|, |M| and |v| where they vanish
+  sample.scales.multiplier = 8;         // far from there
+  return sample;
+}
+
+}  // namespace
+
+std::vector<Sample> friction_samples() {
+  const std::string axis = "axis: [1, 2, 3]";
+  const std::string creeps = "coefficient: 0.3, static: 0.5, stribeck_velocity: 0.9, viscous: 0.2, velocity: 0.4";
+  const std::string bristles =
+      "model: lugre, coefficient: 0.4, static: 0.6, stribeck_velocity: 0.9, viscous: 0.1, bristle_stiffness: 1.5, "
+      "bristle_damping: 0.7";
+  const std::string sticks = "model: stick_slip, coefficient: 0.3, static: 0.5, viscous: 0.1, stribeck_velocity: 0.9";
+  const std::string bearing = ", radius: 0.7, arm: 0.6, preload: 0.8";
+  const std::vector<BadValue> law = {{"friction.static", "0.2", "no smaller"},
+                                     {"friction.stribeck_velocity", "0", ""},
+                                     {"friction.viscous", "-1", ""}},
+                              of_creeping = {{"friction.velocity", "0", ""},
+                                             {"friction.bristle_stiffness", "5", "model: lugre"}},
+                              of_bristles = {{"friction.bristle_stiffness", "0", ""},
+                                             {"friction.bristle_damping", "-1", ""},
+                                             {"friction.velocity", "1", "model: coulomb"}},
+                              of_bearing = {{"friction.radius", "0", ""},
+                                            {"friction.radius", "", "radius"},
+                                            {"friction.arm", "0", ""},
+                                            {"friction.preload", "-1", ""}};
+  const auto all = [](std::initializer_list<std::vector<BadValue>> parts) {
+    std::vector<BadValue> joined;
+    for (const auto& part : parts) joined.insert(joined.end(), part.begin(), part.end());
+    return joined;
+  };
+  std::vector<Sample> list;
+  list.push_back(rubbing("hinge", "friction", axis, creeps + bearing, all({law, of_creeping, of_bearing})));
+  list.push_back(rubbing("hinge", "bristles", axis, bristles + bearing, all({law, of_bristles, of_bearing})));
+  list.push_back(rubbing("hinge", "stick and slip", axis, sticks + bearing, all({law, of_bearing})));
+  list.push_back(
+      rubbing("prismatic", "friction", axis, creeps + ", arm: 0.6",
+              all({law, of_creeping, {{"friction.radius", "1", "does not turn"}, {"friction.arm", "0", ""}}})));
+  list.push_back(rubbing("prismatic", "stick and slip", axis, sticks, law));
+  // N of a planar joint is the size of one multiplier, whose kink random states meet with bristles.
+  for (const char* type : {"cylindrical", "planar"})
+    list.push_back(rubbing(type, "friction", axis, creeps + bearing, all({law, of_creeping, of_bearing})));
+  list.push_back(rubbing("cylindrical", "bristles", axis, bristles + bearing, all({law, of_bristles, of_bearing})));
+  list.back().bad.push_back({"friction.model", "stick_slip", "one coordinate"});
+  list.push_back(rubbing("spherical", "friction", axis, creeps + ", radius: 0.7",
+                         all({law, of_creeping, {{"friction.radius", "0", ""}}})));
+  list.push_back(rubbing("spherical", "bristles", axis, bristles + ", radius: 0.7",
+                         all({law, of_bristles, {{"friction.radius", "0", ""}}})));
+  list.push_back(rubbing("screw", "friction", axis + ", pitch: 0.8", creeps + bearing,
+                         all({law, of_creeping, of_bearing, {{"pitch", "0", "hinge"}}})));
+  list.push_back(rubbing("universal", "friction", axis, creeps + bearing, all({law, of_creeping, of_bearing})));
+  list.push_back(rubbing("screw", "stick and slip", axis + ", pitch: 0.8", sticks + bearing,
+                         all({law, of_bearing, {{"pitch", "0", "hinge"}}})));
+  list.push_back(rubbing("universal", "friction in one bearing", axis,
+                         "angle_2: {coefficient: 0.3, radius: 0.4, velocity: 0.5}", {}));
+  std::erase_if(list.back().bad, [](const BadValue& each) { return each.key.starts_with("friction."); });
+  for (const BadValue& each : std::vector<BadValue>{{"friction.angle_2.coefficient", "0", ""},
+                                                    {"friction.angle_2.radius", "-1", ""},
+                                                    {"friction.angle_2.velocity", "0", ""},
+                                                    {"friction.angle_2", "{coefficient: 0.3}", "radius"}})
+    list.back().bad.push_back(each);
+  list.push_back(rubbing("point_on_line", "friction", "line: [1, 2, 3]", creeps, all({law, of_creeping})));
+  list.push_back(rubbing("point_on_plane", "bristles", "normal: [1, 2, 3]", bristles, all({law, of_bristles})));
+  return list;
+}
+
+}  // namespace bielle::laws
