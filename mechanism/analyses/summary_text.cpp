@@ -92,9 +92,12 @@ std::string describe_loose(const System& system) {
 
 std::string format_mobility(const Session& session) {
   const Mobility& mobility = session.mobility();
-  std::string text = mobility.degrees > 0
-                         ? fmt::format("  {}\n", counted(mobility.degrees, "degree of freedom", "degrees of freedom"))
-                         : "  0 degrees of freedom: nothing moves but by drives and prescribed motions\n";
+  std::string text = fmt::format("  {}", counted(mobility.degrees, "degree of freedom", "degrees of freedom"));
+  if (session.system().switches())
+    text += " at the start, where some constraints can let go (locks, drives, joints that stick)";
+  else if (mobility.degrees == 0)
+    text += ": nothing moves but by drives and prescribed motions";
+  text += "\n";
   if (const std::string loose = describe_loose(session.system()); !loose.empty()) text += fmt::format("  {}\n", loose);
   for (const std::string& name : session.redundant()) text += fmt::format("  redundant: {}; set aside\n", name);
   for (const std::string& name : mobility.nearly_redundant)
@@ -104,7 +107,9 @@ std::string format_mobility(const Session& session) {
         "freedom away and may bear any force: are axes and positions exact?\n",
         name);
   if (const auto joints = joints_not_unique(session.system(), session.acting(), session.state()); !joints.empty())
-    text += fmt::format("  {}\n", describe_not_unique(joints));
+    text += fmt::format("  {}{}\n", describe_not_unique(joints),
+                        session.system().reads_reactions() ? ", and forces that depend on them (friction) are of these"
+                                                           : "");
   return text;
 }
 

@@ -28,7 +28,6 @@ Sample rubbing(const std::string& type, const std::string& variant, const std::s
                     friction + "}}\n",
                 std::move(bad)};
   sample.scales.kinks_unloaded = true;  // |F|, |M| and |v| where they vanish
-  sample.scales.multiplier = 8;         // far from there
   return sample;
 }
 

@@ -17,13 +17,21 @@ namespace {
 
 constexpr double m = 2, I = 0.05, l = 0.8, g = 9.81, mu_r = 0.15, w_0 = 2, omega_0 = 2;
 
-const char* const pendulum = R"yaml(
+const std::string bob = R"yaml(
 gravity: [0, -9.81, 0]
 nodes: {bob: {position: [0.8, 0, 0], velocity: [0, 1.6, 0], angular_velocity: [0, 0, 2]}}
 elements: {bob: {type: rigid_body, node: bob, mass: 2, inertia: [0.05, 0.05, 0.05]}}
+)yaml";
+
+/// By a formula of the user's, and by the friction of the joint itself: radius 0.05, mu 3, smooth within 0.05 w_0.
+const std::string by_formula = bob + R"yaml(
 joints: {pivot: {type: hinge, nodes: [ground, bob], axis: [0, 0, 1], position: [0, 0, 0]}}
 drives:
   bearing: {joint: pivot, torque: "-0.15*sqrt(pivot.reaction.x^2 + pivot.reaction.y^2)*tanh(pivot.angle.rate/2)"}
+)yaml";
+const std::string by_joint = bob + R"yaml(
+joints: {pivot: {type: hinge, nodes: [ground, bob], axis: [0, 0, 1], position: [0, 0, 0],
+                 friction: {coefficient: 3, radius: 0.05, velocity: 0.1}}}
 )yaml";
 
 using Vector2 = Eigen::Vector2d;
@@ -57,7 +65,7 @@ Vector2 bearing_force(const ReadyModel& model, const State& state) {
 }  // namespace
 
 TEST_CASE("friction on a bearing's reaction is of order 2 in the three forms, in a few iterations each step") {
-  ReadyModel mutable_model(pendulum);
+  ReadyModel mutable_model(GENERATE(by_formula, by_joint));
   const ReadyModel& model = mutable_model;
   REQUIRE(model.system.reads_reactions());
   bielle::test::check_forms_of_order_two(
@@ -87,7 +95,7 @@ TEST_CASE("friction on a bearing's reaction is of order 2 in the three forms, in
 }
 
 TEST_CASE("the start of a pendulum with bearing friction has the acceleration and the reaction of its equation") {
-  const ReadyModel model(pendulum);
+  const ReadyModel model(GENERATE(by_formula, by_joint));
   const TimeIntegration integration(model.system, model.environment(), Scheme::generalized_alpha(0.8),
                                     model.system.start(0));
   const Instant expected = solve({0, omega_0});

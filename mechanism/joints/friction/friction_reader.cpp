@@ -74,7 +74,7 @@ void add_friction(const YamlValue& entry, const Joint& joint, const SlidingSurfa
 
 void read_joint_friction(const YamlValue& value, const Joint& joint, Model& model) {
   const std::vector<SlidingSurface> surfaces = joint.sliding_surfaces();
-  if (surfaces.empty()) value.fail(fmt::format("nothing slides in a {} joint", joint.type()));
+  if (surfaces.empty()) value.fail(fmt::format("a {} joint has no friction", joint.type()));
   if (!value.is_map()) value.fail("expected a map: {coefficient: 0.1, ..}");
   std::vector<std::string> names;
   if (surfaces.size() > 1)

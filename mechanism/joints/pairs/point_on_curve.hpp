@@ -23,6 +23,8 @@ class PointOnCurve final : public Joint {
   PointOnCurve(std::string type, std::string name, JointFrames frames, Curve curve, double start, Guide guide,
                const Model& model);
 
+  /// None: along a curve the reaction bears the friction itself, which is no part of what presses.
+  std::vector<SlidingSurface> sliding_surfaces() const override { return {}; }
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;

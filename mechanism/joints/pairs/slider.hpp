@@ -35,6 +35,8 @@ class SliderJoint final : public Joint {
   SliderJoint(std::string name, JointFrames frames, BeamLine line, double start, bool tangent, Ends ends,
               const Model& model);
 
+  /// None: along a curve the reaction bears the friction itself, which is no part of what presses.
+  std::vector<SlidingSurface> sliding_surfaces() const override { return {}; }
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;

@@ -161,7 +161,8 @@ class AccelerationEquations {
     const auto kind_of = [](Kind kind) { return static_cast<std::size_t>(kind); };
     double &translation = whole[kind_of(Kind::translation)], &rotation = whole[kind_of(Kind::rotation)],
            &multiplier = whole[kind_of(Kind::multiplier)];
-    translation = std::max(translation, rotation * length_);
+    // What forces hold in place has accelerations of rounding alone.
+    translation = std::max({translation, rotation * length_, multiplier / saddle_.scale()});
     rotation = std::max(rotation, translation / length_);
     multiplier = std::max(multiplier, translation * saddle_.scale());
     double most = 0;
