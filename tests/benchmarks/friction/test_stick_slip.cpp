@@ -8,7 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/benchmarks/joints/moved.hpp"
-#include "tests/support/second_order.hpp"
+#include "tests/support/runge_kutta.hpp"
 
 using bielle::mechanism::Session;
 using bielle::test::move;
@@ -18,7 +18,9 @@ namespace {
 constexpr double m = 1, k = 100, V = 0.1, mu_s = 0.4, mu_k = 0.25, g = 9.81, omega = 10;
 constexpr double x_s = mu_s * m * g / k, x_k = mu_k * m * g / k;
 
-const std::string on_belt = R"yaml(
+/// @param friction  model of the contact
+std::string on_belt(const std::string& friction) {
+  return R"yaml(
 gravity: [0, 0, -9.81]
 nodes:
   belt: {position: [0, 0, 0], velocity: [0.1, 0, 0]}
@@ -29,9 +31,11 @@ elements:
   spring: {type: spring_damper, nodes: [anchor, block], stiffness: 100}
 joints:
   rail: {type: prismatic, nodes: [ground, belt], axis: [1, 0, 0]}
-  contact: {type: prismatic, nodes: [belt, block], axis: [1, 0, 0], friction: {model: stick_slip, coefficient: 0.25, static: 0.4}}
+  contact: {type: prismatic, nodes: [belt, block], axis: [1, 0, 0], friction: {)yaml" +
+         friction + R"yaml(}}
 drives: {belt: {joint: rail, displacement: "0.1*t"}}
 )yaml";
+}
 
 /// Position and velocity at a time, from x = 0 at time 0 where it moves with the belt.
 Eigen::Vector2d reference(double t) {
@@ -49,7 +53,7 @@ Eigen::Vector2d reference(double t) {
 TEST_CASE("a mass on a belt sticks and slips as the closed form, to the second order over five periods") {
   const auto error = [](double h) -> Eigen::VectorXd {
     Eigen::VectorXd last(2), largest = Eigen::VectorXd::Zero(2);
-    move(on_belt, h, 4.4, [&](const Session& session) {
+    move(on_belt("model: stick_slip, coefficient: 0.25, static: 0.4"), h, 4.4, [&](const Session& session) {
       const auto& block = session.node("block");
       last = Eigen::Vector2d(block.x.x(), block.v.x()) - reference(session.time());
       largest = largest.cwiseMax(last.cwiseAbs());
@@ -59,6 +63,39 @@ TEST_CASE("a mass on a belt sticks and slips as the closed form, to the second o
   const Eigen::VectorXd coarse = error(8e-3), middle = error(4e-3), fine = error(2e-3);
   CAPTURE(coarse.transpose(), middle.transpose(), fine.transpose());
   CHECK(fine[0] < 5e-4 * x_s);
+  for (int i = 0; i < 2; ++i) {
+    CHECK(std::log2(coarse[i] / middle[i]) > 1.8);
+    CHECK(std::log2(middle[i] / fine[i]) > 1.8);
+  }
+}
+
+// With bristles: x'' = (F - k x)/m, F = m g (sigma_0 z + sigma_1(s) z' + sigma_2 v), v = V - x', and z' by the law.
+TEST_CASE("with bristles the mass on the belt follows the equations of their law") {
+  constexpr double sigma_0 = 500, sigma_1 = 8, sigma_2 = 0.02, v_s = 0.05;
+  using State = Eigen::Vector3d;  // x, x', z
+  const auto rate = [](const State& y) -> State {
+    const double v = V - y[1], s = std::abs(v), mu = mu_k + (mu_s - mu_k) * std::exp(-(v / v_s) * (v / v_s));
+    const double zdot = v - sigma_0 * s * y[2] / mu, c = sigma_1 / (4 * mu_k);
+    const double F = m * g * (sigma_0 * y[2] + sigma_1 / std::sqrt(1 + c * c * s * s) * zdot + sigma_2 * v);
+    return {y[1], (F - k * y[0]) / m, zdot};
+  };
+  const std::string text = on_belt(
+      "model: lugre, coefficient: 0.25, static: 0.4, stribeck_velocity: 0.05, viscous: 0.02, bristle_stiffness: 500, "
+      "bristle_damping: 8");
+  const auto error = [&](double h) -> Eigen::VectorXd {
+    State reference(0, V, 0);
+    Eigen::VectorXd largest = Eigen::VectorXd::Zero(2);
+    double before = 0;
+    move(text, h, 1.2, [&](const Session& session) {
+      bielle::test::advance_by_runge_kutta(reference, session.time() - before, 200, rate);
+      before = session.time();
+      const auto& block = session.node("block");
+      largest = largest.cwiseMax(Eigen::Vector2d(block.x.x() - reference[0], block.v.x() - reference[1]).cwiseAbs());
+    });
+    return largest;
+  };
+  const Eigen::VectorXd coarse = error(2e-3), middle = error(1e-3), fine = error(5e-4);
+  CAPTURE(coarse.transpose(), middle.transpose(), fine.transpose());
   for (int i = 0; i < 2; ++i) {
     CHECK(std::log2(coarse[i] / middle[i]) > 1.8);
     CHECK(std::log2(middle[i] / fine[i]) > 1.8);
