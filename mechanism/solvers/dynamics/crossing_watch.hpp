@@ -54,6 +54,7 @@ class CrossingWatch {
   std::vector<int> last_end_;  ///< of each crossing: +1 or -1, the end that moved last
   double low_ = 0, high_ = 0;  ///< sizes of steps [s]
   double tolerance_ = 0;       ///< [s]
+  double shortest_ = 0;        ///< step that is tried [s]
 };
 
 }  // namespace bielle::mechanism
