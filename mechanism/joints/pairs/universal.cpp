@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <Eigen/Geometry>
+#include <fmt/format.h>
 
 #include "mechanism/joints/pairs/read_pair.hpp"
 #include "mechanism/math/axes_along.hpp"
@@ -25,6 +26,19 @@ UniversalJoint::UniversalJoint(std::string name, JointFrames frames, const Model
                    {{"angle_1", CoordinateKind::angle, JointCoordinate::by_type},
                     {"angle_2", CoordinateKind::angle, JointCoordinate::by_type}},
                    point_and("cross"), model) {}
+
+void UniversalJoint::declare(Declaration& declaration) const {
+  MeasuredPair::declare(declaration);
+  for (const char* shaft : {"angle_1", "angle_2"}) {
+    Crossing singular{fmt::format("{} passes a right angle, where a shaft drawn straight transmits no torque", shaft)};
+    singular.restarts = false;
+    declaration.crossings.push_back(singular);
+  }
+}
+
+void UniversalJoint::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const {
+  for (std::size_t k : {0U, 1U}) values[static_cast<Eigen::Index>(k)] = std::cos(coordinate(k, state).value);
+}
 
 void UniversalJoint::calc_rows(const LocalState& state, std::span<PairMeasure> rows) const {
   for (const int axis : {x, y, z}) rows[static_cast<std::size_t>(axis)] = position(axis, state);

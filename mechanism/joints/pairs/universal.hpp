@@ -5,6 +5,8 @@
 // about the cross's normal [N m]. Coordinates: `angle_1`, of the cross about z_A relative to the first node; `angle_2`,
 // of the second node about x_B relative to the cross:
 //     angle_1 = atan2(y_A . x_B, x_A . x_B),   angle_2 = atan2(z_A . y_B, z_A . z_B).
+// Shafts along the cross's normal as drawn get cos(angle_1) and cos(angle_2) of its torque. Where one of them vanishes
+// the joint is singular: it holds that shaft by no finite torque, and lets it turn alone. Runs note it as an event.
 //
 // Constant velocity: z_A and z_B are the axes of the two shafts, from the first to the second (`axis` where the joint
 // is drawn straight, `axes` where it is drawn bent). Rows: the point, and
@@ -27,6 +29,8 @@ namespace bielle::mechanism {
 class UniversalJoint final : public MeasuredPair {
  public:
   UniversalJoint(std::string name, JointFrames frames, const Model& model);
+  void declare(Declaration& declaration) const override;
+  void calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const override;
   /// The bearings of the two axes of its cross.
   std::vector<SlidingSurface> sliding_surfaces() const override { return {{{0}}, {{1}}}; }
 
