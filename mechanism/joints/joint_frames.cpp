@@ -82,6 +82,12 @@ Vector3 smallest_turn(const Vector3& from, const Vector3& to, const Vector3& nor
 
 std::vector<std::string> joint_frame_keys() { return {"type", "nodes", "position", "at", "axis", "second_axis"}; }
 
+std::array<Vector3, 2> read_points_at(const YamlValue& at) {
+  if (!at.is_sequence() || at.size() != 2 || !is_pair_of_vectors(at))
+    at.fail("expected [[x, y, z], [x, y, z]]: the joint's point in the axes of the first node and of the second");
+  return {at.at(std::size_t{0}).vector3(), at.at(std::size_t{1}).vector3()};
+}
+
 JointFrames read_joint_frames(const YamlValue& entry, const Model& model, AxisNeed need, const std::string& axis_key) {
   JointFrames frames;
   const std::vector<int> nodes = nodes_named_by(entry.at("nodes"), 2, model);
@@ -98,10 +104,9 @@ JointFrames read_joint_frames(const YamlValue& entry, const Model& model, AxisNe
   frames.on_first = inverse(first) * Frame{place, axes[0]};
   frames.on_second = inverse(second) * Frame{place, axes[1]};
   if (at) {
-    if (!at->is_sequence() || at->size() != 2 || !is_pair_of_vectors(*at))
-      at->fail("expected [[x, y, z], [x, y, z]]: the joint's point in the axes of the first node and of the second");
-    frames.on_first.x = at->at(std::size_t{0}).vector3();
-    frames.on_second.x = at->at(std::size_t{1}).vector3();
+    const auto points = read_points_at(*at);
+    frames.on_first.x = points[0];
+    frames.on_second.x = points[1];
   } else if (!position) {
     constexpr double rounding = 1e-9;  // [m]
     const double distance = (second.x - first.x).norm();

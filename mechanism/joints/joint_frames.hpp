@@ -13,6 +13,7 @@
 // A joint without axis has frames parallel to the inertial axes as drawn.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -44,5 +45,8 @@ Vector3 smallest_turn(const Vector3& from, const Vector3& to, const Vector3& nor
 
 /// The keys that `read_joint_frames` reads, with `type`.
 std::vector<std::string> joint_frame_keys();
+
+/// `at` of a joint: a point in the axes of each node. @throws InputError where it is something else
+std::array<Vector3, 2> read_points_at(const YamlValue& at);
 
 }  // namespace bielle::mechanism

@@ -80,6 +80,15 @@ std::vector<Sample> higher_pair_samples() {
                            {"axis", "[1, 2]", ""},
                            {"radius", "-1", ""}}),
               "on a plane through a point"));
+  list.push_back(variant(higher_pair("wheel",
+                                     "normal: [0.1, 0.2, 1], axis: [1, 2, -0.2], radius: 0.5, at: [[0.1, -0.2, -0.3], "
+                                     "[0.2, -0.1, 0.3]]",
+                                     {{"at", "[[0, 0, 9], [0, 0, 0]]", "below the plane"},
+                                      {"at", "[0, 0, 9]", "of the first node and of the second"},
+                                      {"normal", "[1, 2]", ""},
+                                      {"axis", "[1, 2]", ""},
+                                      {"radius", "-1", ""}}),
+                         "off its node"));
   for (const std::string friction : {"", ", friction: 0.7"}) {
     std::vector<BadValue> bad = {{"normal", "[1, 2]", ""}, {"axis", "[1, 2]", ""},         {"radius", "-1", ""},
                                  {"slip", "some", "none"}, {"slip.longitudinal", "0", ""}, {"slip.lateral", "-1", ""},

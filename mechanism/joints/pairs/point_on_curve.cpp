@@ -139,11 +139,11 @@ Curve read_curve(const YamlValue& value, bool closed, const Frame& frame) {
 }  // namespace
 
 void read_point_on_curve(const std::string& name, const YamlValue& entry, Model& model) {
-  check_pair_keys(entry, "a point_on_curve joint", {"type", "nodes", "position", "curve", "closed"});
+  check_pair_keys(entry, "a point_on_curve joint", {"type", "nodes", "position", "at", "curve", "closed"});
   JointFrames frames = read_joint_frames(entry, model, AxisNeed::optional);
   const auto given = entry.find("closed");
   const bool closed = given && given->boolean();
-  // Of J_A, which stands where the point is drawn.
+  // Of J_A, which stands where the point is drawn, or is to start (`at`).
   const Frame joint = model.node(frames.first).frame * frames.on_first;
   Curve curve = read_curve(entry.at("curve"), closed, joint);
   const double start = curve.nearest(Vector3::Zero());

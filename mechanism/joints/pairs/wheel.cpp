@@ -104,7 +104,7 @@ void WheelJoint::describe(const LocalState& state, Description& description) con
 }
 
 void read_wheel(const std::string& name, const YamlValue& entry, Model& model) {
-  check_pair_keys(entry, "a wheel", {"type", "nodes", "position", "normal", "axis", "radius", "slip"});
+  check_pair_keys(entry, "a wheel", {"type", "nodes", "position", "at", "normal", "axis", "radius", "slip"});
   const std::vector<int> nodes = nodes_named_by(entry.at("nodes"), 2, model);
   if (nodes[0] == nodes[1]) entry.at("nodes").fail("a joint needs two different nodes");
   const Frame &plane_node = model.node(nodes[0]).frame, &hub = model.node(nodes[1]).frame;
@@ -112,9 +112,21 @@ void read_wheel(const std::string& name, const YamlValue& entry, Model& model) {
   const double radius = entry.at("radius").positive_number();
   const double s = std::sqrt(std::max(0.0, 1 - std::pow(normal.dot(axis), 2)));
   if (s < 1e-3) entry.at("axis").fail("the wheel lies flat on the plane: its axis is parallel to `normal`");
-  // Below the hub: as far as the rim says, or in the plane through `position`.
-  const double height = entry.has("position") ? normal.dot(hub.x - entry.at("position").vector3()) : radius * s;
-  if (!(height > 0)) entry.at("position").fail("the hub is drawn below the plane: `normal` points to the wheel");
+  // Below the wheel's middle: as far as the rim says, or in the plane through `position` or the first point of `at`.
+  Vector3 middle = hub.x;
+  double height = radius * s;
+  if (const auto at = entry.find("at")) {
+    if (entry.has("position"))
+      at->fail("a wheel has a `position` of its plane or points `at` its nodes: give one of them");
+    const auto [on_plane, on_hub] = read_points_at(*at);
+    middle = hub.x + hub.R * on_hub;
+    height = normal.dot(middle - plane_node.x - plane_node.R * on_plane);
+  } else if (const auto position = entry.find("position")) {
+    height = normal.dot(middle - position->vector3());
+  }
+  if (!(height > 0))
+    entry.at(entry.has("at") ? "at" : "position")
+        .fail("the wheel is drawn below the plane: `normal` points to the wheel");
   const auto frame_with = [](const Vector3& origin, const Vector3& z, const Vector3& x) {
     Frame frame;
     frame.x = origin;
@@ -125,8 +137,8 @@ void read_wheel(const std::string& name, const YamlValue& entry, Model& model) {
   JointFrames frames;
   frames.first = nodes[0];
   frames.second = nodes[1];
-  frames.on_first = inverse(plane_node) * frame_with(hub.x - height * normal, normal, way);
-  frames.on_second = inverse(hub) * frame_with(hub.x, axis, way);
+  frames.on_first = inverse(plane_node) * frame_with(middle - height * normal, normal, way);
+  frames.on_second = inverse(hub) * frame_with(middle, axis, way);
   const std::optional<TyreLaw> law = read_tyre_law(entry);
   auto wheel = std::make_unique<WheelJoint>(name, std::move(frames), radius, !law, model);
   const WheelJoint& rolling = *wheel;

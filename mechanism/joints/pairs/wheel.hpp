@@ -37,7 +37,8 @@ class WheelJoint final : public MeasuredPair {
   double radius_;
 };
 
-/// `nodes: [of the plane, of the hub]`, `normal` of the plane, `position`: a point of it (default: below the hub),
+/// `nodes: [of the plane, of the hub]`, `normal` of the plane, `position`: a point of it (default: below the hub), or
+/// `at`: a point of the plane and the middle of the wheel in the axes of their nodes,
 /// `axis` of the wheel, `radius`; inertial directions as drawn.
 void read_wheel(const std::string& name, const YamlValue& entry, Model& model);
 
