@@ -86,6 +86,8 @@ FrictionLaw read_friction_law(const YamlValue& entry, const std::vector<std::str
   only_for("bristle_damping", FrictionLaw::Model::lugre, "lugre");
   if (law.model == FrictionLaw::Model::coulomb) {
     const auto width = entry.find("velocity");
+    if (width && law.stribeck_velocity > 0 && width->number() >= law.stribeck_velocity)
+      width->fail("the force is made smooth within far less than `stribeck_velocity`: a tenth of it, say");
     law.velocity = width ? width->positive_number() : law.stribeck_velocity > 0 ? law.stribeck_velocity / 10 : 1e-3;
   }
   if (law.model == FrictionLaw::Model::lugre) {

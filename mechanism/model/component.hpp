@@ -45,6 +45,9 @@ struct Crossing {
   /// Forces, rates or constraints may change after it: the motion is restarted there. Otherwise it is only noted.
   bool restarts = true;
   bool stops = false;  ///< the run ends there
+  /// What holds by a force is overloaded: of several that are so at once, the one that is farthest beyond (its value the
+  /// most negative) lets go first, because the others may hold without it.
+  bool one_by_one = false;
   /// The side on which every motion begins, +1 or -1: one that begins on the other side has crossed. 0: either.
   int begins_on = 0;
 };
@@ -70,6 +73,8 @@ struct Declaration {
     bool holdable = false;
     /// Multipliers only: the constraint may be switched off and on during a run, see Component::is_on.
     bool switched = false;
+    /// Multipliers only: where the constraint and others repeat each other it is set aside, not they.
+    bool yields = false;
   };
   std::vector<int> nodes;  ///< indices into the model's nodes
   std::vector<Scalar> amplitudes, first_order, multipliers;
@@ -224,6 +229,11 @@ class Component {
   /// @param crossed  the component's own crossings that were met there, by number
   virtual void begin_branch(const LocalState& /*state*/, std::span<const int> /*crossed*/,
                             Eigen::Ref<VectorX> /*memory*/) const {}
+
+  /// Where a motion or a static analysis begins: new values of the component's memory as far as it follows from rates.
+  /// Before rates are consistent nothing is `known` of them, and what would hold by them lets go; called again with the
+  /// rates that a motion begins with.
+  virtual void begin_motion(const LocalState& /*state*/, bool /*known*/, Eigen::Ref<VectorX> /*memory*/) const {}
 
   /// Whether the motion continues from the end of an accepted step on another branch than that of the step, although no
   /// crossing was detected: the motion is then restarted there.

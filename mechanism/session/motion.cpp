@@ -56,6 +56,7 @@ Motion::Motion(Session& session, const DynamicsOptions& options) : session_(&ses
     state.motion_factor = 1;
     system.displace(state, State(state), VectorX::Zero(system.dofs()));
   }
+  system.begin_motion(state, environment, false);
   const StartConditions conditions = session.start_conditions();
   if (!conditions.empty()) assemble_positions(system, environment, state, start_, conditions);
   if (options.equilibrium) settle(system, environment, options.newton, state, start_);

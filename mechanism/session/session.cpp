@@ -67,6 +67,7 @@ StartReport Session::assemble(const AssemblyOptions& options) {
   stopping_ = false;
   acting_ = environment_;
   StartReport report;
+  system_.begin_motion(state_, environment_, false);
   const StartConditions conditions = with_kept(system_, environment_, state_, start_conditions(), options);
   assemble_positions(system_, environment_, state_, report, conditions);
   MassSaddle saddle(system_);
@@ -119,6 +120,7 @@ StaticsReport Session::statics(const StaticsOptions& options) {
   statics.statics = true;
   const Loaded begin = loaded_;
   const LoadRamp ramp(system_, statics, begin);
+  system_.begin_motion(state_, statics, false);
   if (!started_) {
     ramp.set_off(state_);  // drives and supports stand where the load factor begins
     assemble_positions(system_, environment_, state_, report.start, conditions);

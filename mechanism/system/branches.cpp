@@ -47,6 +47,16 @@ void Branches::begin(State& state, const Environment& environment, const std::ve
   state.memory = memory;
 }
 
+void Branches::begin_motion(State& state, const Environment& environment, bool known) const {
+  VectorX memory = state.memory;
+  for (const std::size_t m : remembering_) {
+    const Slots& slots = unknowns_.slots()[m];
+    model_.members()[m].component->begin_motion(local(state, m, environment), known,
+                                                memory.segment(slots.memory_begin, slots.memories));
+  }
+  state.memory = memory;
+}
+
 bool Branches::accept(State& state, const Environment& environment) const {
   thread_local VectorX accepted;
   accepted = state.memory;

@@ -144,6 +144,22 @@ void System::begin_branch(State& state, const Environment& environment, const st
   switch_constraints(state, environment);
 }
 
+bool System::begin_motion(State& state, const Environment& environment, bool known) const {
+  branches_.begin_motion(state, environment, known);
+  const std::vector<char> before = state.idle;
+  const VectorX multiplier = state.multiplier;
+  switch_constraints(state, environment);
+  bool switched = false;
+  for (std::size_t k = 0; k < state.idle.size(); ++k) {
+    const bool was_off = k < before.size() && before[k] == Idle::switched_off;
+    if (was_off != (state.idle[k] == Idle::switched_off)) switched = true;
+  }
+  if (switched || before.empty()) return switched;
+  state.idle = before;  // with what is redundant
+  state.multiplier = multiplier;
+  return false;
+}
+
 bool System::accept(State& state, const Environment& environment) const {
   const bool branches_left = branches_.accept(state, environment);
   // One Newton step of the polar decomposition removes the rounding that products of rotations gather.

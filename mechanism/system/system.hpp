@@ -39,6 +39,7 @@ class System {
   int size() const { return unknowns_.size(); }
   Kind kind(int unknown) const { return unknowns_.kind(unknown); }
   ConstraintKind constraint_kind(int multiplier) const { return unknowns_.constraint_kind(multiplier); }
+  bool yields(int multiplier) const { return unknowns_.yields(multiplier); }  ///< to constraints that it repeats
   /// Typical size of an unknown [its units], as its component declares it; 0: none is known.
   double scale(int unknown) const { return unknowns_.scale(unknown); }
   /// First-order unknowns whose equations hold no rates of theirs, ascending, counted among the first-order ones.
@@ -91,6 +92,9 @@ class System {
   }
   /// Components renew what they remember where a branch of the motion begins. @param crossed  numbers of crossings
   void begin_branch(State& state, const Environment& environment, const std::vector<int>& crossed = {}) const;
+  /// Components forget what they remember of rates, or choose by those that are known (Component::begin_motion).
+  /// @returns whether constraints have been switched
+  bool begin_motion(State& state, const Environment& environment, bool known) const;
   /// The member that a component is; the component must be of the model.
   std::size_t member_of(const Component& component) const { return unknowns_.member_of(component); }
   /// The slots of a component of the model.

@@ -43,7 +43,7 @@ void Unknowns::append(Kind kind, const std::vector<Declaration::Scalar>& declare
   for (const Declaration::Scalar& each : declared)
     scalars.push_back({each.start, each.scale, word(each.name),
                        word(each.equation_units.empty() ? usual_equation_units(kind, each) : each.equation_units),
-                       member, each.kind, each.algebraic, each.holdable});
+                       member, each.kind, each.algebraic, each.holdable, each.yields});
 }
 
 void Unknowns::add(const Declaration& declaration) {

@@ -51,6 +51,7 @@ class Unknowns {
 
   Kind kind(int unknown) const { return kinds_[static_cast<std::size_t>(unknown)]; }
   ConstraintKind constraint_kind(int multiplier) const { return scalar(first_multiplier() + multiplier).constraint; }
+  bool yields(int multiplier) const { return scalar(first_multiplier() + multiplier).yields; }
   double scale(int unknown) const { return unknown < nodes_ ? 0 : scalar(unknown).scale; }
   const std::vector<int>& algebraic() const { return algebraic_; }
   const std::vector<int>& holdable() const { return holdable_; }
@@ -68,7 +69,7 @@ class Unknowns {
     const std::string *name, *equation_units;
     int member;
     ConstraintKind constraint;
-    bool algebraic, holdable;
+    bool algebraic, holdable, yields;
   };
   const Scalar& scalar(int unknown) const { return scalars_[static_cast<std::size_t>(unknown - nodes_)]; }
   void append(Kind kind, const std::vector<Declaration::Scalar>& declared, std::vector<Scalar>& scalars);

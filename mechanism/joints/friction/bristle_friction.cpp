@@ -74,13 +74,13 @@ void BristleFriction::add_tangent(const LocalState& state, LocalTangent& tangent
 
 std::vector<OutputField> BristleFriction::output_fields() const {
   std::vector<OutputField> fields = JointFriction::output_fields();
-  fields.push_back({"bristles", {static_cast<std::size_t>(size())}, "m", "deflections of the bristles", true});
+  fields.push_back(by_coordinate("bristles", "m", "deflections of the bristles along the coordinates"));
   return fields;
 }
 
 void BristleFriction::write_output(const LocalState& state, double* values) const {
   JointFriction::write_output(state, values);
-  Eigen::Map<VectorX>(values + joint().coordinates().size() + 1, size()) = state.first_order();
+  write_by_coordinate(state.first_order(), values + 2 * joint().coordinates().size());
 }
 
 }  // namespace bielle::mechanism

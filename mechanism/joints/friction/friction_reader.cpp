@@ -13,10 +13,17 @@
 namespace bielle::mechanism {
 namespace {
 
-std::vector<std::string> keys() {
+std::vector<std::string> friction_keys() {
   std::vector<std::string> all = friction_law_keys();
   all.insert(all.end(), {"radius", "arm", "preload"});
   return all;
+}
+
+bool bears_moments(const Joint& joint) {
+  Declaration declaration;
+  joint.declare(declaration);
+  const auto is_moment = [](const Declaration::Scalar& row) { return row.units == "N m"; };
+  return std::any_of(declaration.multipliers.begin(), declaration.multipliers.end(), is_moment);
 }
 
 FrictionSurface read_surface(const YamlValue& entry, const Joint& joint, const SlidingSurface& slides) {
@@ -41,19 +48,16 @@ FrictionSurface read_surface(const YamlValue& entry, const Joint& joint, const S
     surface.components = 1;
     surface.thread_radius = r;
   }
-  if (const auto arm = entry.find("arm")) surface.moment_arm = arm->positive_number();
+  if (const auto arm = entry.find("arm")) {
+    if (!bears_moments(joint)) arm->fail(fmt::format("a {} joint bears no moment that could press", joint.type()));
+    surface.moment_arm = arm->positive_number();
+  }
   if (const auto preload = entry.find("preload")) surface.preload = preload->non_negative_number();
   return surface;
 }
 
 void add_friction(const YamlValue& entry, const Joint& joint, const SlidingSurface& slides, Model& model) {
   FrictionSurface surface = read_surface(entry, joint, slides);
-  if (const auto kind = entry.find("model");
-      kind && slides.coordinates.size() > 1 && slides.lead == 0 && kind->text() == "stick_slip")
-    kind->fail(
-        fmt::format("`stick_slip` is for joints that slide along one coordinate; a {} joint slides along {} at "
-                    "once: take `lugre`, which sticks too",
-                    joint.type(), slides.coordinates.size()));
   const FrictionLaw law = read_friction_law(entry, {"coulomb", "lugre", "stick_slip"});
   std::unique_ptr<Component> friction;
   switch (law.model) {
@@ -64,6 +68,11 @@ void add_friction(const YamlValue& entry, const Joint& joint, const SlidingSurfa
       friction = std::make_unique<BristleFriction>(joint, std::move(surface), law);
       break;
     case FrictionLaw::Model::stick_slip:
+      if (surface.components > 1)
+        entry.at("model").fail(
+            fmt::format("`stick_slip` is for joints that slide along one coordinate; a {} joint slides along {} at "
+                        "once: take `lugre`, which sticks too",
+                        joint.type(), surface.components));
       friction = std::make_unique<StickSlipFriction>(joint, std::move(surface), law);
       break;
   }
@@ -81,15 +90,21 @@ void read_joint_friction(const YamlValue& value, const Joint& joint, Model& mode
     for (const SlidingSurface& each : surfaces) names.push_back(joint.coordinates()[each.coordinates.front()].name);
   const auto is_named = [&](const std::string& name) { return value.has(name); };
   if (std::any_of(names.begin(), names.end(), is_named)) {
-    value.check_keys(names, "`friction`, which names coordinates");
+    value.check_keys(names, "`friction` by coordinates");
     for (std::size_t k = 0; k < surfaces.size(); ++k)
       if (const auto entry = value.find(names[k])) {
-        entry->check_keys(keys(), "`friction`");
+        entry->check_keys(friction_keys(), "`friction`");
         add_friction(*entry, joint, surfaces[k], model);
       }
     return;
   }
-  value.check_keys(keys(), "`friction`");
+  for (const JointCoordinate& each : joint.coordinates())
+    if (value.has(each.name))
+      value.at(each.name).fail(
+          fmt::format("the coordinates of a {} joint slide at one surface: give one law for all", joint.type()));
+  std::vector<std::string> keys = friction_keys();
+  keys.insert(keys.end(), names.begin(), names.end());
+  value.check_keys(keys, "`friction`");
   for (const SlidingSurface& each : surfaces) add_friction(value, joint, each, model);
 }
 

@@ -126,9 +126,19 @@ void JointFriction::add_energy(const LocalState& state, Energy& energy) const {
   energy.input += lost - N * resist.rho.dot(v);  // what is neither lost nor stored
 }
 
+OutputField JointFriction::by_coordinate(const std::string& name, const std::string& units,
+                                         const std::string& description) const {
+  return {name, {joint_.coordinates().size()}, units, description, true};
+}
+
+void JointFriction::write_by_coordinate(const Vector& by_component, double* values) const {
+  std::fill_n(values, joint_.coordinates().size(), 0.0);
+  for (const FrictionSurface::Part& part : surface_.parts) values[part.coordinate] = by_component[part.component];
+}
+
 std::vector<OutputField> JointFriction::output_fields() const {
   return {joint_.force_field("friction", "force or torque of friction along the joint's coordinates"),
-          {"normal_force", {}, "N", "which presses the surfaces that slide, all of the joint's together", true}};
+          by_coordinate("normal_force", "N", "which presses the surface that slides along each coordinate")};
 }
 
 void JointFriction::write_output(const LocalState& state, double* values) const {
@@ -138,7 +148,7 @@ void JointFriction::write_output(const LocalState& state, double* values) const 
   const std::size_t count = joint_.coordinates().size();
   std::fill_n(values, count, 0.0);
   for (const FrictionSurface::Part& part : surface_.parts) values[part.coordinate] -= part.arm * R[part.component];
-  values[count] = N;
+  write_by_coordinate(Vector::Constant(size(), N), values + count);
 }
 
 void JointFriction::describe(const LocalState& /*state*/, Description& description) const {

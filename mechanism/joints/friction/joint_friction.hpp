@@ -43,7 +43,8 @@ class JointFriction : public Component {
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   void add_energy(const LocalState& state, Energy& energy) const override;
-  /// `friction`: force or torque along the joint's coordinates. `normal_force` N.
+  /// Along the joint's coordinates: `friction`, force or torque; `normal_force` N of the surface that slides along
+  /// each.
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
   void describe(const LocalState& state, Description& description) const override;
@@ -68,6 +69,11 @@ class JointFriction : public Component {
   const FrictionLaw& law() const { return law_; }
   const Joint& joint() const { return joint_; }
   const FrictionSurface& surface() const { return surface_; }
+  /// A result with a number for each coordinate of the joint: that of the component of v which it is part of, zero
+  /// where the surface does not slide along it. (A joint may have several surfaces.)
+  OutputField by_coordinate(const std::string& name, const std::string& units, const std::string& description) const;
+  void write_by_coordinate(const Vector& by_component, double* values) const;
+
   /// v without derivatives.
   Vector velocity(const LocalState& state) const;
   double normal_force(const LocalState& state) const;

@@ -6,28 +6,36 @@
 
 namespace bielle::mechanism {
 namespace {
+
 enum StickSlipCrossing { comes_to_rest, begins_to_slip };
-}
+
+/// The memory: direction of slip, 0 where it sticks, NaN where no motion has begun; whether it has slipped through an
+/// accepted step; when it began to; values of the coordinates where it stuck.
+enum StickSlipMemory { slip_direction, has_slipped, slips_since, stuck_at };
+
+}  // namespace
 
 void StickSlipFriction::declare(Declaration& declaration) const {
   JointFriction::declare(declaration);
   const std::string& name = joint().coordinates()[surface().parts.back().coordinate].name;
-  Declaration::Scalar row{"sticking " + name, "N", 0, ConstraintKind::nonholonomic};
-  row.switched = true;
+  Declaration::Scalar row{"sticking " + name, "N"};
+  row.switched = row.yields = true;
   declaration.multipliers.push_back(std::move(row));
-  declaration.memory = {std::numeric_limits<double>::quiet_NaN(), 0, 0};
-  declaration.crossings = {{name + " sticks", Crossing::Direction::falling},
-                           {name + " slips", Crossing::Direction::falling}};
-  for (Crossing& each : declaration.crossings) each.begins_on = 1;  // what cannot stick slips at once
+  declaration.memory.assign(stuck_at + surface().parts.size(), 0.0);
+  declaration.memory[slip_direction] = std::numeric_limits<double>::quiet_NaN();
+  Crossing rest{name + " sticks", Crossing::Direction::falling}, slip{name + " slips", Crossing::Direction::falling};
+  rest.begins_on = slip.begins_on = 1;  // what cannot stick slips at once
+  slip.one_by_one = true;
+  declaration.crossings = {rest, slip};
 }
 
 double StickSlipFriction::direction(const LocalState& state) {
-  const double kept = state.memory()[0];
-  return std::isnan(kept) || state.environment().statics ? 0 : kept;
+  const double kept = state.memory()[slip_direction];
+  return std::isnan(kept) ? 0 : kept;
 }
 
 bool StickSlipFriction::is_on(const LocalState& state, int /*row*/) const {
-  return !state.environment().statics && state.memory()[0] == 0;
+  return state.memory()[slip_direction] == 0;
 }
 
 JointFriction::Resistance StickSlipFriction::resistance(const LocalState& state, const Vector& v) const {
@@ -44,36 +52,51 @@ JointFriction::Vector StickSlipFriction::held(const LocalState& state) const {
   return Vector::Constant(1, state.multiplier()[0]);
 }
 
+double StickSlipFriction::distance(const LocalState& state) const {
+  const LocalState of_joint = state.of(0);
+  double away = 0;
+  for (std::size_t k = 0; k < surface().parts.size(); ++k) {
+    const FrictionSurface::Part& part = surface().parts[k];
+    const double moved =
+        joint().coordinate(part.coordinate, of_joint).value - state.memory()[static_cast<Eigen::Index>(stuck_at + k)];
+    const bool turns = joint().coordinates()[part.coordinate].kind == JointCoordinate::Kind::angle;
+    away += part.arm * (turns ? std::remainder(moved, 2 * M_PI) : moved);
+  }
+  return away;
+}
+
 void StickSlipFriction::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
   JointFriction::add_residual(state, r);
-  r[0] += velocity(state)[0];
+  r[0] += distance(state);
 }
 
 void StickSlipFriction::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   JointFriction::add_tangent(state, tangent);
-  const Slip& s = slip(state, true);
+  if (!tangent.wants_K) return;
+  const Slip& s = slip(state, false);
   const int at = row(state), n = static_cast<int>(s.w.rows());
-  if (tangent.wants_K) {
-    auto K = tangent.K.dense();
-    K.block(at, 0, n, 1) += s.w;
-    K.block(0, at, 1, n) += s.by_position.transpose();
-  }
-  if (tangent.wants_C) tangent.C.dense().block(0, at, 1, n) += s.w.transpose();
+  auto K = tangent.K.dense();
+  K.block(at, 0, n, 1) += s.w;
+  K.block(0, at, 1, n) += s.w.transpose();
 }
 
 void StickSlipFriction::add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
                                              Eigen::Ref<VectorX> acceleration) const {
+  velocity[0] += this->velocity(state)[0];
+  acceleration[0] += this->acceleration(state);
+}
+
+void StickSlipFriction::add_reaction_norm(const LocalState& /*state*/, double /*arm*/, Eigen::Ref<MatrixX> H) const {
+  H(0, 0) += 1;
+}
+
+double StickSlipFriction::acceleration(const LocalState& state) const {
   const Slip& s = slip(state, true);
   const LocalState of_joint = state.of(0);
   VectorX v(s.w.rows()), a(s.w.rows());
   get_local_velocities(of_joint, v);
   get_local_accelerations(of_joint, a);
-  velocity[0] += s.v[0];
-  acceleration[0] += s.w.col(0).dot(a) + s.by_position.col(0).dot(v);
-}
-
-void StickSlipFriction::add_reaction_norm(const LocalState& /*state*/, double /*arm*/, Eigen::Ref<MatrixX> H) const {
-  H(0, 0) += 1;
+  return s.w.col(0).dot(a) + s.by_position.col(0).dot(v);
 }
 
 double StickSlipFriction::no_velocity(const LocalState& state) const {
@@ -81,65 +104,97 @@ double StickSlipFriction::no_velocity(const LocalState& state) const {
   const NodeState &first = of_joint.node(0), &second = of_joint.node(1);
   double arm = 0;
   for (const FrictionSurface::Part& part : surface().parts) arm = std::max(arm, std::abs(part.arm));
-  return 1e-12 * (first.v.norm() + second.v.norm() + arm * (first.Omega.norm() + second.Omega.norm()));
+  // Positions are rounded: over a step that is an error of velocities, whatever these are.
+  constexpr double per_second = 1e-11;
+  return 1e-12 * (first.v.norm() + second.v.norm() + arm * (first.Omega.norm() + second.Omega.norm())) +
+         per_second * (first.x.norm() + second.x.norm() + arm);
 }
 
-bool StickSlipFriction::came_to_rest(const LocalState& state, double v) const {
-  return direction(state) != 0 && !has_slipped(state) && state.time() > state.memory()[2] && direction(state) * v <= 0;
+double StickSlipFriction::no_acceleration(const LocalState& state) const {
+  const LocalState of_joint = state.of(0);
+  const NodeState &first = of_joint.node(0), &second = of_joint.node(1);
+  double arm = 0;
+  for (const FrictionSurface::Part& part : surface().parts) arm = std::max(arm, std::abs(part.arm));
+  return 1e-9 * (state.environment().gravity.norm() + first.a.norm() + second.a.norm() +
+                 arm * (first.Omegadot.norm() + second.Omegadot.norm()));
 }
 
 void StickSlipFriction::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {
-  if (direction(state) * velocity(state)[0] > 0) memory[1] = 1;
+  if (direction(state) * velocity(state)[0] > no_velocity(state)) memory[has_slipped] = 1;
 }
 
 void StickSlipFriction::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const {
   const double dir = direction(state);
   values.setOnes();
-  // Just after it has begun to slip its velocity is rounding.
-  if (dir != 0 && has_slipped(state)) values[comes_to_rest] = dir * velocity(state)[0];
-  if (dir == 0 && is_on(state, 0))
+  if (dir != 0) {
+    const auto memory = state.memory();
+    // Where it has just begun to slip its velocity is rounding, and its acceleration tells.
+    if (memory[has_slipped] == 0 && state.time() <= memory[slips_since])
+      values[comes_to_rest] = dir * acceleration(state) + no_acceleration(state);
+    else
+      values[comes_to_rest] = dir * velocity(state)[0] + (memory[has_slipped] != 0 ? -1 : 1) * no_velocity(state);
+  } else if (holds(state)) {
     values[begins_to_slip] = law().sticking * normal_force(state) - std::abs(state.multiplier()[0]);
+  } else if (is_on(state, 0) && std::abs(acceleration(state)) > no_acceleration(state)) {
+    values[begins_to_slip] = -1;  // what others hold at its velocity of zero moves on
+  }
+}
+
+void StickSlipFriction::stick_here(const LocalState& state, Eigen::Ref<VectorX> memory) const {
+  memory[slip_direction] = 0;
+  const LocalState of_joint = state.of(0);
+  for (std::size_t k = 0; k < surface().parts.size(); ++k)
+    memory[static_cast<Eigen::Index>(stuck_at + k)] = joint().coordinate(surface().parts[k].coordinate, of_joint).value;
+}
+
+void StickSlipFriction::slip_along(double direction, bool moving, const LocalState& state, Eigen::Ref<VectorX> memory) {
+  memory[slip_direction] = direction;
+  memory[has_slipped] = moving ? 1 : 0;
+  memory[slips_since] = state.time();
+}
+
+void StickSlipFriction::begin_motion(const LocalState& state, bool known, Eigen::Ref<VectorX> memory) const {
+  const double v = velocity(state)[0];
+  if (!known)
+    memory[slip_direction] = std::numeric_limits<double>::quiet_NaN();
+  else if (std::abs(v) > no_velocity(state))
+    slip_along(std::copysign(1.0, v), true, state, memory);
+  else
+    stick_here(state, memory);
 }
 
 bool StickSlipFriction::leaves_branch(const LocalState& state) const {
-  const double v = velocity(state)[0];
-  // A sticking row that repeats another does not hold it.
-  if (is_on(state, 0) && state.idle(0)) return std::abs(v) > no_velocity(state);
-  return came_to_rest(state, v);
+  return is_on(state, 0) && !holds(state) && std::abs(velocity(state)[0]) > no_velocity(state);
 }
 
 void StickSlipFriction::begin_branch(const LocalState& state, std::span<const int> crossed,
                                      Eigen::Ref<VectorX> memory) const {
   const auto has_crossed = [&](int k) { return std::find(crossed.begin(), crossed.end(), k) != crossed.end(); };
   const double v = velocity(state)[0];
-  const auto slip_along = [&](double dir) {
-    memory[0] = dir;
-    memory[1] = 0;
-    memory[2] = state.time();
-  };
-  if (std::isnan(memory[0]) || (is_on(state, 0) && state.idle(0))) {
-    if (std::abs(v) > no_velocity(state)) {
-      slip_along(std::copysign(1.0, v));
-      memory[1] = 1;
-    } else {
-      memory[0] = 0;
-    }
+  if (std::isnan(state.memory()[slip_direction])) return;
+  if (is_on(state, 0) && !holds(state)) {
+    if (std::abs(v) > no_velocity(state))
+      slip_along(std::copysign(1.0, v), true, state, memory);
+    else if (has_crossed(begins_to_slip))
+      slip_along(std::copysign(1.0, acceleration(state)), false, state, memory);
+    else
+      stick_here(state, memory);
   } else if (has_crossed(begins_to_slip)) {
-    slip_along(std::copysign(1.0, state.multiplier()[0]));
-  } else if (has_crossed(comes_to_rest) || came_to_rest(state, v)) {
-    memory[0] = 0;
+    slip_along(std::copysign(1.0, state.multiplier()[0]), false, state, memory);
+  } else if (has_crossed(comes_to_rest)) {
+    stick_here(state, memory);
   }
 }
 
 std::vector<OutputField> StickSlipFriction::output_fields() const {
   std::vector<OutputField> fields = JointFriction::output_fields();
-  fields.push_back({"sticks", {}, "-", "how many of its surfaces stick", true});
+  fields.push_back(by_coordinate("sticks", "-", "1 along the coordinates of a surface that sticks, else 0"));
   return fields;
 }
 
 void StickSlipFriction::write_output(const LocalState& state, double* values) const {
   JointFriction::write_output(state, values);
-  values[joint().coordinates().size() + 1] = is_on(state, 0) ? 1 : 0;
+  write_by_coordinate(Vector::Constant(1, is_on(state, 0) ? 1 : 0), values + 2 * joint().coordinates().size());
 }
 
 }  // namespace bielle::mechanism

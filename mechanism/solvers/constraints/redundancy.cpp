@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <Eigen/SparseCore>
 #include <fmt/format.h>
@@ -58,6 +59,12 @@ std::vector<int> find_redundant(const System& system, const Environment& environ
   const SparsePattern& pattern = system.pattern();
   const int first = system.size() - system.multipliers();
   std::vector<Eigen::Triplet<double>> entries;
+  // Of columns that repeat each other the last ones are found.
+  std::vector<int> order(static_cast<std::size_t>(system.multipliers())), place(order.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_partition(order.begin(), order.end(), [&](int m) { return !system.yields(m); });
+  for (int k = 0; k < system.multipliers(); ++k)
+    place[static_cast<std::size_t>(order[static_cast<std::size_t>(k)])] = k;
   for (int m = 0; m < system.multipliers(); ++m) {
     const auto begin = static_cast<std::size_t>(pattern.column_start()[static_cast<std::size_t>(first + m)]);
     const auto end = static_cast<std::size_t>(pattern.column_start()[static_cast<std::size_t>(first + m + 1)]);
@@ -70,13 +77,15 @@ std::vector<int> find_redundant(const System& system, const Environment& environ
     norm = std::sqrt(norm);
     for (std::size_t k = begin; k < end; ++k)
       if (norm > 0 && pattern.row()[k] < first && values[k] != 0)
-        entries.emplace_back(pattern.row()[k], m, scaled(k) / norm);
+        entries.emplace_back(pattern.row()[k], place[static_cast<std::size_t>(m)], scaled(k) / norm);
   }
   Eigen::SparseMatrix<double> transposed(first, system.multipliers());
   transposed.setFromTriplets(entries.begin(), entries.end());
   // Far above rounding (of positions relative to the arms), far below what a nearly planar loop leaves.
   const double tolerance = std::max({1e-9, least, 1e3 * std::numeric_limits<double>::epsilon() * positions / length});
   std::vector<int> dependent = dependent_columns(transposed, tolerance);
+  for (int& column : dependent) column = order[static_cast<std::size_t>(column)];
+  std::sort(dependent.begin(), dependent.end());
   // What is switched off has no entries; it repeats nothing.
   if (!state.idle.empty())
     std::erase_if(dependent, [&](int m) { return state.idle[static_cast<std::size_t>(m)] == Idle::switched_off; });
@@ -123,7 +132,8 @@ std::vector<int> take_out_redundant(System& system, const Environment& environme
 namespace {
 
 /// Constraints that repeat others to within `least`, and did not where redundant ones were found.
-std::vector<int> newly_redundant(const System& system, const Environment& environment, const State& state, double least) {
+std::vector<int> newly_redundant(const System& system, const Environment& environment, const State& state,
+                                 double least) {
   std::vector<int> repeating = find_redundant(system, environment, state, least);
   std::vector<int> known;
   system.for_each_redundant(state, [&](int multiplier) { known.push_back(multiplier); });
@@ -190,14 +200,15 @@ std::vector<std::string> name_constraints(const System& system, const std::vecto
 
 namespace {
 
-/// Whether fewer constraints repeat others a little farther along what the rest lets free: a position in which links stand
-/// in line.
+/// Whether fewer constraints repeat others a little farther along what the rest lets free: a position in which links
+/// stand in line.
 bool stands_in_singular_position(const System& system, const Environment& environment, const State& state) {
   // On the way constraints hold to second order, so what always repeats others differs by 1e-6 there, and what does so
   // here alone by 1e-3.
   constexpr double part = 1e-3, least = 3e-5;
   VectorX v(system.dofs());
-  for (Eigen::Index k = 0; k < v.size(); ++k) v[k] = std::sin(1 + 1.7 * static_cast<double>(k));  // in no direction's favour
+  for (Eigen::Index k = 0; k < v.size(); ++k)
+    v[k] = std::sin(1 + 1.7 * static_cast<double>(k));  // in no direction's favour
   try {
     State moving = state;
     system.set_rates(moving, v, VectorX::Zero(v.size()));

@@ -24,10 +24,22 @@ std::vector<int> CrossingWatch::begin(const State& state, const Environment& env
   for (int k = 0; k < static_cast<int>(sides_.size()); ++k) {
     const double side = side_of(at_start_[k]);
     if (side == 0) continue;
-    if (side == -sides_[k] && counts(k)) jumped.push_back(k);
-    sides_[k] = side;
+    if (side == -sides_[k] && counts(k))
+      jumped.push_back(k);
+    else
+      sides_[k] = side;
   }
+  let_one_go(jumped, at_start_);
+  for (const int k : jumped) sides_[k] = -sides_[k];
   return jumped;
+}
+
+void CrossingWatch::let_one_go(std::vector<int>& crossed, const VectorX& values) const {
+  const auto one_by_one = [&](int k) { return system_.crossings()[static_cast<std::size_t>(k)].crossing.one_by_one; };
+  int first = -1;
+  for (const int k : crossed)
+    if (one_by_one(k) && (first < 0 || values[k] < values[first])) first = k;
+  std::erase_if(crossed, [&](int k) { return one_by_one(k) && k != first; });
 }
 
 bool CrossingWatch::counts(int k) const {
@@ -107,6 +119,7 @@ void CrossingWatch::narrow(const State& end, const Environment& environment, dou
 }
 
 std::vector<int> CrossingWatch::pass() {
+  let_one_go(crossed_, at_high_);
   for (const int k : crossed_) sides_[k] = -sides_[k];
   return crossed_;
 }

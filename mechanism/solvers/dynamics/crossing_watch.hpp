@@ -43,6 +43,8 @@ class CrossingWatch {
   /// Crossings with a zero between the start and values at the end of a step.
   void collect(const VectorX& values, std::vector<int>& crossed) const;
   bool has_crossed(int k, double value) const;
+  /// Of those that let go one by one, leaves the one that is farthest beyond; the others stay on their sides.
+  void let_one_go(std::vector<int>& crossed, const VectorX& values) const;
   bool counts(int k) const;  ///< the direction in which a crossing from its side goes
 
   const System& system_;

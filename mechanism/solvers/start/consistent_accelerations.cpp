@@ -278,7 +278,11 @@ class AccelerationEquations {
   }
 
   void check_same(const VectorX& one, const VectorX& other) const {
-    const double size = std::max(one.lpNorm<Eigen::Infinity>(), other.lpNorm<Eigen::Infinity>());
+    double moved = 0;
+    for (int i = 0; i < system_.dofs(); ++i)
+      if (system_.kind(i) == Kind::translation) moved = std::max(moved, std::abs(a_[i]));
+    const double size =
+        std::max({one.lpNorm<Eigen::Infinity>(), other.lpNorm<Eigen::Infinity>(), 1e-6 * moved * saddle_.scale()});
     Eigen::Index most = 0;
     if ((one - other).cwiseAbs().maxCoeff(&most) <= 1e-6 * size) return;
     throw_ambiguous(fmt::format("the multiplier {} may be {:.4g} or {:.4g}",

@@ -1,5 +1,7 @@
 #include "mechanism/solvers/start/consistent_start.hpp"
 
+#include <algorithm>
+
 #include "mechanism/solvers/constraints/redundancy.hpp"
 #include "mechanism/solvers/start/assemble_positions.hpp"
 #include "mechanism/solvers/start/begin_first_order.hpp"
@@ -10,8 +12,36 @@
 
 namespace bielle::mechanism {
 
+namespace {
+
+/// What cannot hold lets go, the most overloaded first.
+void release_overloaded(const System& system, const Environment& environment, State& state, StartReport& report,
+                        MassSaddle& saddle) {
+  const auto& crossings = system.crossings();
+  const auto count = static_cast<int>(crossings.size());
+  const bool any = std::any_of(crossings.begin(), crossings.end(), [](const auto& c) { return c.crossing.one_by_one; });
+  VectorX values(count);
+  // Each lets go once; what comes to hold again is the motion's to see.
+  for (int k = 0; any && k < count; ++k) {
+    system.calc_crossings(state, environment, values);
+    int worst = -1;
+    for (int i = 0; i < count; ++i)
+      if (crossings[static_cast<std::size_t>(i)].crossing.one_by_one && values[i] < 0 &&
+          (worst < 0 || values[i] < values[worst]))
+        worst = i;
+    if (worst < 0) return;
+    system.begin_branch(state, environment, {worst});
+    set_redundant_aside(system, environment, state);
+    make_velocities_consistent(system, environment, state, report, saddle);
+    make_accelerations_consistent(system, environment, state, saddle);
+  }
+}
+
+}  // namespace
+
 StartReport make_consistent(const System& system, const Environment& environment, State& state) {
   StartReport report;
+  system.begin_motion(state, environment, false);
   assemble_positions(system, environment, state, report);
   system.begin_branch(state, environment);
   set_redundant_aside(system, environment, state);
@@ -19,12 +49,17 @@ StartReport make_consistent(const System& system, const Environment& environment
   check_massless_directions(system, state);
   MassSaddle saddle(system);
   make_velocities_consistent(system, environment, state, report, saddle);
+  if (system.begin_motion(state, environment, true)) {
+    set_redundant_aside(system, environment, state);
+    make_velocities_consistent(system, environment, state, report, saddle);
+  }
   begin_first_order(system, environment, state);
   make_accelerations_consistent(system, environment, state, saddle);
   // What follows from reactions is known only now, and may change them.
   constexpr int most = 20;
   for (int k = 0; k < most && begin_first_order(system, environment, state); ++k)
     make_accelerations_consistent(system, environment, state, saddle);
+  release_overloaded(system, environment, state, report, saddle);
   balance_massless(system, environment, state, report);
   return report;
 }
