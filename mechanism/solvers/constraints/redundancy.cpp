@@ -38,7 +38,9 @@ double longest_arm(const System& system, const std::vector<double>& values, doub
         if (system.kind(row) == Kind::translation) force += square;
         if (system.kind(row) == Kind::rotation) moment += square;
       }
-      if (!(std::sqrt(force) * positions > rounding * std::sqrt(moment))) continue;
+      // Directions have length one; a model whose nodes stand in one point has no size to compare moments with.
+      constexpr double direction = 1e-6;
+      if (!(std::sqrt(force) > direction) && !(std::sqrt(force) * positions > rounding * std::sqrt(moment))) continue;
       forces += force;
       moments += moment;
     }
