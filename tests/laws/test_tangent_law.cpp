@@ -13,15 +13,17 @@ namespace {
 using Mover = void (DenseModel::*)(State&, const VectorX&) const;
 
 /// Derivatives of the residual along the unknowns that `move` changes, times their units.
-MatrixX difference(const DenseModel& dense, const State& state, Mover move, const VectorX& units) {
+MatrixX difference(const DenseModel& dense, const State& state, Mover move, const VectorX& units, double step) {
   MatrixX D = MatrixX::Zero(dense.size(), dense.size());
   for (int j = 0; j < dense.size(); ++j) {
     if (units[j] == 0) continue;
-    D.col(j) = derivative([&](double s) -> VectorX {
-      State moved = state;
-      (dense.*move)(moved, VectorX::Unit(dense.size(), j) * (s * units[j]));
-      return dense.residual(moved);
-    });
+    D.col(j) = derivative(
+        [&](double s) -> VectorX {
+          State moved = state;
+          (dense.*move)(moved, VectorX::Unit(dense.size(), j) * (s * units[j]));
+          return dense.residual(moved);
+        },
+        step);
   }
   return D;
 }
@@ -52,7 +54,8 @@ void check_part(const Subject& subject, const Sample& sample, const State& state
                         : part == Part::C ? subject.rate_units()
                                           : VectorX(subject.scales.rate * subject.rate_units());
   const MatrixX tangent = dense.tangent(state, part) * units.asDiagonal();
-  const MatrixX expected = difference(dense, state, mover, units);
+  const MatrixX expected =
+      difference(dense, state, mover, units, subject.scales.smooth_within * bielle::test::difference_step);
   double allowed_everywhere = 0;
   if (part != Part::M && (sample.neglected.K > 0 || sample.neglected.C > 0)) {
     const VectorX rates = dense.rates(state).cwiseQuotient(subject.position_units());
