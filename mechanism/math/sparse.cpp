@@ -148,8 +148,8 @@ bool SparseLU::refactor(const std::vector<double>& values) {
   Factors& f = *factors_;
   if (!f.numeric) return false;
   f.left = f.row_size.cwiseInverse().cwiseProduct(f.right);
-  scale_entries(pattern_, values, f.left, f.right, f.scaled);
-  int *start = starts(pattern_), *row = rows(pattern_);
+  scale_entries(used(), values, f.left, f.right, f.scaled);
+  int *start = starts(used()), *row = rows(used());
   if (!klu_refactor(start, row, f.scaled.data(), f.symbolic, f.numeric, &f.common) || f.common.status != KLU_OK ||
       !klu_rcond(f.symbolic, f.numeric, &f.common))
     return false;
@@ -164,20 +164,20 @@ bool SparseLU::refactor(const std::vector<double>& values) {
 bool SparseLU::factor_afresh(const std::vector<double>& values, const VectorX* row_floor) {
   Factors& f = *factors_;
   f.drop_numeric();
-  const int* row = pattern_.row().data();
+  const int* row = used().row().data();
   // Rows by their largest entry.
-  f.row_size.setOnes(pattern_.size());
-  scale_entries(pattern_, values, f.right, f.right, f.scaled);
-  VectorX largest = row_floor ? *row_floor : VectorX::Zero(pattern_.size());
+  f.row_size.setOnes(used().size());
+  scale_entries(used(), values, f.right, f.right, f.scaled);
+  VectorX largest = row_floor ? *row_floor : VectorX::Zero(used().size());
   for (std::size_t k = 0; k < f.scaled.size(); ++k) {
     double& size = largest[row[k]];
     size = std::max(size, std::abs(f.scaled[k]));
   }
   f.row_size = (largest.array() > 0).select(largest, f.row_size);
   f.left = f.row_size.cwiseInverse().cwiseProduct(f.right);
-  scale_entries(pattern_, values, f.left, f.right, f.scaled);
+  scale_entries(used(), values, f.left, f.right, f.scaled);
 
-  bool good = f.symbolic && f.factorise(pattern_);
+  bool good = f.symbolic && f.factorise(used());
   if (!good && (!f.symbolic || f.gave_up())) good = choose_ordering();
   if (!good) {
     singular_column_ = f.common.singular_col;
@@ -190,9 +190,9 @@ bool SparseLU::factor_afresh(const std::vector<double>& values, const VectorX* r
 
 bool SparseLU::choose_ordering() {
   Factors& f = *factors_;
-  f.symbolic = pattern_.orderings().get(pattern_, FillOrderings::column_minimum_degree);
+  f.symbolic = used().orderings().get(used(), FillOrderings::column_minimum_degree);
   f.room = 0;
-  if (!f.factorise(pattern_)) {
+  if (!f.factorise(used())) {
     f.symbolic = nullptr;  // a singular matrix says nothing of those to come
     return false;
   }
@@ -204,11 +204,11 @@ void SparseLU::try_minimum_degree() {
   Factors& f = *factors_;
   const FactorCost known = f.cost();
   Factors other;
-  other.symbolic = pattern_.orderings().get(pattern_, FillOrderings::minimum_degree);
+  other.symbolic = used().orderings().get(used(), FillOrderings::minimum_degree);
   if (other.symbolic->est_flops > known.operations) return;
   other.scaled.swap(f.scaled);
   other.room = known.entries;
-  const bool better = other.factorise(pattern_) && other.cost().operations <= known.operations;
+  const bool better = other.factorise(used()) && other.cost().operations <= known.operations;
   other.scaled.swap(f.scaled);
   if (!better) return;
   std::swap(f.symbolic, other.symbolic);
@@ -219,17 +219,59 @@ void SparseLU::try_minimum_degree() {
 FactorStatus SparseLU::factor(const std::vector<double>& values, const VectorX& scale, const VectorX* row_floor) {
   singular_column_ = -1;
   if (pattern_.size() == 0) return FactorStatus::good;
-  if (pattern_.entry_count() == 0) {  // KLU takes no matrix without entries
+  const std::vector<double>* present = &values;
+  if (!pattern_.passing().empty()) {
+    choose_present(values);
+    present_values_.resize(present_from_.size());
+    for (std::size_t k = 0; k < present_from_.size(); ++k)
+      present_values_[k] = values[static_cast<std::size_t>(present_from_[k])];
+    present = &present_values_;
+  }
+  if (used().entry_count() == 0) {  // KLU takes no matrix without entries
     singular_column_ = 0;
     return FactorStatus::singular;
   }
   factors_->right = scale;
-  return refactor(values) || factor_afresh(values, row_floor) ? FactorStatus::good : FactorStatus::singular;
+  return refactor(*present) || factor_afresh(*present, row_floor) ? FactorStatus::good : FactorStatus::singular;
 }
 
 void SparseLU::forget() {
   factors_->drop_numeric();
   factors_->symbolic = nullptr;
+  present_.reset();
+}
+
+void SparseLU::choose_present(const std::vector<double>& values) {
+  const std::vector<int>& passing = pattern_.passing();
+  if (!present_) passing_present_.assign(passing.size(), 0);
+  bool grows = !present_;
+  long wanted = 0, kept = 0;
+  for (std::size_t k = 0; k < passing.size(); ++k) {
+    const bool is = values[static_cast<std::size_t>(passing[k])] != 0;
+    wanted += is;
+    kept += passing_present_[k];
+    grows = grows || (is && !passing_present_[k]);
+  }
+  const bool stale = kept > 2 * wanted + 10L * pattern_.size();
+  if (!grows && !stale) return;
+  for (std::size_t k = 0; k < passing.size(); ++k)
+    passing_present_[k] = values[static_cast<std::size_t>(passing[k])] != 0 || (!stale && passing_present_[k] != 0);
+  factors_->drop_numeric();
+  factors_->symbolic = nullptr;
+  std::vector<int> start = {0}, row;
+  present_from_.clear();
+  std::size_t next = 0;
+  for (int column = 0; column < pattern_.size(); ++column) {
+    for (int k = pattern_.column_start()[static_cast<std::size_t>(column)];
+         k < pattern_.column_start()[static_cast<std::size_t>(column) + 1]; ++k) {
+      const bool passes = next < passing.size() && passing[next] == k;
+      if (passes && !passing_present_[next++]) continue;
+      row.push_back(pattern_.row()[static_cast<std::size_t>(k)]);
+      present_from_.push_back(k);
+    }
+    start.push_back(static_cast<int>(row.size()));
+  }
+  present_ = std::make_unique<const SparsePattern>(std::move(start), std::move(row));
 }
 
 void SparseLU::solve(Eigen::Ref<VectorX> b) const {

@@ -46,7 +46,12 @@ void Contact::declare(Declaration& declaration) const {
 void Contact::add_pattern(const Slots& /*slots*/, LocalPattern& pattern) const {
   for (const auto& [a, b] : pairs_)
     for (const int row : {local_node(a), local_node(b)})
-      for (const int column : {local_node(a), local_node(b)}) pattern.add_block(6 * row, 6 * column, 6, 6);
+      for (const int column : {local_node(a), local_node(b)}) {
+        if (row == column)
+          pattern.add_block(6 * row, 6 * column, 6, 6);
+        else
+          pattern.add_passing_block(6 * row, 6 * column, 6, 6);
+      }
 }
 
 PairForce Contact::force_of(const LocalState& state, int pair) const {
@@ -65,13 +70,18 @@ Vector3 Contact::middle(const LocalState& state, int k) const {
   return node.x + node.R * shape(k).frame.x;
 }
 
-void Contact::find_near(const LocalState& state, std::vector<int>& pairs) const {
+/// Valid until it is asked for again in the same thread.
+const std::vector<NearPairs::Bound>& Contact::bounds(const LocalState& state) const {
   thread_local std::vector<NearPairs::Bound> bounds;
   bounds.resize(shapes_.size());
   for (int k = 0; k < static_cast<int>(shapes_.size()); ++k)
     bounds[static_cast<std::size_t>(k)] = {middle(state, k), shape(k).reach(),
                                            state.node(local_node(k)).R * shape(k).frame.R.col(2)};
-  near_pairs_.find(bounds, pairs);
+  return bounds;
+}
+
+void Contact::find_near(const LocalState& state, std::vector<int>& pairs) const {
+  near_pairs_.find(bounds(state), pairs);
 }
 
 void Contact::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
@@ -119,13 +129,12 @@ void Contact::add_energy(const LocalState& state, Energy& energy) const {
 /// Over all pairs; those that bounding balls say are farther than the smallest so far are not looked at.
 Contact::Smallest Contact::smallest_gap(const LocalState& state, bool apart_only) const {
   Smallest smallest{1e300, Vector3::Constant(std::numeric_limits<double>::quiet_NaN())};
-  const auto bound = [&](int k) -> NearPairs::Bound {
-    return {middle(state, k), shape(k).reach(), state.node(local_node(k)).R * shape(k).frame.R.col(2)};
-  };
+  const std::vector<NearPairs::Bound>& bound = bounds(state);
   for (int pair = 0; pair < static_cast<int>(pairs_.size()); ++pair) {
     if (apart_only && state.memory()[1 + 3 * static_cast<Eigen::Index>(shapes_.size()) + pair] != apart) continue;
     const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
-    if (NearPairs::apart(bound(a), bound(b)) >= smallest.gap) continue;
+    if (NearPairs::apart(bound[static_cast<std::size_t>(a)], bound[static_cast<std::size_t>(b)]) >= smallest.gap)
+      continue;
     const PairForce::Nearest nearest = force_of(state, pair).nearest();
     if (nearest.gap < smallest.gap) smallest = {nearest.gap, nearest.place};
   }

@@ -1,7 +1,8 @@
 // Interference between links: shapes on nodes that push each other apart where they touch.
 //
 // One component holds all pairs of a group of shapes. Each pair is a penalty contact (pair_force.hpp); only those whose
-// bounding balls overlap are looked at (near_pairs.hpp). With a `restitution`, the damping of a pair follows from the
+// bounding balls overlap are looked at (near_pairs.hpp), and only those that touch are in the factors of the tangent
+// (LocalPattern::add_passing_block). With a `restitution`, the damping of a pair follows from the
 // speed at which it has touched: steps end where pairs touch (a crossing, the smallest gap of those that are apart),
 // and the damping stands in the memory until they part. With a `damping`, touches end no steps: the forces are
 // continuous.
@@ -56,6 +57,7 @@ class Contact final : public Component {
   PairForce force_of(const LocalState& state, int pair) const;
   double damping(const LocalState& state, int pair) const;
   Vector3 middle(const LocalState& state, int shape) const;
+  const std::vector<NearPairs::Bound>& bounds(const LocalState& state) const;
   void find_near(const LocalState& state, std::vector<int>& pairs) const;
   Smallest smallest_gap(const LocalState& state, bool apart_only) const;
   void remember(const LocalState& state, Eigen::Ref<VectorX> memory) const;

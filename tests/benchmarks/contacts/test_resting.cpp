@@ -148,3 +148,30 @@ TEST_CASE("what is drawn into each other is told") {
   REQUIRE(file.doubts.size() == 1);
   CHECK_THAT(file.doubts[0], Catch::Contains("sphere on 'ball' are drawn into each other by 0.01 m"));
 }
+
+TEST_CASE("the end of a beam rests on a stop: shapes on nodes of beams") {
+  // A cantilever of 1 m under 50 N at its end, with a ball 1 mm above a plane: 3 EI/L^3 w + N = 50, N = k p^1.5, w = 1
+  // mm + p. Deflections are a thousandth of the length.
+  constexpr double EI = 5000, k = 1e6;
+  double p = 0;
+  for (double low = 0, high = 0.01, j = 0; j < 100; ++j) {
+    p = 0.5 * (low + high);
+    (3 * EI * (1e-3 + p) + k * std::pow(p, 1.5) < 50 ? low : high) = p;
+  }
+  REQUIRE(p > 1e-5);
+  rest(R"yaml(
+nodes:
+  root: {fixed: true}
+  tip: {position: [1, 0, 0]}
+elements:
+  beam: {type: beam, nodes: [root, tip], section: {EA: 1e8, GAy: 1e8, GAz: 1e8, GJ: 5000, EIy: 5000, EIz: 5000}, elements: 4}
+joints:
+  it: {type: contact, shapes: [{node: ground, plane: [0, 0, 1], at: [0, 0, -0.051]}, {node: tip, sphere: 0.05}], stiffness: 1e6}
+loads:
+  pull: {node: tip, force: [0, 0, -50]}
+)yaml",
+       [&](const Session& session) {
+         CHECK_THAT(session.read("contacts/it/force")[2], Catch::WithinRel(k * std::pow(p, 1.5), 1e-3));
+         CHECK_THAT(-session.node("tip").x.z(), Catch::WithinRel(1e-3 + p, 1e-4));
+       });
+}
