@@ -1,7 +1,9 @@
 #include "mechanism/math/sparse.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <mutex>
 #include <stdexcept>
 
@@ -239,38 +241,57 @@ void SparseLU::forget() {
   factors_->drop_numeric();
   factors_->symbolic = nullptr;
   present_.reset();
+  absent_.clear();
+  present_passing_.clear();
+}
+
+/// Whether some value of a range is not zero: by bits, many at a time.
+bool SparseLU::any_in(const std::vector<double>& values, const Range& range) {
+  std::uint64_t bits = 0;
+  for (int k = range.begin; k < range.end; ++k)
+    bits |= std::bit_cast<std::uint64_t>(values[static_cast<std::size_t>(k)]);
+  return (bits << 1) != 0;  // zeros may have a sign
 }
 
 void SparseLU::choose_present(const std::vector<double>& values) {
   const std::vector<int>& passing = pattern_.passing();
-  if (!present_) passing_present_.assign(passing.size(), 0);
-  bool grows = !present_;
-  long wanted = 0, kept = 0;
-  for (std::size_t k = 0; k < passing.size(); ++k) {
-    const bool is = values[static_cast<std::size_t>(passing[k])] != 0;
-    wanted += is;
-    kept += passing_present_[k];
-    grows = grows || (is && !passing_present_[k]);
-  }
-  const bool stale = kept > 2 * wanted + 10L * pattern_.size();
-  if (!grows && !stale) return;
-  for (std::size_t k = 0; k < passing.size(); ++k)
-    passing_present_[k] = values[static_cast<std::size_t>(passing[k])] != 0 || (!stale && passing_present_[k] != 0);
-  factors_->drop_numeric();
-  factors_->symbolic = nullptr;
+  const auto is_zero = [&](int place) { return values[static_cast<std::size_t>(place)] == 0; };
+  const bool first = !present_;
+  const bool grows = std::any_of(absent_.begin(), absent_.end(), [&](const Range& r) { return any_in(values, r); });
+  const auto zeros = std::count_if(present_passing_.begin(), present_passing_.end(), is_zero);
+  const bool stale = 2 * zeros > static_cast<long>(present_passing_.size()) + 10L * pattern_.size();
+  if (!first && !grows && !stale) return;
+  std::vector<int> kept;
+  if (!first && !stale) kept = std::move(present_passing_);
+  absent_.clear();
+  present_passing_.clear();
   std::vector<int> start = {0}, row;
   present_from_.clear();
-  std::size_t next = 0;
+  std::size_t next = 0, next_kept = 0;
+  const auto is_absent = [&](int place) {
+    if (next == passing.size() || passing[next] != place) return false;
+    ++next;
+    const bool was = next_kept < kept.size() && kept[next_kept] == place;
+    next_kept += was;
+    if (!was && is_zero(place)) return true;
+    present_passing_.push_back(place);
+    return false;
+  };
   for (int column = 0; column < pattern_.size(); ++column) {
     for (int k = pattern_.column_start()[static_cast<std::size_t>(column)];
          k < pattern_.column_start()[static_cast<std::size_t>(column) + 1]; ++k) {
-      const bool passes = next < passing.size() && passing[next] == k;
-      if (passes && !passing_present_[next++]) continue;
+      if (is_absent(k)) {
+        if (absent_.empty() || absent_.back().end != k) absent_.push_back({k, k});
+        absent_.back().end = k + 1;
+        continue;
+      }
       row.push_back(pattern_.row()[static_cast<std::size_t>(k)]);
       present_from_.push_back(k);
     }
     start.push_back(static_cast<int>(row.size()));
   }
+  factors_->drop_numeric();
+  factors_->symbolic = nullptr;
   present_ = std::make_unique<const SparsePattern>(std::move(start), std::move(row));
 }
 

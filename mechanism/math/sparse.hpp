@@ -100,12 +100,18 @@ class SparseLU {
   bool factor_afresh(const std::vector<double>& values, const VectorX* row_floor);  ///< false where singular
   bool choose_ordering();
   void try_minimum_degree();
+  /// Neighbouring places.
+  struct Range {
+    int begin, end;
+  };
+  static bool any_in(const std::vector<double>& values, const Range& range);
   void choose_present(const std::vector<double>& values);
   const SparsePattern& used() const { return present_ ? *present_ : pattern_; }
   const SparsePattern& pattern_;
   std::unique_ptr<const SparsePattern> present_;  ///< of a pattern with passing entries: those that are factorised
   std::vector<int> present_from_;                 ///< their places in the whole
-  std::vector<char> passing_present_;             ///< of each passing entry
+  std::vector<int> present_passing_;              ///< places of the passing ones among them, ascending
+  std::vector<Range> absent_;                     ///< of the others
   std::vector<double> present_values_;
   std::unique_ptr<Factors> factors_;
   int singular_column_ = -1;

@@ -21,6 +21,8 @@ double NearPairs::apart(const Bound& a, const Bound& b) {
 void NearPairs::find(const std::vector<Bound>& bounds, std::vector<int>& near) const {
   struct Range {
     double low, high;
+    Vector3 middle;
+    double reach;
     int shape;
   };
   thread_local std::vector<Range> ranges;
@@ -33,18 +35,22 @@ void NearPairs::find(const std::vector<Bound>& bounds, std::vector<int>& near) c
     if (std::isinf(bound.reach))
       planes.push_back(k);
     else
-      ranges.push_back({bound.middle.x() - bound.reach, bound.middle.x() + bound.reach, k});
+      ranges.push_back({bound.middle.x() - bound.reach, bound.middle.x() + bound.reach, bound.middle, bound.reach, k});
   }
   std::sort(ranges.begin(), ranges.end(), [](const Range& a, const Range& b) { return a.low < b.low; });
   const auto take = [&](int a, int b) {
-    const int pair = number(a, b);
-    if (pair >= 0 && apart(bounds[static_cast<std::size_t>(a)], bounds[static_cast<std::size_t>(b)]) <= 0)
-      near.push_back(pair);
+    if (const int pair = number(a, b); pair >= 0) near.push_back(pair);
   };
   for (std::size_t k = 0; k < ranges.size(); ++k) {
-    for (std::size_t l = k + 1; l < ranges.size() && ranges[l].low <= ranges[k].high; ++l)
-      take(ranges[k].shape, ranges[l].shape);
-    for (const int plane : planes) take(ranges[k].shape, plane);
+    const Range& one = ranges[k];
+    for (std::size_t l = k + 1; l < ranges.size() && ranges[l].low <= one.high; ++l) {
+      const double most = one.reach + ranges[l].reach;
+      if ((one.middle - ranges[l].middle).squaredNorm() <= most * most) take(one.shape, ranges[l].shape);
+    }
+    for (const int plane : planes) {
+      const Bound& bound = bounds[static_cast<std::size_t>(plane)];
+      if (bound.normal.dot(one.middle - bound.middle) <= one.reach) take(one.shape, plane);
+    }
   }
   std::sort(near.begin(), near.end());
 }
