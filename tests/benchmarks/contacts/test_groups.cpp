@@ -43,3 +43,30 @@ TEST_CASE("a heap of balls settles in its bin, and none leaves it") {
   CHECK(z.back() > 36);
   for (int k = 0; k < 36; ++k) CHECK(z[static_cast<std::size_t>(k)] > 0.049);
 }
+
+TEST_CASE("a heap that is restored goes on as it did, to the last bit") {
+  BallsOnFloor balls;
+  balls.along = 4;
+  balls.heap = true;
+  balls.law = "    stiffness: 1e6\n    restitution: 0.5\n    friction: {coefficient: 0.3, velocity: 0.01}\n";
+  const MechanismFile file = read_mechanism_text(balls.text(), "balls.yaml");
+  Session session(file.model);
+  DynamicsOptions options;
+  options.duration = 0.3;
+  options.stepping.size = 5e-4;
+  const auto places = [&] {
+    std::vector<double> all;
+    for (const NodeState& node : session.state().nodes) all.insert(all.end(), {node.x.x(), node.x.y(), node.x.z()});
+    return all;
+  };
+  Motion motion = session.dynamics(options);
+  motion.advance_to(0.2);
+  REQUIRE(session.read("contacts/it/state")[0] > 0);
+  const std::vector<double> saved = session.save();
+  motion.finish();
+  const std::vector<double> end = places();
+  session.restore(saved);
+  CHECK(places() != end);
+  motion.finish();
+  CHECK(places() == end);
+}
