@@ -12,6 +12,7 @@
 #include "mechanism/joints/actions/drive.hpp"
 #include "mechanism/joints/cables/rope_section.hpp"
 #include "mechanism/joints/cams/cam.hpp"
+#include "mechanism/joints/contacts/contact.hpp"
 #include "mechanism/joints/couplings/linear_coupling.hpp"
 #include "mechanism/joints/gears/gear_mesh.hpp"
 #include "mechanism/joints/pairs/guided_point.hpp"
@@ -57,6 +58,7 @@ const std::vector<ComponentType>& component_table() {
       {Section::joints, "cam", read_cam},
       {Section::joints, "belt", read_belt},
       {Section::joints, "cable", read_cable},
+      {Section::joints, "contact", read_contact},
       {Section::drives, "drive", read_drive},
       {Section::loads, "load", read_load},
       {Section::states, "state", read_state},

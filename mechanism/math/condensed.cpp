@@ -104,6 +104,12 @@ void CondensedPattern::build_rest() {
     if (number(row) >= 0 && number(column) >= 0)
       rest_from_[static_cast<std::size_t>(rest_.find(number(row), number(column)))] = place;
   });
+  std::vector<int> passing;
+  for (int place = 0; place < rest_.entry_count(); ++place)
+    if (const int from = rest_from_[static_cast<std::size_t>(place)];
+        from >= 0 && std::binary_search(whole_->passing().begin(), whole_->passing().end(), from))
+      passing.push_back(place);
+  rest_.set_passing(std::move(passing));
   for (Block& block : blocks_) find_places(block);
 }
 
@@ -126,14 +132,14 @@ void CondensedPattern::find_places(Block& block) const {
 /// Factors of one block, and what they make of its neighbours.
 struct CondensedLU::Block {
   const CondensedPattern::Block* pattern;
-  LUFactors lu;                     ///< of R A_aa
-  VectorX row_scale;                ///< R: rows are brought to entries of size one, whatever their units
-  MatrixX inner, right;             ///< R A_aa, R A_ab
-  MatrixX below;                    ///< A_ba
-  MatrixX solved;                   ///< A_aa^-1 A_ab
-  MatrixX change;                   ///< A_ba A_aa^-1 A_ab
-  VectorX row_floor;                ///< largest entry of the outer rows of A
-  double condition = 0;             ///< smallest over largest pivot
+  LUFactors lu;          ///< of R A_aa
+  VectorX row_scale;     ///< R: rows are brought to entries of size one, whatever their units
+  MatrixX inner, right;  ///< R A_aa, R A_ab
+  MatrixX below;         ///< A_ba
+  MatrixX solved;        ///< A_aa^-1 A_ab
+  MatrixX change;        ///< A_ba A_aa^-1 A_ab
+  VectorX row_floor;     ///< largest entry of the outer rows of A
+  double condition = 0;  ///< smallest over largest pivot
   bool good = false;
   mutable VectorX part;  ///< of a right-hand side
   mutable VectorX permuted, outside;

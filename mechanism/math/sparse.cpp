@@ -1,7 +1,9 @@
 #include "mechanism/math/sparse.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <mutex>
 #include <stdexcept>
 
@@ -148,8 +150,8 @@ bool SparseLU::refactor(const std::vector<double>& values) {
   Factors& f = *factors_;
   if (!f.numeric) return false;
   f.left = f.row_size.cwiseInverse().cwiseProduct(f.right);
-  scale_entries(pattern_, values, f.left, f.right, f.scaled);
-  int *start = starts(pattern_), *row = rows(pattern_);
+  scale_entries(used(), values, f.left, f.right, f.scaled);
+  int *start = starts(used()), *row = rows(used());
   if (!klu_refactor(start, row, f.scaled.data(), f.symbolic, f.numeric, &f.common) || f.common.status != KLU_OK ||
       !klu_rcond(f.symbolic, f.numeric, &f.common))
     return false;
@@ -164,20 +166,20 @@ bool SparseLU::refactor(const std::vector<double>& values) {
 bool SparseLU::factor_afresh(const std::vector<double>& values, const VectorX* row_floor) {
   Factors& f = *factors_;
   f.drop_numeric();
-  const int* row = pattern_.row().data();
+  const int* row = used().row().data();
   // Rows by their largest entry.
-  f.row_size.setOnes(pattern_.size());
-  scale_entries(pattern_, values, f.right, f.right, f.scaled);
-  VectorX largest = row_floor ? *row_floor : VectorX::Zero(pattern_.size());
+  f.row_size.setOnes(used().size());
+  scale_entries(used(), values, f.right, f.right, f.scaled);
+  VectorX largest = row_floor ? *row_floor : VectorX::Zero(used().size());
   for (std::size_t k = 0; k < f.scaled.size(); ++k) {
     double& size = largest[row[k]];
     size = std::max(size, std::abs(f.scaled[k]));
   }
   f.row_size = (largest.array() > 0).select(largest, f.row_size);
   f.left = f.row_size.cwiseInverse().cwiseProduct(f.right);
-  scale_entries(pattern_, values, f.left, f.right, f.scaled);
+  scale_entries(used(), values, f.left, f.right, f.scaled);
 
-  bool good = f.symbolic && f.factorise(pattern_);
+  bool good = f.symbolic && f.factorise(used());
   if (!good && (!f.symbolic || f.gave_up())) good = choose_ordering();
   if (!good) {
     singular_column_ = f.common.singular_col;
@@ -190,9 +192,9 @@ bool SparseLU::factor_afresh(const std::vector<double>& values, const VectorX* r
 
 bool SparseLU::choose_ordering() {
   Factors& f = *factors_;
-  f.symbolic = pattern_.orderings().get(pattern_, FillOrderings::column_minimum_degree);
+  f.symbolic = used().orderings().get(used(), FillOrderings::column_minimum_degree);
   f.room = 0;
-  if (!f.factorise(pattern_)) {
+  if (!f.factorise(used())) {
     f.symbolic = nullptr;  // a singular matrix says nothing of those to come
     return false;
   }
@@ -204,11 +206,11 @@ void SparseLU::try_minimum_degree() {
   Factors& f = *factors_;
   const FactorCost known = f.cost();
   Factors other;
-  other.symbolic = pattern_.orderings().get(pattern_, FillOrderings::minimum_degree);
+  other.symbolic = used().orderings().get(used(), FillOrderings::minimum_degree);
   if (other.symbolic->est_flops > known.operations) return;
   other.scaled.swap(f.scaled);
   other.room = known.entries;
-  const bool better = other.factorise(pattern_) && other.cost().operations <= known.operations;
+  const bool better = other.factorise(used()) && other.cost().operations <= known.operations;
   other.scaled.swap(f.scaled);
   if (!better) return;
   std::swap(f.symbolic, other.symbolic);
@@ -219,17 +221,78 @@ void SparseLU::try_minimum_degree() {
 FactorStatus SparseLU::factor(const std::vector<double>& values, const VectorX& scale, const VectorX* row_floor) {
   singular_column_ = -1;
   if (pattern_.size() == 0) return FactorStatus::good;
-  if (pattern_.entry_count() == 0) {  // KLU takes no matrix without entries
+  const std::vector<double>* present = &values;
+  if (!pattern_.passing().empty()) {
+    choose_present(values);
+    present_values_.resize(present_from_.size());
+    for (std::size_t k = 0; k < present_from_.size(); ++k)
+      present_values_[k] = values[static_cast<std::size_t>(present_from_[k])];
+    present = &present_values_;
+  }
+  if (used().entry_count() == 0) {  // KLU takes no matrix without entries
     singular_column_ = 0;
     return FactorStatus::singular;
   }
   factors_->right = scale;
-  return refactor(values) || factor_afresh(values, row_floor) ? FactorStatus::good : FactorStatus::singular;
+  return refactor(*present) || factor_afresh(*present, row_floor) ? FactorStatus::good : FactorStatus::singular;
 }
 
 void SparseLU::forget() {
   factors_->drop_numeric();
   factors_->symbolic = nullptr;
+  present_.reset();
+  absent_.clear();
+  present_passing_.clear();
+}
+
+/// Whether some value of a range is not zero: by bits, many at a time.
+bool SparseLU::any_in(const std::vector<double>& values, const Range& range) {
+  std::uint64_t bits = 0;
+  for (int k = range.begin; k < range.end; ++k)
+    bits |= std::bit_cast<std::uint64_t>(values[static_cast<std::size_t>(k)]);
+  return (bits << 1) != 0;  // zeros may have a sign
+}
+
+void SparseLU::choose_present(const std::vector<double>& values) {
+  const std::vector<int>& passing = pattern_.passing();
+  const auto is_zero = [&](int place) { return values[static_cast<std::size_t>(place)] == 0; };
+  const bool first = !present_;
+  const bool grows = std::any_of(absent_.begin(), absent_.end(), [&](const Range& r) { return any_in(values, r); });
+  const auto zeros = std::count_if(present_passing_.begin(), present_passing_.end(), is_zero);
+  const bool stale = 2 * zeros > static_cast<long>(present_passing_.size()) + 10L * pattern_.size();
+  if (!first && !grows && !stale) return;
+  std::vector<int> kept;
+  if (!first && !stale) kept = std::move(present_passing_);
+  absent_.clear();
+  present_passing_.clear();
+  std::vector<int> start = {0}, row;
+  present_from_.clear();
+  std::size_t next = 0, next_kept = 0;
+  const auto is_absent = [&](int place) {
+    if (next == passing.size() || passing[next] != place) return false;
+    ++next;
+    const bool was = next_kept < kept.size() && kept[next_kept] == place;
+    next_kept += was;
+    if (!was && is_zero(place)) return true;
+    present_passing_.push_back(place);
+    return false;
+  };
+  for (int column = 0; column < pattern_.size(); ++column) {
+    for (int k = pattern_.column_start()[static_cast<std::size_t>(column)];
+         k < pattern_.column_start()[static_cast<std::size_t>(column) + 1]; ++k) {
+      if (is_absent(k)) {
+        if (absent_.empty() || absent_.back().end != k) absent_.push_back({k, k});
+        absent_.back().end = k + 1;
+        continue;
+      }
+      row.push_back(pattern_.row()[static_cast<std::size_t>(k)]);
+      present_from_.push_back(k);
+    }
+    start.push_back(static_cast<int>(row.size()));
+  }
+  factors_->drop_numeric();
+  factors_->symbolic = nullptr;
+  present_ = std::make_unique<const SparsePattern>(std::move(start), std::move(row));
 }
 
 void SparseLU::solve(Eigen::Ref<VectorX> b) const {

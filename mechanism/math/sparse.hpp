@@ -34,13 +34,17 @@ class SparsePattern {
   }
   /// Place of an entry among the values, or -1.
   int find(int row, int column) const;
+  /// Entries that are zero most of the time (of bodies that may touch): factors leave out those that are zero.
+  /// @param places  ascending
+  void set_passing(std::vector<int> places) { passing_ = std::move(places); }
+  const std::vector<int>& passing() const { return passing_; }
   /// Fill-reducing orderings: functions of the pattern alone, found when first asked for and shared by all factors and
   /// copies, in any number of threads.
   const FillOrderings& orderings() const { return *orderings_; }
 
  private:
   int size_ = 0;
-  std::vector<int> column_start_, row_;
+  std::vector<int> column_start_, row_, passing_;
   std::shared_ptr<const FillOrderings> orderings_;
 };
 
@@ -63,6 +67,9 @@ struct FactorCost {
 ///
 /// `factor` keeps the pivot sequence as long as its pivots do not degenerate. Rows are brought to entries of size one
 /// when pivots are chosen, whatever their units.
+///
+/// Of a pattern with passing entries those are factorised that are not zero, and those that have not been before, until
+/// they are many: what comes in makes ordering and pivots new.
 class SparseLU {
  public:
   explicit SparseLU(const SparsePattern& pattern);  ///< the pattern must outlive the factors
@@ -93,7 +100,19 @@ class SparseLU {
   bool factor_afresh(const std::vector<double>& values, const VectorX* row_floor);  ///< false where singular
   bool choose_ordering();
   void try_minimum_degree();
+  /// Neighbouring places.
+  struct Range {
+    int begin, end;
+  };
+  static bool any_in(const std::vector<double>& values, const Range& range);
+  void choose_present(const std::vector<double>& values);
+  const SparsePattern& used() const { return present_ ? *present_ : pattern_; }
   const SparsePattern& pattern_;
+  std::unique_ptr<const SparsePattern> present_;  ///< of a pattern with passing entries: those that are factorised
+  std::vector<int> present_from_;                 ///< their places in the whole
+  std::vector<int> present_passing_;              ///< places of the passing ones among them, ascending
+  std::vector<Range> absent_;                     ///< of the others
+  std::vector<double> present_values_;
   std::unique_ptr<Factors> factors_;
   int singular_column_ = -1;
 };

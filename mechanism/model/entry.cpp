@@ -6,13 +6,13 @@ namespace bielle::mechanism {
 
 const char* section_name(Section section) {
   static constexpr std::array<const char*, section_count> names = {
-      "nodes", "elements", "joints", "drives", "loads", "states", "measures", "events", "supports"};
+      "nodes", "elements", "joints", "drives", "loads", "states", "measures", "events", "supports", "contacts"};
   return names[static_cast<std::size_t>(section)];
 }
 
 const char* section_noun(Section section) {
   static constexpr std::array<const char*, section_count> nouns = {
-      "node", "element", "joint", "drive", "load", "state", "measure", "event", "support"};
+      "node", "element", "joint", "drive", "load", "state", "measure", "event", "support", "contact"};
   return nouns[static_cast<std::size_t>(section)];
 }
 

@@ -80,6 +80,7 @@ struct Placement {
   void scatter(const double* entries, std::vector<double>& values) const;
 
  private:
+  LocalPattern related_pattern(const Component& component, const Slots& slots) const;
   void add_parts(const NodeKinematics& kinematics, const Unknowns& unknowns, const Slots& slots, int local, bool own);
 };
 

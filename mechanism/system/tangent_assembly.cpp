@@ -1,6 +1,7 @@
 #include "mechanism/system/tangent_assembly.hpp"
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <numeric>
 
@@ -17,10 +18,16 @@ class TangentAssembly::KeptEntries {
     for (std::size_t m = 0; m < placements_.size(); ++m) {
       begin_.push_back(kept_.size());
       if (placements_[m].contributes())
-        add(placements_[m],
-            placements_[m].pattern(*assembly.model_.members()[m].component, assembly.unknowns_.slots()[m]));
+        add(m, placements_[m].pattern(*assembly.model_.members()[m].component, assembly.unknowns_.slots()[m]));
     }
     begin_.push_back(kept_.size());
+  }
+  /// Whether some entry of a member is zero most of the time.
+  bool any_passing(std::size_t member) const { return passing_.contains(member); }
+  /// Whether an entry is. @param entry  the member's own, by columns
+  bool passes(std::size_t member, int entry) const {
+    const auto found = passing_.find(member);
+    return found != passing_.end() && found->second[static_cast<std::size_t>(entry)];
   }
   /// Calls act(entry, row, column): the member's own, by columns, and where it stands in the whole.
   template <class Act>
@@ -39,8 +46,14 @@ class TangentAssembly::KeptEntries {
  private:
   /// A constraint does not depend on multipliers: that block stays out of the pattern, but for those that may be out of
   /// the equations. Nobody adds to the constraints of others.
-  void add(const Placement& placement, const LocalPattern& pattern) {
+  void add(std::size_t member, const LocalPattern& pattern) {
+    const Placement& placement = placements_[member];
     const int n = placement.reduced_size();
+    if (pattern.has_passing()) {
+      std::vector<bool>& passing = passing_[member];
+      for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) passing.push_back(pattern.passes(i, j));
+    }
     std::vector<bool> of_others(placement.reads_multipliers ? static_cast<std::size_t>(n) : 0, false);
     if (placement.reads_multipliers)
       for (const ScalarPart& part : placement.scalars)
@@ -58,7 +71,8 @@ class TangentAssembly::KeptEntries {
   const std::vector<Placement>& placements_;
   int first_multiplier_;
   std::vector<bool> kept_;
-  std::vector<std::size_t> begin_;  ///< of each member's, and the end
+  std::vector<std::size_t> begin_;                    ///< of each member's, and the end
+  std::map<std::size_t, std::vector<bool>> passing_;  ///< of the members that have such entries
 };
 
 void TangentAssembly::complete() {
@@ -103,10 +117,32 @@ void TangentAssembly::build_pattern(const std::vector<bool>& may_be_idle) {
     for (int k = 0, row = unknowns_.first_multiplier(); row < unknowns_.size(); ++k, ++row)
       if (may_be_idle[static_cast<std::size_t>(k)]) act(row, row);
   });
+  find_passing(kept, may_be_idle);
   small_.clear();
   for (std::size_t m = 0; m < placements_.size(); ++m) set_places(kept, m);
   waiting_.assign(1, 0);
   for (const std::size_t m : work_.costly()) waiting_.push_back(waiting_.back() + placements_[m].targets.count());
+}
+
+/// Entries of the whole that are zero most of the time: those of which nobody says that they last.
+void TangentAssembly::find_passing(const KeptEntries& kept, const std::vector<bool>& may_be_idle) {
+  bool any = false;
+  for (std::size_t m = 0; m < placements_.size(); ++m) any = any || kept.any_passing(m);
+  if (!any) return;
+  std::vector<char> lasts(static_cast<std::size_t>(pattern_.entry_count()), 0);
+  const auto last = [&](int row, int column) { lasts[static_cast<std::size_t>(pattern_.find(row, column))] = 1; };
+  for (std::size_t m = 0; m < placements_.size(); ++m)
+    kept.for_each(m, [&](int entry, int row, int column) {
+      if (!kept.passes(m, entry)) last(row, column);
+    });
+  for (int i = 0; i < unknowns_.dofs(); ++i) last(i, i);
+  for (std::size_t k = 0; k < may_be_idle.size(); ++k)
+    if (may_be_idle[k])
+      last(unknowns_.first_multiplier() + static_cast<int>(k), unknowns_.first_multiplier() + static_cast<int>(k));
+  std::vector<int> passing;
+  for (std::size_t k = 0; k < lasts.size(); ++k)
+    if (!lasts[k]) passing.push_back(static_cast<int>(k));
+  pattern_.set_passing(std::move(passing));
 }
 
 void TangentAssembly::set_places(const KeptEntries& kept, std::size_t member) {

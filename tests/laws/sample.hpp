@@ -28,6 +28,9 @@ struct Scales {
   double amplitude = 1;      ///< of second-order scalars
   double first_order = 1;    ///< of first-order unknowns: random within start +- this
   double multiplier = 1;     ///< [N], [N m]
+  /// Forces vary over this share of the scales of length and of a radian (corners and edges that hand over to each
+  /// other): differences take smaller steps by as much.
+  double smooth_within = 1;
   /// Forces have a kink where nothing is loaded: the laws are checked away from there.
   bool kinks_unloaded = false;
 };
@@ -57,6 +60,7 @@ const std::vector<Sample>& samples();
 std::vector<Sample> element_samples();
 std::vector<Sample> joint_samples();
 std::vector<Sample> higher_pair_samples();
+std::vector<Sample> contact_samples();
 std::vector<Sample> coupling_samples();
 std::vector<Sample> friction_samples();
 std::vector<Sample> drive_samples();

@@ -28,6 +28,7 @@ Sample rubbing(const std::string& type, const std::string& variant, const std::s
                     friction + "}}\n",
                 std::move(bad)};
   sample.scales.kinks_unloaded = true;  // |F|, |M| and |v| where they vanish
+  sample.scales.smooth_within = 0.25;   // on the way there
   return sample;
 }
 

@@ -41,7 +41,7 @@ TEST_CASE("law 3: power is the rate of energy plus dissipation less input") {
               const Energy later = dense.energy(dense.along_motion(named.state, s / subject.scales.rate));
               return subject.scales.rate * (later.kinetic + later.elastic + later.gravity);
             },
-            0.005);
+            0.005 * subject.scales.smooth_within);
         const double power = r.head(dofs).dot(v.head(dofs));
         const double expected = stored + energy.dissipation - energy.input + named.state.multiplier.dot(Phi_rate);
         // Differences of the energies are good to 1e-12 of the largest of them (finite_difference.hpp). Coordinates are

@@ -13,8 +13,7 @@ namespace {
 using Mover = void (DenseModel::*)(State&, const VectorX&) const;
 
 /// Derivatives of the residual along the unknowns that `move` changes, times their units.
-/// @param h  step of the differences, over the units
-MatrixX difference(const DenseModel& dense, const State& state, Mover move, const VectorX& units, double h) {
+MatrixX difference(const DenseModel& dense, const State& state, Mover move, const VectorX& units, double step) {
   MatrixX D = MatrixX::Zero(dense.size(), dense.size());
   for (int j = 0; j < dense.size(); ++j) {
     if (units[j] == 0) continue;
@@ -24,7 +23,7 @@ MatrixX difference(const DenseModel& dense, const State& state, Mover move, cons
           (dense.*move)(moved, VectorX::Unit(dense.size(), j) * (s * units[j]));
           return dense.residual(moved);
         },
-        h);
+        step);
   }
   return D;
 }
@@ -55,9 +54,8 @@ void check_part(const Subject& subject, const Sample& sample, const State& state
                         : part == Part::C ? subject.rate_units()
                                           : VectorX(subject.scales.rate * subject.rate_units());
   const MatrixX tangent = dense.tangent(state, part) * units.asDiagonal();
-  // Near a kink a function varies on the scale of the way to it.
-  const double h = bielle::test::difference_step * (subject.scales.kinks_unloaded ? 0.25 : 1);
-  const MatrixX expected = difference(dense, state, mover, units, h);
+  const MatrixX expected =
+      difference(dense, state, mover, units, subject.scales.smooth_within * bielle::test::difference_step);
   double allowed_everywhere = 0;
   if (part != Part::M && (sample.neglected.K > 0 || sample.neglected.C > 0)) {
     const VectorX rates = dense.rates(state).cwiseQuotient(subject.position_units());

@@ -47,7 +47,7 @@ class Joints(unittest.TestCase):
         with open(MODEL, encoding="utf-8") as file:
             used = set(re.findall(r"type: (\w+)", file.read()))
         # A rod with two balls is a `distance` by another name.
-        self.assertEqual(types - used - {"spherical_spherical"}, set())
+        self.assertEqual(types - used - {"spherical_spherical", "contact"}, set())  # contacts.yaml has the latter
 
     def test_shafts(self):
         bend = math.radians(25)

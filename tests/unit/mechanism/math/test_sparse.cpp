@@ -239,3 +239,36 @@ TEST_CASE("factors that forget are those of a new start") {
   fresh.solve(y);
   CHECK(x == y);
 }
+
+TEST_CASE("entries that are zero most of the time come into the factors and leave them") {
+  // Blocks of three on the diagonal; what couples them passes.
+  Random random(5);
+  constexpr int n = 24;
+  MatrixX A = random.matrix(n, n);  // every entry in the pattern
+  Sparse sparse(A);
+  std::vector<int> passing;
+  sparse.pattern.for_each([&](int place, int row, int column) {
+    if (row / 3 != column / 3) passing.push_back(place);
+  });
+  sparse.pattern.set_passing(passing);
+  SparseLU lu(sparse.pattern);
+  const VectorX b = random.vector(n);
+  double entries_alone = 0;
+  for (const int coupled : {0, 2, 5, 1, 0}) {
+    // The first few blocks are coupled with each other.
+    MatrixX now = MatrixX::Zero(n, n);
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j)
+        if (i / 3 == j / 3 || (i / 3 < coupled && j / 3 < coupled)) now(i, j) = A(i, j) + (i == j ? 5 : 0);
+    std::vector<double> values;
+    sparse.pattern.for_each([&](int, int row, int column) { values.push_back(now(row, column)); });
+    REQUIRE(lu.factor(values, VectorX::Ones(n)) == FactorStatus::good);
+    VectorX x = b;
+    lu.solve(x);
+    CHECK(backward_error(now, x, b) < 1e-13);
+    if (entries_alone == 0) entries_alone = lu.cost().entries;
+    CHECK(lu.cost().entries < n * n);
+  }
+  CHECK(entries_alone == 8 * 12);  // both triangles of 3 x 3, with their diagonals
+  lu.forget();
+}

@@ -1,0 +1,289 @@
+#include "mechanism/joints/contacts/contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "mechanism/model/description.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+constexpr double apart = -1;  ///< in place of a damping
+
+}  // namespace
+
+Contact::Contact(std::string name, std::vector<ContactShape> shapes, std::vector<std::pair<int, int>> pairs,
+                 SurfaceLaw law)
+    : Component("contact", std::move(name)),
+      shapes_(std::move(shapes)),
+      pairs_(std::move(pairs)),
+      law_(std::move(law)),
+      near_pairs_(static_cast<int>(shapes_.size()), pairs_),
+      thinnest_(std::numeric_limits<double>::infinity()) {
+  for (const ContactShape& shape : shapes_) {
+    const auto known = std::find(nodes_.begin(), nodes_.end(), shape.node);
+    local_node_.push_back(static_cast<int>(known - nodes_.begin()));
+    if (known == nodes_.end()) nodes_.push_back(shape.node);
+  }
+  for (const auto& [a, b] : pairs_) thinnest_ = std::min(thinnest_, shape(a).thickness() + shape(b).thickness());
+}
+
+void Contact::declare(Declaration& declaration) const {
+  declaration.nodes = nodes_;
+  declaration.stiffness = declaration.in_blocks = declaration.kinks = true;
+  declaration.damping = law_.friction || law_.normal.damping > 0 || remembers_touches();
+  declaration.memory.assign(1 + 3 * shapes_.size(), std::numeric_limits<double>::quiet_NaN());
+  if (!remembers_touches()) return;
+  declaration.memory.resize(declaration.memory.size() + pairs_.size(), apart);
+  Crossing touches{"touches", Crossing::Direction::falling};
+  touches.restarts = false;  // forces begin at zero
+  declaration.crossings = {touches};
+}
+
+void Contact::add_pattern(const Slots& /*slots*/, LocalPattern& pattern) const {
+  for (const auto& [a, b] : pairs_)
+    for (const int row : {local_node(a), local_node(b)})
+      for (const int column : {local_node(a), local_node(b)}) {
+        if (row == column)
+          pattern.add_block(6 * row, 6 * column, 6, 6);
+        else
+          pattern.add_passing_block(6 * row, 6 * column, 6, 6);
+      }
+}
+
+PairForce Contact::force_of(const LocalState& state, int pair) const {
+  const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
+  return {shape(a), shape(b), state.node(local_node(a)), state.node(local_node(b))};
+}
+
+double Contact::damping(const LocalState& state, int pair) const {
+  if (!remembers_touches()) return law_.normal.damping;
+  if (state.environment().statics) return 0;
+  return std::max(0.0, state.memory()[1 + 3 * static_cast<Eigen::Index>(shapes_.size()) + pair]);
+}
+
+Vector3 Contact::middle(const LocalState& state, int k) const {
+  const NodeState& node = state.node(local_node(k));
+  return node.x + node.R * shape(k).frame.x;
+}
+
+/// Valid until it is asked for again in the same thread.
+const std::vector<NearPairs::Bound>& Contact::bounds(const LocalState& state) const {
+  thread_local std::vector<NearPairs::Bound> bounds;
+  bounds.resize(shapes_.size());
+  for (int k = 0; k < static_cast<int>(shapes_.size()); ++k)
+    bounds[static_cast<std::size_t>(k)] = {middle(state, k), shape(k).reach(),
+                                           state.node(local_node(k)).R * shape(k).frame.R.col(2)};
+  return bounds;
+}
+
+void Contact::find_near(const LocalState& state, std::vector<int>& pairs) const {
+  near_pairs_.find(bounds(state), pairs);
+}
+
+void Contact::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
+  check_passage(state);
+  thread_local std::vector<int> near;
+  find_near(state, near);
+  for (const int pair : near) {
+    const Vector12 part = force_of(state, pair).calc(law_, damping(state, pair)).r;
+    const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
+    r.segment<6>(6 * local_node(a)) += part.head<6>();
+    r.segment<6>(6 * local_node(b)) += part.tail<6>();
+  }
+}
+
+void Contact::add_tangent(const LocalState& state, LocalTangent& tangent) const {
+  thread_local std::vector<int> near;
+  find_near(state, near);
+  Matrix12 K, C;
+  for (const int pair : near) {
+    const PairForce force = force_of(state, pair);
+    const double d = damping(state, pair);
+    if (force.calc(law_, d).depth <= 0) continue;
+    force.calc_tangent(law_, d, K, C);
+    const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
+    const std::array<int, 4> at = {6 * local_node(a), 6 * local_node(a) + 3, 6 * local_node(b), 6 * local_node(b) + 3};
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j) {
+        const int row = at[static_cast<std::size_t>(i)], column = at[static_cast<std::size_t>(j)];
+        if (tangent.wants_K) tangent.K.add(row, column, Matrix3(K.block<3, 3>(3 * i, 3 * j)));
+        if (tangent.wants_C) tangent.C.add(row, column, Matrix3(C.block<3, 3>(3 * i, 3 * j)));
+      }
+  }
+}
+
+void Contact::add_energy(const LocalState& state, Energy& energy) const {
+  thread_local std::vector<int> near;
+  find_near(state, near);
+  for (const int pair : near) {
+    const PairForce::Result result = force_of(state, pair).calc(law_, damping(state, pair));
+    energy.elastic += result.elastic;
+    energy.dissipation += result.dissipation;
+  }
+}
+
+/// Over all pairs; those that bounding balls say are farther than the smallest so far are not looked at.
+Contact::Smallest Contact::smallest_gap(const LocalState& state, bool apart_only) const {
+  Smallest smallest{1e300, Vector3::Constant(std::numeric_limits<double>::quiet_NaN())};
+  const std::vector<NearPairs::Bound>& bound = bounds(state);
+  for (int pair = 0; pair < static_cast<int>(pairs_.size()); ++pair) {
+    if (apart_only && state.memory()[1 + 3 * static_cast<Eigen::Index>(shapes_.size()) + pair] != apart) continue;
+    const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
+    if (NearPairs::apart(bound[static_cast<std::size_t>(a)], bound[static_cast<std::size_t>(b)]) >= smallest.gap)
+      continue;
+    const PairForce::Nearest nearest = force_of(state, pair).nearest();
+    if (nearest.gap < smallest.gap) smallest = {nearest.gap, nearest.place};
+  }
+  return smallest;
+}
+
+std::vector<OutputField> Contact::output_fields() const {
+  const bool two = shapes_.size() == 2;
+  return {{"gap", {}, "m", "smallest distance of the surfaces; negative: how deep they press into each other"},
+          {"force", two ? std::vector<std::size_t>{3} : std::vector<std::size_t>{shapes_.size(), 3}, "N",
+           two ? "on the second shape, inertial components" : "on each shape, inertial components"},
+          {"state", {}, "", "number of pairs of shapes that touch"},
+          {"point", {3}, "m", "where the smallest gap is: halfway between the surfaces, inertial"}};
+}
+
+void Contact::write_output(const LocalState& state, double* values) const {
+  const std::size_t forces = shapes_.size() == 2 ? 1 : shapes_.size();
+  std::fill_n(values, 2 + 3 * forces, 0.0);
+  thread_local std::vector<int> near;
+  find_near(state, near);
+  double& touching = values[1 + 3 * forces];
+  for (const int pair : near) {
+    const PairForce::Result result = force_of(state, pair).calc(law_, damping(state, pair));
+    if (result.depth <= 0) continue;
+    ++touching;
+    const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
+    if (forces > 1) Eigen::Map<Vector3>(values + 1 + 3 * a) -= result.force;
+    Eigen::Map<Vector3>(values + 1 + (forces > 1 ? 3 * b : 0)) += result.force;
+  }
+  const Smallest smallest = smallest_gap(state, false);
+  values[0] = smallest.gap;
+  Eigen::Map<Vector3>(values + 2 + 3 * forces) = smallest.place;
+}
+
+void Contact::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const {
+  values[0] = smallest_gap(state, true).gap;
+}
+
+void Contact::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const { remember(state, memory); }
+
+void Contact::begin_branch(const LocalState& state, std::span<const int> /*crossed*/,
+                           Eigen::Ref<VectorX> memory) const {
+  remember(state, memory);
+}
+
+void Contact::remember(const LocalState& state, Eigen::Ref<VectorX> memory) const {
+  memory[0] = state.time();
+  const auto shapes = static_cast<Eigen::Index>(shapes_.size());
+  for (int k = 0; k < static_cast<int>(shapes_.size()); ++k) memory.segment<3>(1 + 3 * k) = middle(state, k);
+  if (!remembers_touches()) return;
+  auto dampings = memory.tail(static_cast<Eigen::Index>(pairs_.size()));
+  const auto before = state.memory().segment(1 + 3 * shapes, dampings.size());
+  dampings.setConstant(apart);
+  thread_local std::vector<int> near;
+  find_near(state, near);
+  for (const int pair : near) {
+    const PairForce::Nearest nearest = force_of(state, pair).nearest();
+    const bool touches = nearest.gap < 0 || (nearest.gap == 0 && nearest.rate <= 0);
+    if (!touches) continue;
+    dampings[pair] = before[pair] != apart ? before[pair] : law_.normal.damping_after(std::max(0.0, -nearest.rate));
+  }
+}
+
+std::string Contact::pair_name(int pair) const {
+  const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
+  return fmt::format("{} on '{}' and {} on '{}'", shape(a).kind_name(), shape(a).node_name, shape(b).kind_name(),
+                     shape(b).node_name);
+}
+
+void Contact::check_passage(const LocalState& state) const {
+  if (state.environment().statics || std::isinf(thinnest_)) return;
+  const auto memory = state.memory();
+  if (!(state.time() > memory[0])) return;  // not known, too
+  double farthest = 0;
+  for (int k = 0; k < static_cast<int>(shapes_.size()); ++k)
+    farthest = std::max(farthest, (middle(state, k) - memory.segment<3>(1 + 3 * k)).norm());
+  if (2 * farthest <= thinnest_) return;
+  for (int pair = 0; pair < static_cast<int>(pairs_.size()); ++pair) {
+    const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
+    const double thickness = shape(a).thickness() + shape(b).thickness();
+    const Vector3 now = middle(state, b) - middle(state, a);
+    const Vector3 way = now - (memory.segment<3>(1 + 3 * b) - memory.segment<3>(1 + 3 * a));
+    if (!(way.norm() > thickness)) continue;
+    const double share = std::clamp(now.dot(way) / way.squaredNorm(), 0.0, 1.0);
+    if ((now - share * way).norm() < shape(a).reach() + shape(b).reach()) check_passage_of(state, pair, way);
+  }
+}
+
+/// @param way  of the second shape relative to the first, since the last accepted step
+void Contact::check_passage_of(const LocalState& state, int pair, const Vector3& way) const {
+  const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
+  NodeState second = state.node(local_node(b));
+  const Vector3 x = second.x;
+  const auto presses = [&](double share) {
+    second.x = x - share * way;
+    return PairForce(shape(a), shape(b), state.node(local_node(a)), second).nearest().gap < 0;
+  };
+  if (presses(0) || presses(1)) return;
+  const double parts = std::min(1000.0, std::ceil(4 * way.norm() / (shape(a).thickness() + shape(b).thickness())));
+  for (double k = 1; k < parts; ++k)
+    if (presses(k / parts))
+      throw ComputationError(
+          fmt::format("contact '{}' at t = {:.6g} s: {} pass through each other within one step, {:.3g} m in {:.3g} s",
+                      name(), state.time(), pair_name(pair), way.norm(), state.time() - state.memory()[0]));
+}
+
+std::pair<std::string, double> Contact::drawn_into_each_other(const Model& model) const {
+  const auto drawn = [&](int k) {
+    NodeState node;
+    node.x = model.node(shape(k).node).frame.x;
+    node.R = model.node(shape(k).node).frame.R;
+    return node;
+  };
+  double deepest = 0, share = 0;
+  int deepest_pair = -1;
+  std::vector<NodeState> nodes;
+  std::vector<NearPairs::Bound> bounds;
+  for (int k = 0; k < static_cast<int>(shapes_.size()); ++k) {
+    nodes.push_back(drawn(k));
+    bounds.push_back({nodes.back().x + nodes.back().R * shape(k).frame.x, shape(k).reach(),
+                      nodes.back().R * shape(k).frame.R.col(2)});
+  }
+  std::vector<int> near;
+  near_pairs_.find(bounds, near);
+  for (const int pair : near) {
+    const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
+    const double depth =
+        -PairForce(shape(a), shape(b), nodes[static_cast<std::size_t>(a)], nodes[static_cast<std::size_t>(b)])
+             .nearest()
+             .gap;
+    if (depth <= deepest) continue;
+    deepest = depth;
+    deepest_pair = pair;
+    const double least = std::min(shape(a).thickness(), shape(b).thickness());
+    share = depth / (least > 0 ? least : std::max(shape(a).thickness(), shape(b).thickness()));
+  }
+  if (deepest_pair < 0) return {};
+  return {fmt::format("{} are drawn into each other by {:.3g} m", pair_name(deepest_pair), deepest), share};
+}
+
+void Contact::describe(const LocalState& state, Description& description) const {
+  constexpr std::size_t most = 10;
+  if (shapes_.size() > 2)
+    description.add(fmt::format("{} shapes, {} pairs that may touch", shapes_.size(), pairs_.size()));
+  for (std::size_t k = 0; k < std::min(most, shapes_.size()); ++k) description.add_line(shapes_[k].describe());
+  if (shapes_.size() > most) description.add_line(fmt::format("and {} more shapes", shapes_.size() - most));
+  description.add(law_.normal.describe());
+  if (law_.friction) description.add(law_.friction->describe());
+  description.add(fmt::format("smallest gap {:.6g} m", smallest_gap(state, false).gap));
+}
+
+}  // namespace bielle::mechanism

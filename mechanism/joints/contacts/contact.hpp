@@ -1,0 +1,80 @@
+// Interference between links: shapes on nodes that push each other apart where they touch.
+//
+// One component holds all pairs of a group of shapes. Each pair is a penalty contact (pair_force.hpp); only those whose
+// bounding balls overlap are looked at (near_pairs.hpp), and only those that touch are in the factors of the tangent
+// (LocalPattern::add_passing_block). With a `restitution`, the damping of a pair follows from the
+// speed at which it has touched: steps end where pairs touch (a crossing, the smallest gap of those that are apart),
+// and the damping stands in the memory until they part. With a `damping`, touches end no steps: the forces are
+// continuous.
+//
+// What is thinner than the way of a step might pass through another shape unseen. A trial in which this happens, by the
+// straight way from where the shapes were at the step's start, is refused: the step is made shorter.
+//
+// Memory: [time and middles of the shapes at the last accepted step | damping of each pair, -1 while apart].
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mechanism/joints/contacts/near_pairs.hpp"
+#include "mechanism/joints/contacts/pair_force.hpp"
+#include "mechanism/model/model.hpp"
+#include "reduce/common/yaml_file.hpp"
+
+namespace bielle::mechanism {
+
+class Contact final : public Component {
+ public:
+  /// @param pairs  numbers of the shapes that may touch, the smaller first
+  Contact(std::string name, std::vector<ContactShape> shapes, std::vector<std::pair<int, int>> pairs, SurfaceLaw law);
+
+  /// How deep shapes are drawn into each other, the deepest pair: a clause and the depth over their size; or nothing.
+  std::pair<std::string, double> drawn_into_each_other(const Model& model) const;
+  void set_remark(std::string remark) { remark_ = std::move(remark); }
+
+  void declare(Declaration& declaration) const override;
+  void add_pattern(const Slots& slots, LocalPattern& pattern) const override;
+  void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
+  void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
+  void add_energy(const LocalState& state, Energy& energy) const override;
+  std::vector<OutputField> output_fields() const override;
+  void write_output(const LocalState& state, double* values) const override;
+  void describe(const LocalState& state, Description& description) const override;
+  std::string remark() const override { return remark_; }
+  void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
+  void calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const override;
+  void begin_branch(const LocalState& state, std::span<const int> crossed, Eigen::Ref<VectorX> memory) const override;
+
+ private:
+  struct Smallest {
+    double gap;
+    Vector3 place;
+  };
+  bool remembers_touches() const { return law_.normal.restitution > 0; }
+  int local_node(int shape) const { return local_node_[static_cast<std::size_t>(shape)]; }
+  const ContactShape& shape(int k) const { return shapes_[static_cast<std::size_t>(k)]; }
+  PairForce force_of(const LocalState& state, int pair) const;
+  double damping(const LocalState& state, int pair) const;
+  Vector3 middle(const LocalState& state, int shape) const;
+  const std::vector<NearPairs::Bound>& bounds(const LocalState& state) const;
+  void find_near(const LocalState& state, std::vector<int>& pairs) const;
+  Smallest smallest_gap(const LocalState& state, bool apart_only) const;
+  void remember(const LocalState& state, Eigen::Ref<VectorX> memory) const;
+  void check_passage(const LocalState& state) const;
+  void check_passage_of(const LocalState& state, int pair, const Vector3& way) const;
+  std::string pair_name(int pair) const;
+
+  std::vector<ContactShape> shapes_;
+  std::vector<std::pair<int, int>> pairs_;
+  SurfaceLaw law_;
+  std::vector<int> nodes_, local_node_;
+  NearPairs near_pairs_;
+  double thinnest_ = 0;  ///< pair, sum of its thicknesses [m]
+  std::string remark_;
+};
+
+/// `{shapes: [..] | between: [[..], [..]], stiffness, exponent, restitution | damping, friction: {..}}`
+void read_contact(const std::string& name, const YamlValue& entry, Model& model);
+
+}  // namespace bielle::mechanism

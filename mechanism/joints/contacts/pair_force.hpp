@@ -1,0 +1,59 @@
+// The force of two shapes on each other: elastic forces where they press, damping along the normals, friction across.
+//
+// At each place of contact c, normal n from the first body to the second, depth p,
+//     F = f_e n + L max(-1, d pdot) n - L max(0, 1 + d pdot) h(|v_t|) v_t    on the second body, -F on the first,
+// f_e and L of pair_touches.hpp, pdot = -n . v and v_t = v - n (n . v), v the velocity of the second body's material at
+// c relative to the first body's. h of friction_law.hpp. Everything is computed in the axes of the first node, where it
+// is a function of s = R_1^T (x_2 - x_1), R_12 = R_1^T R_2 and of the rates of both as the first node sees them.
+// Forces at one place, equal and opposite: momentum and angular momentum are exact. Derivatives are exact, too.
+#pragma once
+
+#include <optional>
+
+#include "mechanism/contact_laws/friction_law.hpp"
+#include "mechanism/joints/contacts/pair_touches.hpp"
+#include "mechanism/measures/pair_measure.hpp"
+#include "mechanism/model/component.hpp"
+
+namespace bielle::mechanism {
+
+struct SurfaceLaw {
+  NormalLaw normal;
+  std::optional<FrictionLaw> friction;
+};
+
+class PairForce {
+ public:
+  /// Both must outlive it.
+  PairForce(const ContactShape& first, const ContactShape& second, const NodeState& first_node,
+            const NodeState& second_node);
+
+  /// What acts, without derivatives.
+  struct Result {
+    Vector12 r = Vector12::Zero();        ///< residual of the two nodes
+    Vector3 force = Vector3::Zero();      ///< on the second body, inertial [N]
+    Vector3 place = Vector3::Zero();      ///< of the deepest contact, inertial [m]
+    double depth = 0;                     ///< of the deepest contact [m]; 0: they do not touch
+    double approach = 0;                  ///< its rate [m/s]
+    double elastic = 0, dissipation = 0;  ///< [J], [W]
+  };
+  /// @param damping  d [s/m]
+  Result calc(const SurfaceLaw& law, double damping) const;
+  /// Derivatives of the residual by positions, and by rates.
+  void calc_tangent(const SurfaceLaw& law, double damping, Matrix12& K, Matrix12& C) const;
+
+  /// The place at which the surfaces are nearest to each other.
+  struct Nearest {
+    double gap, rate;  ///< [m], [m/s]
+    Vector3 place;     ///< inertial
+  };
+  Nearest nearest() const;
+
+ private:
+  const ContactShape &first_, &second_;
+  const NodeState &node_1_, &node_2_;
+  Matrix3 R_12_;
+  Vector3 s_, s_rate_, turning_;  ///< turning: R_12 Omega_2 - Omega_1
+};
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,177 @@
+// What comes to rest on others: penetration and forces in closed form, boxes that tumble to rest on a face.
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "tests/benchmarks/contacts/contact_runs.hpp"
+
+using namespace bielle::mechanism;
+using namespace bielle::test;
+
+namespace {
+
+constexpr double g = 9.81;
+
+/// Static equilibrium of a model.
+void rest(const std::string& text, const std::function<void(const Session&)>& look) {
+  const MechanismFile file = read_mechanism_text(text, "model.yaml");
+  Session session(file.model);
+  session.statics();
+  look(session);
+}
+
+}  // namespace
+
+TEST_CASE("a ball rests where gravity is balanced: depth (m g/k)^(1/n)") {
+  for (const double n : {1.0, 1.5, 2.2})
+    rest(contact_model({{"ball", "position: [0, 0, 0.099], fixed: [x, y, rx, ry, rz]", 3}},
+                       fmt::format("  it: {{type: contact, shapes: [{{node: ground, plane: [0, 0, 1]}}, {{node: ball, "
+                                   "sphere: 0.1}}], stiffness: 1e5, exponent: {}, restitution: 0.5}}\n",
+                                   n),
+                       "[0, 0, -9.81]"),
+         [&](const Session& session) {
+           CAPTURE(n);
+           CHECK_THAT(-session.read("contacts/it/gap")[0], Catch::WithinRel(std::pow(3 * g / 1e5, 1 / n), 1e-9));
+           CHECK_THAT(session.read("contacts/it/force")[2], Catch::WithinRel(3 * g, 1e-9));
+           CHECK(session.read("contacts/it/state")[0] == 1);
+         });
+}
+
+TEST_CASE("a wedge between two planes presses on each with its share of the weight") {
+  // A cube stands on an edge in a groove of planes at 30 and 60 degrees: m g cos(30), m g cos(60).
+  rest(contact_model({{"cube",
+                       "position: [-0.03656, 0, 0.13649], rotation_vector: [0, 'pi/6', 0], fixed: [y, rx, rz]",
+                       5,
+                       {0.03, 0.03, 0.03}}},
+                     R"yaml(
+  low: {type: contact, shapes: [{node: ground, plane: ['sin(pi/6)', 0, 'cos(pi/6)']}, {node: cube, box: [0.2, 0.2, 0.2]}], stiffness: 1e7}
+  steep: {type: contact, shapes: [{node: ground, plane: ['-sin(pi/3)', 0, 'cos(pi/3)']}, {node: cube, box: [0.2, 0.2, 0.2]}], stiffness: 1e7}
+)yaml",
+                     "[0, 0, -9.81]"),
+       [](const Session& session) {
+         const auto norm = [&](const char* name) {
+           const std::vector<double> f = session.read(fmt::format("contacts/{}/force", name));
+           return std::sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]);
+         };
+         // The corners press in by 1e-4 of the edge; the cube turns by less.
+         CHECK_THAT(norm("low"), Catch::WithinRel(5 * g * std::cos(M_PI / 6), 1e-4));
+         CHECK_THAT(norm("steep"), Catch::WithinRel(5 * g * std::cos(M_PI / 3), 1e-4));
+       });
+}
+
+TEST_CASE("a box that tumbles on a plane loses energy at every impact, and comes to rest on a face") {
+  const std::string text = contact_model(
+      {{"box",
+        "position: [0, 0, 0.5], rotation_vector: [0.5, 0.3, 0.2], velocity: [0.5, 0, 0], angular_velocity: [2, -3, 1]",
+        1,
+        {0.0025, 0.0025, 0.0025}}},
+      "  it: {type: contact, shapes: [{node: ground, plane: [0, 0, 1]}, {node: box, box: [0.12, 0.12, 0.12]}], "
+      "stiffness: "
+      "1e6, restitution: 0.4, friction: {coefficient: 0.4, velocity: 0.005}}\n",
+      "[0, 0, -9.81]");
+  double energy = 1e300, grown = 0, missing = 0, speed = 0, spin = 0, height = 0, upright = 0;
+  run_contact(text, {2e-4, 3}, [&](const Session& session, const Motion& motion) {
+    const Energy& e = motion.energy();
+    const double now = e.kinetic + e.elastic + e.gravity;
+    grown = std::max(grown, now - energy);
+    energy = std::min(energy, now);
+    missing = std::max(missing, std::abs(motion.balance()));
+    const NodeState& box = session.node("box");
+    speed = box.v.norm();
+    spin = box.Omega.norm();
+    height = box.x.z();
+    upright = box.R.row(2).cwiseAbs().maxCoeff();
+  });
+  CHECK(grown < 1e-3);  // of 4.9 J: the error of the steps in an impact
+  CHECK(missing < 2e-2);
+  CHECK(speed < 1e-3);
+  CHECK(spin < 1e-2);
+  CHECK_THAT(upright, Catch::WithinAbs(1, 1e-8));
+  // Four corners bear it.
+  CHECK_THAT(height, Catch::WithinAbs(0.06 - std::pow(g / 4 / 1e6, 1 / 1.5), 1e-6));
+}
+
+TEST_CASE("capsules and cylinders lie, cylinders stand, boxes stack") {
+  struct Case {
+    const char *shape, *node;
+    double height;
+  };
+  const double weight = 2 * g;
+  const auto depth = [&](double points) { return std::pow(weight / points / 1e6, 1 / 1.5); };
+  for (const Case& each : {Case{"capsule: [0.1, 0.4]", "rotation_vector: [0, 1.55, 0]", 0.1 - depth(2)},
+                           Case{"cylinder: [0.1, 0.4]", "rotation_vector: [0, 1.55, 0]", 0.1 - depth(2)},
+                           Case{"cylinder: [0.1, 0.1]", "rotation_vector: [0.02, 0.01, 0]", 0.05 - depth(1)},
+                           Case{"box: [0.2, 0.3, 0.1]", "rotation_vector: [0.02, 0.01, 0]", 0.05 - depth(4)}}) {
+    CAPTURE(each.shape);
+    double height = 0;
+    run_contact(contact_model({{"body", fmt::format("position: [0, 0, 0.12], {}", each.node), 2, {0.02, 0.02, 0.02}}},
+                              fmt::format("  it: {{type: contact, shapes: [{{node: ground, plane: [0, 0, 1]}}, {{node: "
+                                          "body, {}}}], stiffness: 1e6, damping: 3, friction: {{coefficient: 0.5}}}}\n",
+                                          each.shape),
+                              "[0, 0, -9.81]"),
+                {5e-4, 2}, [&](const Session& session, const Motion&) { height = session.node("body").x.z(); });
+    CHECK_THAT(height, Catch::WithinAbs(each.height, 2e-6));
+  }
+}
+
+TEST_CASE("a box rests on a box that is turned, a capsule across a box") {
+  const std::string text = contact_model(
+      {{"low", "position: [0, 0, 0.05]", 2, {0.02, 0.02, 0.02}},
+       {"high", "position: [0.01, 0.02, 0.15], rotation_vector: [0, 0, 0.4]", 1, {0.01, 0.01, 0.01}},
+       {"roll", "position: [0, 0, 0.24], rotation_vector: [0, 'pi/2', 0]", 1, {0.01, 0.01, 0.01}}},
+      "  it: {type: contact, shapes: [{node: ground, plane: [0, 0, 1]}, {node: low, box: [0.3, 0.3, 0.1]}, {node: "
+      "high, "
+      "box: [0.2, 0.2, 0.1]}, {node: roll, capsule: [0.04, 0.3]}], stiffness: 1e6, damping: 3, friction: {coefficient: "
+      "0.5, velocity: 1e-3}}\n",
+      "[0, 0, -9.81]");
+  double z = 0, roll = 0, moved = 0;
+  run_contact(text, {5e-4, 1}, [&](const Session& session, const Motion&) {
+    z = session.node("high").x.z();
+    roll = session.node("roll").x.z();
+    moved = (session.node("high").x - Vector3(0.01, 0.02, session.node("high").x.z())).norm();
+  });
+  // Corners of a box bear on faces, crossings of edges bear the capsule; loads that are not in the middle tilt by some
+  // 1e-4 rad.
+  const auto depth = [](double weight, double points) { return std::pow(weight * g / points / 1e6, 1 / 1.5); };
+  const double expected = 0.15 - depth(4, 4) - depth(2, 4);
+  CHECK_THAT(z, Catch::WithinAbs(expected, 2e-5));
+  CHECK_THAT(roll, Catch::WithinAbs(expected + 0.09 - depth(1, 2), 2e-5));
+  CHECK(moved < 1e-3);
+}
+
+TEST_CASE("what is drawn into each other is told") {
+  const MechanismFile file = read_mechanism_text(
+      contact_model({{"ball", "position: [0, 0, 0.09]"}},
+                    "  it: {type: contact, shapes: [{node: ground, plane: [0, 0, 1]}, {node: ball, sphere: 0.1}], "
+                    "stiffness: 1e6}\n"),
+      "model.yaml");
+  REQUIRE(file.doubts.size() == 1);
+  CHECK_THAT(file.doubts[0], Catch::Contains("sphere on 'ball' are drawn into each other by 0.01 m"));
+}
+
+TEST_CASE("the end of a beam rests on a stop: shapes on nodes of beams") {
+  // A cantilever of 1 m under 50 N at its end, with a ball 1 mm above a plane: 3 EI/L^3 w + N = 50, N = k p^1.5, w = 1
+  // mm + p. Deflections are a thousandth of the length.
+  constexpr double EI = 5000, k = 1e6;
+  double p = 0;
+  for (double low = 0, high = 0.01, j = 0; j < 100; ++j) {
+    p = 0.5 * (low + high);
+    (3 * EI * (1e-3 + p) + k * std::pow(p, 1.5) < 50 ? low : high) = p;
+  }
+  REQUIRE(p > 1e-5);
+  rest(R"yaml(
+nodes:
+  root: {fixed: true}
+  tip: {position: [1, 0, 0]}
+elements:
+  beam: {type: beam, nodes: [root, tip], section: {EA: 1e8, GAy: 1e8, GAz: 1e8, GJ: 5000, EIy: 5000, EIz: 5000}, elements: 4}
+joints:
+  it: {type: contact, shapes: [{node: ground, plane: [0, 0, 1], at: [0, 0, -0.051]}, {node: tip, sphere: 0.05}], stiffness: 1e6}
+loads:
+  pull: {node: tip, force: [0, 0, -50]}
+)yaml",
+       [&](const Session& session) {
+         CHECK_THAT(session.read("contacts/it/force")[2], Catch::WithinRel(k * std::pow(p, 1.5), 1e-3));
+         CHECK_THAT(-session.node("tip").x.z(), Catch::WithinRel(1e-3 + p, 1e-4));
+       });
+}

@@ -1,0 +1,171 @@
+// Samples of contacts: each pair of shapes that can touch, pressed together deeply enough that they touch wherever the
+// random states of the laws have them.
+#include <fstream>
+
+#include "tests/laws/sample.hpp"
+
+namespace bielle::laws {
+namespace {
+
+using mechanism::Section;
+
+const std::string contact_law =
+    "stiffness: 3, damping: 0.1, friction: {coefficient: 0.4, static: 0.6, stribeck_velocity: 2, velocity: 1.5, "
+    "viscous: 0.1}";
+
+/// Two nodes turned against each other, 1.4 m apart along z.
+Sample touching(const std::string& variant, const std::string& shapes, std::vector<BadValue> bad,
+                const std::string& law = contact_law) {
+  Sample sample{Section::joints, "contact", variant,
+                R"yaml(
+nodes:
+  a: {position: [0.1, 0.05, -0.1], rotation_vector: [0.1, -0.2, 0.3]}
+  b: {position: [0.2, 0.1, 1.3], rotation_vector: [-0.2, 0.1, 0.2]}
+joints:
+  it: {type: contact, )yaml" +
+                    shapes + ", " + law + "}\n",
+                std::move(bad)};
+  const bool between = shapes.rfind("between", 0) == 0;
+  if (!between)
+    sample.bad.insert(sample.bad.end(), {{"shapes", "[{node: a, sphere: 1}]", "at least two"},
+                                         {"shapes", "[{node: a, sphere: 1}, {node: a, sphere: 1}]", "same node"}});
+  sample.bad.insert(sample.bad.end(), {{"stiffness", "0", ""},
+                                       {"friction", "{coefficient: -1}", ""},
+                                       {"friction.static", "0.1", "no smaller"},
+                                       {"friction.stribeck_velocity", "0", ""},
+                                       {"friction.velocity", "0", ""},
+                                       {"friction.viscous", "-1", ""},
+                                       {"friction.coefficient", "", ""}});
+  if (law.find("damping") != std::string::npos) sample.bad.push_back({"damping", "-1", ""});
+  sample.scales.deformation = 0.12;
+  sample.scales.smooth_within = 0.02;
+  return sample;
+}
+
+const BadValue bad_node = {"shapes.0.node", "c", "no node 'c'"}, bad_at = {"shapes.0.at", "[1, 2]", ""};
+
+/// A roof of two triangles, in millimetres: a ridge along x at z = 0, open below.
+void write_roof(const std::string& folder) {
+  std::ofstream file(folder + "/roof.stl");
+  file << "solid roof\n";
+  const auto triangle = [&](const char* a, const char* b, const char* c) {
+    file << " facet normal 0 0 0\n  outer loop\n   vertex " << a << "\n   vertex " << b << "\n   vertex " << c
+         << "\n  endloop\n endfacet\n";
+  };
+  triangle("-5000 0 0", "5000 0 0", "0 5000 -2000");
+  triangle("5000 0 0", "-5000 0 0", "0 -5000 -2000");
+  file << "endsolid roof\n";
+}
+
+}  // namespace
+
+std::vector<Sample> contact_samples() {
+  std::vector<Sample> list;
+  list.push_back(touching("sphere, sphere", "shapes: [{node: a, sphere: 1.1, at: [0.1, 0, 0]}, {node: b, sphere: 0.9}]",
+                          {bad_node,
+                           bad_at,
+                           {"shapes.0.sphere", "-1", ""},
+                           {"shapes", "[{node: a}, {node: b, sphere: 1}]", "give the shape"},
+                           {"shapes", "[{node: a, sphere: 1, box: [1, 1, 1]}]", "two shapes"},
+                           {"shapes", "[{node: a, sphere: 1, rounding: 0.1}]", "box or a cylinder"},
+                           {"shapes", "[{node: a, sphere: 1, units: mm}]", "surface"}}));
+  list.push_back(touching("sphere, plane",
+                          "shapes: [{node: a, plane: [0, 0.1, 1], at: [0, 0, 0.2]}, {node: b, sphere: 2}]",
+                          {bad_node,
+                           bad_at,
+                           {"shapes.0.plane", "[0, 0, 0]", ""},
+                           {"shapes.1.sphere", "0", ""},
+                           {"shapes", "[{node: a, plane: [0, 0, 1]}, {node: b, plane: [0, 0, 1]}]",
+                            "a plane can touch: sphere, capsule"}}));
+  list.push_back(touching("sphere, capsule",
+                          "shapes: [{node: a, capsule: [1, 3], axes: {x: [0, 0, 1], y: [0.1, 1, 0]}}, "
+                          "{node: b, sphere: 1}]",
+                          {bad_node,
+                           {"shapes.0.capsule", "[1, 0]", ""},
+                           {"shapes.0.capsule", "[1]", "[radius, length]"},
+                           {"shapes.0.axes", "{x: [0, 0, 1]}", "two of the axes"},
+                           {"shapes.0.axes.x", "[0, 0, 0]", ""},
+                           {"shapes.0.axes.y", "[0, 0, 1]", "parallel"}}));
+  for (const bool side : {true, false})
+    list.push_back(touching(
+        side ? "sphere, side of a cylinder" : "sphere, end of a cylinder",
+        std::string("shapes: [{node: a, cylinder: [1.2, ") + (side ? "6" : "1.2") + "], rounding: 0.5, axes: {" +
+            (side ? "x: [0, 0, 1], y: [0.1, 1, 0]" : "x: [1, 0, 0.1], y: [0, 1, 0]") + "}}, {node: b, sphere: 1}]",
+        {{"shapes.0.cylinder", "[0, 1]", ""},
+         {"shapes.0.rounding", "1.3", "less than half"},
+         {"shapes.0.rounding", "0", ""},
+         {"shapes", "[{node: a, capsule: [1, 1]}, {node: b, cylinder: [1, 1]}]",
+          "a cylinder can touch: sphere, plane"}}));
+  list.push_back(touching(
+      "sphere, box", "shapes: [{node: a, box: [1.2, 1.1, 1.3], rounding: 0.3}, {node: b, sphere: 1.2}]",
+      {{"shapes.0.box", "[1, 1]", ""}, {"shapes.0.box", "[1, 1, -1]", ""}, {"shapes.0.rounding", "0.55", ""}}));
+  list.push_back(touching("sphere, surface",
+                          "shapes: [{node: a, surface: roof.stl, units: mm}, {node: b, sphere: 1.9}]",
+                          {{"shapes.0.surface", "none.stl", "cannot be read"},
+                           {"shapes.0.surface", "model.yaml", "no STL file"},
+                           {"shapes.0.units", "miles", ""},
+                           {"shapes", "[{node: a, surface: roof.stl}, {node: b, box: [1, 1, 1]}]",
+                            "a box can touch: sphere, plane, capsule, box"}}));
+  list.back().files = write_roof;
+  list.push_back(touching("capsule, plane",
+                          "shapes: [{node: a, plane: [0, 0, 1]}, {node: b, capsule: [1.2, 2], at: "
+                          "[0.1, 0, -1], axes: {x: [0, 0, 1], y: [0, 1, 0]}}]",
+                          {{"shapes.0.plane", "[1, 2]", ""}, {"shapes.1.capsule", "[1, 1, 1]", ""}}));
+  list.push_back(touching("cylinder, plane, standing",
+                          "shapes: [{node: a, plane: [0, 0, 1]}, {node: b, cylinder: [0.8, 2], at: [0, 0, -1]}]",
+                          {{"shapes.1.cylinder", "much", ""}}));
+  list.push_back(touching("cylinder, plane, lying",
+                          "shapes: [{node: a, plane: [0, 0, 1], at: [0, 0, 1]}, {node: b, "
+                          "cylinder: [1.2, 2], axes: {z: [1, 0, 0], y: [0, 1, 0]}}]",
+                          {{"shapes.0.at", "[1]", ""}, {"shapes.1.axes.z", "[0, 0, 0]", ""}}));
+  list.push_back(touching("box, plane",
+                          "shapes: [{node: a, plane: [0, 0, 1], at: [0, 0, 0.6]}, {node: b, box: [2, 1.5, 2.4]}]",
+                          {{"shapes.1.box", "[1, 2, x]", ""}}));
+  list.push_back(
+      touching("capsule, capsule, crossing",
+               "shapes: [{node: a, capsule: [0.9, 4], axes: {x: [0, 0, 1], y: [0, 1, 0]}}, {node: b, capsule: "
+               "[0.9, 4], axes: {x: [0, 0, 1], y: [1, 0.2, 0]}}]",
+               {{"shapes.1.capsule", "[0, 1]", ""}}));
+  list.push_back(
+      touching("capsule, capsule, nearly parallel",
+               "shapes: [{node: a, capsule: [0.9, 2], axes: {x: [0, 0, 1], y: [0, 1, 0]}}, {node: b, capsule: "
+               "[0.9, 3], axes: {x: [0, 0, 1], y: [0.1, 1, 0]}}]",
+               {{"shapes.1.capsule", "[1, -1]", ""}}));
+  list.push_back(touching("capsule, box",
+                          "shapes: [{node: a, box: [3, 2, 1.6], rounding: 0.6}, {node: b, capsule: [0.9, 2.5], "
+                          "axes: {x: [0, 0, 1], y: [0.5, 1, 0]}}]",
+                          {{"shapes.0.rounding", "1", ""}, {"shapes.1.capsule", "[1, 0]", ""}}));
+  list.push_back(touching("box, box, faces",
+                          "shapes: [{node: a, box: [2, 2.2, 1.6], rounding: 0.7}, {node: b, box: [3, 2.6, "
+                          "1.7], rounding: 0.7}]",
+                          {{"shapes.0.rounding", "-0.1", ""}, {"shapes.1.box", "[0, 1, 1]", ""}}));
+  list.push_back(
+      touching("box, box, edges",
+               "shapes: [{node: a, box: [3, 1.6, 1.6], rounding: 0.7, axes: {x: [1, 0, 0], y: [0, 1, 1]}}, {node: "
+               "b, box: [1.6, 3, 1.6], rounding: 0.7, axes: {x: [1, 0, 1], y: [0, 1, 0]}}]",
+               {{"shapes.1.box", "[1, 1, 0]", ""}}));
+  // The damping follows from the speed at which they touch: without one before they have.
+  list.push_back(
+      touching("restitution, groups",
+               "between: [[{node: a, sphere: 0.9}, {node: a, sphere: 1, at: [1, 0, 0]}], [{node: b, sphere: 1}, "
+               "{node: ground, plane: [0, 0, 1], at: [0, 0, -0.2]}]], exponent: 2, restitution: 0.6",
+               {{"between", "[[{node: a, sphere: 1}]]", "two lists"},
+                {"between", "[[{node: a, sphere: 1}], []]", "at least one"},
+                {"between", "[[{node: a, sphere: 1}], [{node: a, sphere: 1}]]", "same node"},
+                {"between.0.0.node", "c", "no node"},
+                {"between.0.0.sphere", "0", ""},
+                {"between.0.1.at", "1", ""},
+                {"between.1.1.plane", "[1]", ""},
+                {"shapes", "[{node: a, sphere: 1}, {node: b, sphere: 1}]", "either `shapes`"},
+                {"exponent", "0.5", "at least 1"},
+                {"damping", "1", "either `damping` or `restitution`"},
+                {"restitution", "1.1", ""},
+                {"restitution", "0", ""}},
+               "stiffness: 3, friction: {coefficient: 0.4, static: 0.6, stribeck_velocity: 2, velocity: 1.5, "
+               "viscous: 0.1}"));
+  for (Sample& sample : list)
+    if (sample.variant == "sphere, sphere") sample.bad.push_back({"friction.model", "lugre", ""});
+  return list;
+}
+
+}  // namespace bielle::laws
