@@ -7,12 +7,15 @@
 #include "mechanism/elements/forces/load.hpp"
 #include "mechanism/elements/forces/node_force.hpp"
 #include "mechanism/elements/forces/spring_damper.hpp"
+#include "mechanism/elements/forces/stiffness_field.hpp"
 #include "mechanism/elements/rigid_body/rigid_body.hpp"
 #include "mechanism/elements/superelement/superelement_body.hpp"
 #include "mechanism/joints/actions/drive.hpp"
 #include "mechanism/joints/cables/rope_section.hpp"
 #include "mechanism/joints/cams/cam.hpp"
 #include "mechanism/joints/couplings/linear_coupling.hpp"
+#include "mechanism/joints/flexible/bearing.hpp"
+#include "mechanism/joints/flexible/bushing.hpp"
 #include "mechanism/joints/gears/gear_mesh.hpp"
 #include "mechanism/joints/pairs/guided_point.hpp"
 #include "mechanism/joints/pairs/links.hpp"
@@ -33,6 +36,7 @@ const std::vector<ComponentType>& component_table() {
       {Section::elements, "superelement", read_superelement_body},
       {Section::elements, "spring_damper", read_spring_damper},
       {Section::elements, "node_force", read_node_force},
+      {Section::elements, "stiffness_field", read_stiffness_field},
       {Section::joints, "rigid", read_rigid},
       {Section::joints, "hinge", read_hinge},
       {Section::joints, "prismatic", read_prismatic},
@@ -50,6 +54,8 @@ const std::vector<ComponentType>& component_table() {
       {Section::joints, "point_on_curve", read_point_on_curve},
       {Section::joints, "slider", read_slider},
       {Section::joints, "wheel", read_wheel},
+      {Section::joints, "bushing", read_bushing},
+      {Section::joints, "bearing", read_bearing},
       {Section::joints, "gear", read_gear},
       {Section::joints, "gear_mesh", read_gear_mesh},
       {Section::joints, "differential", read_differential},

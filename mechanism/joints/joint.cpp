@@ -33,7 +33,7 @@ CoordinateRate Joint::principal_coordinate(std::size_t index, const LocalState& 
   const NodeState &first = state.node(0), &second = state.node(1);
   const Frame &A = frames_.on_first, &B = frames_.on_second;
   const JointCoordinate& coordinate = coordinates_[index];
-  if (coordinate.kind == JointCoordinate::Kind::rotation) {
+  if (coordinate.kind == JointCoordinate::Kind::rotation && coordinate.axis != JointCoordinate::by_type) {
     const PairRotation rotation(first, second, A.R, B.R);
     return {rotation.psi()[coordinate.axis], rotation.omega(first, second)[coordinate.axis]};
   }
@@ -76,7 +76,7 @@ void Joint::calc_coordinate(std::size_t index, const LocalState& state, Coordina
   const Frame &A = frames_.on_first, &B = frames_.on_second;
   const JointCoordinate& coordinate = coordinates_[index];
   jet.prepare(state.slots().size());
-  if (coordinate.kind == JointCoordinate::Kind::rotation) {
+  if (coordinate.kind == JointCoordinate::Kind::rotation && coordinate.axis != JointCoordinate::by_type) {
     PairRotation(first, second, A.R, B.R).calc(coordinate.axis, first, second, jet);
     return;
   }

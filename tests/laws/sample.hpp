@@ -59,6 +59,7 @@ std::vector<Sample> joint_samples();
 std::vector<Sample> higher_pair_samples();
 std::vector<Sample> coupling_samples();
 std::vector<Sample> drive_samples();
+std::vector<Sample> flexible_samples();
 std::vector<Sample> state_samples();
 
 }  // namespace bielle::laws
