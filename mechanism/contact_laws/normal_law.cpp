@@ -51,9 +51,7 @@ NormalLaw::Force NormalLaw::force(double p, double rate, double d) const {
   return {stiffness * power * push, stiffness * exponent * power / p * push, stiffness * power * d};
 }
 
-double NormalLaw::energy(double p) const {
-  return p > 0 ? stiffness * std::pow(p, exponent + 1) / (exponent + 1) : 0;
-}
+double NormalLaw::energy(double p) const { return p > 0 ? stiffness * std::pow(p, exponent + 1) / (exponent + 1) : 0; }
 
 std::string NormalLaw::describe() const {
   std::string text = fmt::format("stiffness {:.6g} N/m^{:.6g}", stiffness, exponent);
@@ -67,9 +65,9 @@ const std::vector<std::string>& normal_law_keys() {
   return keys;
 }
 
-NormalLaw read_normal_law(const YamlValue& entry, double exponent) {
+NormalLaw read_normal_law(const YamlValue& entry, double exponent, std::optional<double> stiffness) {
   NormalLaw law;
-  law.stiffness = entry.at("stiffness").positive_number();
+  law.stiffness = stiffness ? *stiffness : entry.at("stiffness").positive_number();
   law.exponent = exponent;
   if (const auto given = entry.find("exponent")) {
     law.exponent = given->number();

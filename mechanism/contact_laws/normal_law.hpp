@@ -7,10 +7,11 @@
 // e the restitution, whatever k, n and the mass: m v dv = -F dp, and the integral of v/(1 + d v) from v_i to -e v_i
 // vanishes. For slow impacts e = 1 - (2/3) d v_i + ..; it falls with the speed. With a `restitution` in place of the
 // damping, d = delta(e)/v_i follows from the speed at which they touch: e at every speed.
-// Reference: K. H. Hunt, F. R. E. Crossley, Coefficient of restitution interpreted as damping in vibroimpact, J. Applied
-// Mechanics 42 (1975) 440-445.
+// Reference: K. H. Hunt, F. R. E. Crossley, Coefficient of restitution interpreted as damping in vibroimpact, J.
+// Applied Mechanics 42 (1975) 440-445.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,7 +50,8 @@ struct NormalLaw {
 /// The keys of a law: stiffness, exponent, damping, restitution.
 const std::vector<std::string>& normal_law_keys();
 
-/// @param exponent  where the entry gives none @throws InputError. Unknown keys are the caller's to check.
-NormalLaw read_normal_law(const YamlValue& entry, double exponent);
+/// @param exponent   where the entry gives none @param stiffness  where it is known otherwise (materials, radii): the
+/// entry then has none @throws InputError. Unknown keys are the caller's to check.
+NormalLaw read_normal_law(const YamlValue& entry, double exponent, std::optional<double> stiffness = {});
 
 }  // namespace bielle::mechanism

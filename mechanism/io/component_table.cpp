@@ -16,6 +16,7 @@
 #include "mechanism/joints/couplings/linear_coupling.hpp"
 #include "mechanism/joints/flexible/bearing.hpp"
 #include "mechanism/joints/flexible/bushing.hpp"
+#include "mechanism/joints/flexible/clearance_joint.hpp"
 #include "mechanism/joints/gears/gear_mesh.hpp"
 #include "mechanism/joints/pairs/guided_point.hpp"
 #include "mechanism/joints/pairs/links.hpp"
@@ -56,6 +57,8 @@ const std::vector<ComponentType>& component_table() {
       {Section::joints, "wheel", read_wheel},
       {Section::joints, "bushing", read_bushing},
       {Section::joints, "bearing", read_bearing},
+      {Section::joints, "clearance_hinge", read_clearance_hinge},
+      {Section::joints, "clearance_spherical", read_clearance_spherical},
       {Section::joints, "gear", read_gear},
       {Section::joints, "gear_mesh", read_gear_mesh},
       {Section::joints, "differential", read_differential},

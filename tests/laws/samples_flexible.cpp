@@ -1,4 +1,4 @@
-// Samples of what joins two nodes elastically: bushings, bearings, stiffness fields.
+// Samples of what joins two nodes elastically or with play: bushings, bearings, stiffness fields, clearances.
 #include <fstream>
 
 #include <fmt/format.h>
@@ -79,7 +79,8 @@ Sample bushing_of_curves() {
       flexible_joint("type: bushing, at: [[0.2, 0.1, 0.3], [-0.6, -0.2, -0.1]], stiffness: {file: k.csv}, damping: "
                      "0.2, curves: {x: x.csv, y: {table: x.csv}, z: \"3*q^3 + 0.2*v\", rx: \"q*(1 + 0.2*sin(t))\", rz: "
                      "\"2*q + 0.1*it.x.rate + 0.2*b.position.x\"}, start: {rx: 0.1}"),
-      {{"at", "[1, 2, 3]", "the first node and of the second"},
+      {{"nodes", "[a, c]", "no node 'c'"},
+       {"at", "[1, 2, 3]", "the first node and of the second"},
        {"stiffness", "", "which is missing"},
        {"stiffness.file", "x.csv", ""},
        {"damping", "[1, 1, 1, 1, 1, -1]", "at least 0"},
@@ -146,6 +147,78 @@ Sample plain_bearing() {
            {"radial", "[1]", "two"},
            {"axial", "-1", "at least 0"},
            {"tilting", "[-1, 1]", "at least 0"}}};
+}
+
+Sample clearance(const std::string& type, const std::string& variant, const std::string& keys,
+                 std::vector<BadValue> bad) {
+  bad.insert(bad.end(), {{"nodes", "[a, a]", "two different nodes"},
+                         {"radial_gap", "0", "greater than 0"},
+                         {"radial_gap", "", "radial_gap"},
+                         {"contact", "", "contact"}});
+  Sample sample{Section::joints, type, variant, flexible_joint("type: " + type + ", " + keys), std::move(bad)};
+  // Surfaces touch nearly everywhere, and forces vary smoothly over the differences.
+  sample.scales.kinks_unloaded = true;
+  sample.scales.deformation = 1.5;
+  return sample;
+}
+
+std::vector<Sample> clearances() {
+  const std::string of_hinge = "position: [0.5, 0.2, 0.1], axis: [1, 2, 3], second_axis: [0, 1, -1], ";
+  return {
+      clearance(
+          "clearance_hinge", "ends, collars, friction",
+          of_hinge +
+              "radial_gap: 0.01, axial_gap: 0.02, length: 0.6, radius: 0.3, contact: {stiffness: 3, exponent: 2, "
+              "damping: 0.1}, axial_contact: {stiffness: 2, exponent: 3, restitution: 0.999}, friction: {coefficient: "
+              "0.3, static: 0.4, stribeck_velocity: 3, viscous: 0.1, velocity: 2, model: coulomb}",
+          {{"position", "[1, 2]", ""},
+           {"axis", "", "axis"},
+           {"second_axis", "[1, 2, 3]", ""},
+           {"axial_gap", "-1", "greater than 0"},
+           {"axial_gap", "", "which is missing"},
+           {"length", "0", "greater than 0"},
+           {"radius", "0", "greater than 0"},
+           {"radius", "", "which is missing"},
+           {"contact.stiffness", "0", "greater than 0"},
+           {"contact.exponent", "0.5", "at least 1"},
+           {"contact.damping", "-1", "at least 0"},
+           {"axial_contact.stiffness", "-1", "greater than 0"},
+           {"axial_contact.exponent", "0", "at least 1"},
+           {"axial_contact.restitution", "2", "up to 1"},
+           {"friction.coefficient", "-1", "greater than 0"},
+           {"friction.static", "0.1", "no smaller"},
+           {"friction.stribeck_velocity", "-1", ""},
+           {"friction.viscous", "-1", ""},
+           {"friction.velocity", "0", ""},
+           {"friction.model", "lugre", "coulomb"}}),
+      clearance("clearance_hinge", "one contact",
+                "axis: [1, 2, 3], radial_gap: 0.01, contact: {stiffness: 2, exponent: 1}",
+                {{"axis", "[0, 0, 0]", ""}, {"contact.exponent", "0.5", "at least 1"}}),
+      clearance("clearance_hinge", "materials",
+                "axis: [1, 2, 3], radial_gap: 0.01, length: 0.5, contact: {young: [2, 3], poisson: 0.3, damping: 0.1}",
+                {{"axis", "", "axis"},
+                 {"length", "", "which is missing"},
+                 {"contact.young", "[1, 2, 3]", "bush and journal"},
+                 {"contact.young", "-1", "greater than 0"},
+                 {"contact.poisson", "0.6", "(-1, 0.5]"},
+                 {"contact.stiffness", "5", "follows from"}}),
+      clearance("clearance_spherical", "friction",
+                "at: [[0.2, 0.1, 0.3], [-0.6, -0.2, -0.1]], radial_gap: 0.01, radius: 0.2, contact: {stiffness: 3, "
+                "exponent: 2, "
+                "damping: 0.1}, friction: {coefficient: 0.3, velocity: 2}, stiffness: {x: 0.5}",
+                {{"at", "[1, 2, 3]", "the first node and of the second"},
+                 {"radius", "", "which is missing"},
+                 {"contact.stiffness", "0", "greater than 0"},
+                 {"contact.exponent", "0.5", "at least 1"},
+                 {"contact.damping", "-1", "at least 0"},
+                 {"friction.velocity", "0", "greater than 0"},
+                 {"friction.coefficient", "0", "greater than 0"},
+                 {"stiffness.x", "-1", ""}}),
+      clearance("clearance_spherical", "materials",
+                "radial_gap: 0.1, radius: 0.2, contact: {young: 2, poisson: [0.3, 0.2]}",
+                {{"radius", "", "which is missing"},
+                 {"contact.young", "0", "greater than 0"},
+                 {"contact.poisson", "[2, 0]", "(-1, 0.5]"}})};
 }
 
 using Matrix12 = Eigen::Matrix<double, 12, 12>;
@@ -230,7 +303,10 @@ Sample field_of_files() {
 }  // namespace
 
 std::vector<Sample> flexible_samples() {
-  return {bushing_of_matrices(), bushing_of_curves(), bearing_of_all(), plain_bearing(), field(), field_of_files()};
+  std::vector<Sample> list = {bushing_of_matrices(), bushing_of_curves(), bearing_of_all(), plain_bearing(), field(),
+                              field_of_files()};
+  for (Sample& sample : clearances()) list.push_back(std::move(sample));
+  return list;
 }
 
 }  // namespace bielle::laws
