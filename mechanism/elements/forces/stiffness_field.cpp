@@ -93,16 +93,14 @@ double resistance_to_rigid_motions(const MatrixX& K, const Vector3& way) {
     rigid.block<3, 3>(6 * node, 3) = -skew((node == 0 ? -0.5 : 0.5) * way);
     rigid.block<3, 3>(6 * node + 3, 3).setIdentity();
   }
+  const MatrixX left = (K * rigid).cwiseAbs(), terms = K.cwiseAbs() * rigid.cwiseAbs();
   double most = 0;
-  for (int mode = 0; mode < 6; ++mode)
+  for (const int motion : {0, 3})  // translations, rotations
     for (const int kind : {0, 3}) {
-      double left = 0, terms = 0;
-      for (const int node : {0, 1})
-        for (int i = 6 * node + kind; i < 6 * node + kind + 3; ++i) {
-          left = std::max(left, std::abs(K.row(i).dot(rigid.col(mode))));
-          terms = std::max(terms, K.row(i).cwiseAbs().dot(rigid.col(mode).cwiseAbs()));
-        }
-      if (terms > 0) most = std::max(most, left / terms);
+      const auto largest = [&](const MatrixX& A) {
+        return std::max(A.block<3, 3>(kind, motion).maxCoeff(), A.block<3, 3>(6 + kind, motion).maxCoeff());
+      };
+      if (const double size = largest(terms); size > 0) most = std::max(most, largest(left) / size);
     }
   return most;
 }
