@@ -105,6 +105,7 @@ void check_semidefinite(const YamlValue& value, const MatrixX& A, const char* wh
     scale[k] = A(k, k) > 0 ? 1 / std::sqrt(A(k, k)) : 0;
   }
   const MatrixX scaled = scale.asDiagonal() * A * scale.asDiagonal();
+  if (!scaled.allFinite()) value.fail("has entries of sizes that do not go together");
   const double least = symmetric_eigenpairs(scaled).values[0];
   if (least < -rounding_of_files)
     value.fail(

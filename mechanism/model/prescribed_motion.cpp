@@ -5,6 +5,10 @@
 #include <cmath>
 #include <mutex>
 
+#include <fmt/format.h>
+
+#include "reduce/common/error.hpp"
+
 namespace bielle::mechanism {
 namespace {
 
@@ -67,6 +71,11 @@ class PrescribedMotion::Integral {
   /// One more piece.
   void extend() {
     const double begin = end_;
+    constexpr std::size_t most = 10'000'000;
+    if (pieces_.size() > most)
+      throw ComputationError(
+          fmt::format("the acceleration {} varies too fast to be integrated: {} pieces until t = {:.6g} s",
+                      acceleration_.text(), most, begin));
     if (begin > 0) pieces_.push_back({begin, moved(pieces_.back(), begin)});
     const double longest = std::max(1e-3, begin / 200), shortest = 1e-9 * (1 + begin);
     double width = std::min(2 * width_, longest);
