@@ -1,5 +1,8 @@
 #include "mechanism/measures/read_elastic_law.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "mechanism/reading/read_file.hpp"

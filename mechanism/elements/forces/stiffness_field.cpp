@@ -1,5 +1,6 @@
 #include "mechanism/elements/forces/stiffness_field.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 

@@ -1,6 +1,8 @@
 #include "mechanism/joints/flexible/bearing.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 
 #include <fmt/format.h>
 

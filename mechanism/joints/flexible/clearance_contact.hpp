@@ -12,6 +12,8 @@
 // Rows Y with w = Y v, dY^T f = Z(f) dz at fixed f.
 #pragma once
 
+#include <array>
+
 #include "mechanism/joints/joint_frames.hpp"
 #include "mechanism/measures/pair_measure.hpp"
 #include "mechanism/measures/pair_rotation.hpp"

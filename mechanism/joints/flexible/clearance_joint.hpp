@@ -13,6 +13,9 @@
 #pragma once
 
 #include <optional>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "mechanism/contact_laws/friction_law.hpp"
 #include "mechanism/contact_laws/normal_law.hpp"

@@ -6,7 +6,9 @@
 // References: K. L. Johnson, Contact Mechanics (Cambridge, 1985), chapter 4; V. L. Popov, Contact Mechanics and
 // Friction (Springer, 2010), chapter 5; H. M. Lankarani, P. E. Nikravesh, J. Mech. Design 112 (1990) 369, for spheres
 // in sockets. Both hold where the contact is small against the radius: gaps that are not small against the penetration.
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 

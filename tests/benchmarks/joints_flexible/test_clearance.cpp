@@ -95,7 +95,7 @@ joints:
           });
       CAPTURE(speed, restitution, touches);
       CHECK(touches > 5);
-      CHECK(after / speed == Approx(restitution).epsilon(2e-3));
+      CHECK(after / speed == Approx(restitution).epsilon(5e-4));
     }
 }
 
@@ -128,6 +128,55 @@ joints:
   CHECK(N == Approx(30 * std::cos(phi)).epsilon(1e-5));
   CHECK(torque == Approx(-mu * N * (0.02 + std::hypot(x, y) - 1e-3)).epsilon(1e-2));
   CHECK(torque == Approx(-mu * N * 0.02).epsilon(1e-4));  // at the journal's radius
+}
+
+TEST_CASE("collars bear a thrust, and rub at their radius") {
+  // Pressed up by 50 N against the collar at +z, which turns with the shaft: 50 N = k p^2, torque mu 50 N r.
+  const std::string text = R"yaml(
+nodes:
+  shaft: {position: [0, 0, 2.01e-3], fixed: [x, y, rx, ry], motion: {rz: "-60*t"}}
+elements:
+  shaft: {type: point_mass, node: shaft, mass: 3}
+  air: {type: node_force, nodes: [ground, shaft], axes: inertial, force: [0, 0, "-200*shaft.velocity.z"]}
+loads:
+  thrust: {node: shaft, force: [0, 0, 50]}
+joints:
+  it:
+    {type: clearance_hinge, nodes: [ground, shaft], at: [[0, 0, 0], [0, 0, 0]], axis: [0, 0, 1], radial_gap: 1e-3, axial_gap: 2e-3,
+     radius: 0.02, contact: {stiffness: 1e7}, axial_contact: {stiffness: 2e8, exponent: 2}, friction: {coefficient: 0.2, velocity: 0.001}}
+)yaml";
+  fly(text, 1e-8, 1, [&](Session& session, Motion&) {
+    if (session.time() < 1 - 1e-12) return;
+    const double z = session.read("joints/it/coordinate")[2];
+    CHECK(z - 2e-3 == Approx(std::sqrt(50 / 2e8)).epsilon(1e-6));
+    CHECK(session.read("joints/it/reaction")[5] == Approx(0.2 * 50 * 0.02).epsilon(1e-6));
+    CHECK(session.read("joints/it/reaction")[2] == Approx(-50).epsilon(1e-6));
+  });
+}
+
+TEST_CASE("a journal tilts as far as its ends have play") {
+  // A couple of 2 N m about x presses the ends of the journal, 0.1 m apart, against opposite sides of the bore: 20 N
+  // each.
+  const std::string text = R"yaml(
+nodes:
+  shaft: {rotation_vector: [0.0401, 0, 0], fixed: [x, y, z]}
+elements:
+  shaft: {type: rigid_body, node: shaft, mass: 3, inertia: [1, 1, 1]}
+loads:
+  couple: {node: shaft, moment: [2, 0, 0]}
+joints:
+  it:
+    {type: clearance_hinge, nodes: [ground, shaft], axis: [[0, 0, 1], [0, 0, 1]], second_axis: [[1, 0, 0], [1, 0, 0]], radial_gap: 2e-3, length: 0.1,
+     contact: {stiffness: 1e7}, stiffness: {angle: 1}}
+)yaml";
+  const MechanismFile file = read_mechanism_text(text, "model.yaml");
+  Session session(file.model);
+  session.statics();
+  const double tilt = std::acos(session.node("shaft").R(2, 2));
+  const double force = session.read("joints/it/normal_force")[0];
+  CHECK(force == Approx(20 / std::cos(tilt)).epsilon(1e-8));  // arms of 0.05 m cos(tilt)
+  CHECK(session.read("joints/it/normal_force")[1] == Approx(force).epsilon(1e-8));
+  CHECK(0.05 * std::sin(tilt) - 2e-3 == Approx(std::pow(force / 1e7, 2. / 3)).epsilon(1e-6));
 }
 
 TEST_CASE("the books of energy close for a journal that tumbles in its bush with friction and restitution") {
