@@ -14,6 +14,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 
 #include "mechanism/measures/pair_measure.hpp"
 #include "mechanism/measures/pair_rotation.hpp"
@@ -42,5 +43,10 @@ class MiddleFrame {
   PairRotation::Gradients turn_;           ///< dpsi/dz
   Eigen::Matrix<double, 3, 12> approach_;  ///< dd/dz
 };
+
+/// For the end of a step: refuses relative rotations above 171 degrees, and those that have passed half a turn within
+/// the step, where psi goes over to the other side. @param who  "bushing 'mount'" @param before  psi of the last step
+/// @throws ComputationError
+void check_half_turn(const LocalState& state, const std::string& who, const Vector3& psi, const Vector3& before);
 
 }  // namespace bielle::mechanism

@@ -34,6 +34,13 @@ ElasticLaw::Measures StiffnessField::measures(const LocalState& state, bool seco
 void StiffnessField::declare(Declaration& declaration) const {
   declaration.nodes.assign(nodes_.begin(), nodes_.end());
   law_.declare(declaration);
+  declaration.memory = {0, 0, 0};
+}
+
+void StiffnessField::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {
+  const Vector3 psi = PairRotation(state.node(0), state.node(1), frames_[0].R, frames_[1].R).psi();
+  check_half_turn(state, fmt::format("stiffness_field '{}'", name()), psi, memory.head<3>());
+  memory.head<3>() = psi;
 }
 
 void StiffnessField::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {

@@ -32,6 +32,8 @@ class StiffnessField final : public Component {
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   void add_energy(const LocalState& state, Energy& energy) const override;
+  /// Keeps psi. @throws ComputationError from nearly half a turn on
+  void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
   /// `deformation` e; `force` [N] and `moment` [N m] on the second node, inertial components.
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;

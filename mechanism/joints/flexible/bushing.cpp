@@ -1,5 +1,7 @@
 #include "mechanism/joints/flexible/bushing.hpp"
 
+#include <fmt/format.h>
+
 #include "mechanism/joints/actions/joint_actions.hpp"
 #include "mechanism/joints/actions/joint_spring.hpp"
 #include "mechanism/measures/middle_frame.hpp"
@@ -26,6 +28,16 @@ Bushing::Bushing(std::string name, JointFrames frames, const Model& model)
 
 void Bushing::calc_measures(const LocalState& state, ElasticLaw::Measures& measures, bool second) const {
   MiddleFrame(state.node(0), state.node(1), frames().on_first, frames().on_second).calc(measures, second);
+}
+
+void Bushing::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {
+  Joint::accept(state, memory);
+  const Vector3 psi = PairRotation(state.node(0), state.node(1), frames().on_first.R, frames().on_second.R).psi();
+  const auto kept = [&](int k) { return 2 * (3 + k); };  // [value, rate] of rx, ry, rz
+  Vector3 before;
+  for (int k = 0; k < 3; ++k) before[k] = memory[kept(k)];
+  check_half_turn(state, fmt::format("bushing '{}'", name()), psi, before);
+  for (int k = 0; k < 3; ++k) memory[kept(k)] = psi[k];
 }
 
 void read_bushing(const std::string& name, const YamlValue& entry, Model& model) {

@@ -18,6 +18,8 @@ namespace bielle::mechanism {
 class Bushing final : public ElasticPair {
  public:
   Bushing(std::string name, JointFrames frames, const Model& model);
+  /// Keeps the rotation vector. @throws ComputationError from nearly half a turn on
+  void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
 
  private:
   void calc_measures(const LocalState& state, ElasticLaw::Measures& measures, bool second) const override;

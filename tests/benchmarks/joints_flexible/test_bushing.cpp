@@ -39,7 +39,7 @@ Matrix6 matrix_entries() {
 const std::string pair_of_nodes =
     "nodes:\n  a: {}\n  b: {}\njoints:\n  it: {type: bushing, nodes: [a, b], stiffness: " + matrix + "}\n";
 
-void place(DenseModel& /*dense*/, State& state, const Matrix3& R, const Vector3& x, const Vector6& e) {
+void place(State& state, const Matrix3& R, const Vector3& x, const Vector6& e) {
   state.nodes[1].x = x;
   state.nodes[1].R = R;
   state.nodes[2].x = x + R * exp_so3(0.5 * e.tail<3>()) * e.head<3>();
@@ -65,14 +65,14 @@ TEST_CASE("a bushing's force is that of its matrix, whatever the rotation of its
   for (int k = 0; k < 20; ++k) {
     const Vector6 e = 1e-6 * random.vector(6);
     State state = dense.start();
-    place(dense, state, exp_so3(random.vector_of_length(random.uniform(0, 3))), random.vector3(5), e);
+    place(state, exp_so3(random.vector_of_length(random.uniform(0, 3))), random.vector3(5), e);
     // Small rotations: the moment differs from -K e by second order.
     CHECK((on_second(dense, state, e) + K * e).norm() <= 1e-5 * (K * e).norm());
     // Large ones: forces and energies are those of an unturned carrier.
     const Vector6 large = random.vector(6);
-    place(dense, state, exp_so3(random.vector_of_length(2)), random.vector3(5), large);
+    place(state, exp_so3(random.vector_of_length(2)), random.vector3(5), large);
     State unturned = dense.start();
-    place(dense, unturned, Matrix3::Identity(), Vector3::Zero(), large);
+    place(unturned, Matrix3::Identity(), Vector3::Zero(), large);
     CHECK((on_second(dense, state, large) - on_second(dense, unturned, large)).norm() < 1e-13);
     // Forces along the middle frame are exact at any relative rotation; the moment along psi is, too.
     const Vector6 wrench = on_second(dense, state, large), N = K * large;
@@ -87,7 +87,7 @@ TEST_CASE("the second node is preferred to the first in nothing") {
   Random random(5);
   for (int k = 0; k < 5; ++k) {
     State state = dense.start(), exchanged = dense.start();
-    place(dense, state, exp_so3(random.vector_of_length(2)), random.vector3(5), random.vector(6));
+    place(state, exp_so3(random.vector_of_length(2)), random.vector3(5), random.vector(6));
     exchanged.nodes[1] = state.nodes[2];
     exchanged.nodes[2] = state.nodes[1];
     const VectorX r = dense.residual(state), back = dense.residual(exchanged);
@@ -126,7 +126,7 @@ TEST_CASE(
   CHECK(std::abs(work) < 1e-12 * size);
   // At rest where nothing is strained.
   State state = dense.start();
-  place(dense, state, exp_so3({0.3, -1, 0.7}), {1, 2, 3}, Vector6::Zero());
+  place(state, exp_so3({0.3, -1, 0.7}), {1, 2, 3}, Vector6::Zero());
   const MatrixX K = dense.tangent(state, DenseModel::Part::K);
   CHECK((K - K.transpose()).cwiseAbs().maxCoeff() < 1e-14);
 }
@@ -362,4 +362,21 @@ TEST_CASE("a stiffness field says how far its matrix resists rigid motions") {
       "model.yaml");
   REQUIRE(file.doubts.size() == 1);
   CHECK_THAT(file.doubts[0], Catch::Contains("resists rigid motions of the pair by 5e-05 of its entries"));
+}
+
+TEST_CASE("a bushing that turns through half a turn ends the run and says what turns freely") {
+  const auto spin = [](double h) {
+    move_to(R"yaml(
+nodes:
+  body: {angular_velocity: [0, 0, 20]}
+elements:
+  body: {type: rigid_body, node: body, mass: 2, inertia: [1, 1, 1]}
+joints:
+  it: {type: bushing, nodes: [ground, body], stiffness: [800, 800, 800, 1, 1, 1]}
+)yaml",
+            h, 1, [](const Session&) {});
+  };
+  CHECK_THROWS_WITH(spin(1e-3),
+                    Catch::Contains("bushing 'it'") && Catch::Contains("171") && Catch::Contains("`bearing`"));
+  CHECK_THROWS_WITH(spin(0.03), Catch::Contains("past 180 degrees"));
 }
