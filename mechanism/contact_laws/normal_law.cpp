@@ -65,9 +65,9 @@ const std::vector<std::string>& normal_law_keys() {
   return keys;
 }
 
-NormalLaw read_normal_law(const YamlValue& entry, double exponent) {
+NormalLaw read_normal_law(const YamlValue& entry, double exponent, std::optional<double> stiffness) {
   NormalLaw law;
-  law.stiffness = entry.at("stiffness").positive_number();
+  law.stiffness = stiffness ? *stiffness : entry.at("stiffness").positive_number();
   law.exponent = exponent;
   if (const auto given = entry.find("exponent")) {
     law.exponent = given->number();

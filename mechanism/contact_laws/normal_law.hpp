@@ -11,6 +11,7 @@
 // Applied Mechanics 42 (1975) 440-445.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,7 +50,8 @@ struct NormalLaw {
 /// The keys of a law: stiffness, exponent, damping, restitution.
 const std::vector<std::string>& normal_law_keys();
 
-/// @param exponent  where the entry gives none @throws InputError. Unknown keys are the caller's to check.
-NormalLaw read_normal_law(const YamlValue& entry, double exponent);
+/// @param exponent   where the entry gives none @param stiffness  where it is known otherwise (materials, radii): the
+/// entry then has none @throws InputError. Unknown keys are the caller's to check.
+NormalLaw read_normal_law(const YamlValue& entry, double exponent, std::optional<double> stiffness = {});
 
 }  // namespace bielle::mechanism

@@ -7,6 +7,7 @@
 #include "mechanism/elements/forces/load.hpp"
 #include "mechanism/elements/forces/node_force.hpp"
 #include "mechanism/elements/forces/spring_damper.hpp"
+#include "mechanism/elements/forces/stiffness_field.hpp"
 #include "mechanism/elements/rigid_body/rigid_body.hpp"
 #include "mechanism/elements/superelement/superelement_body.hpp"
 #include "mechanism/joints/actions/drive.hpp"
@@ -14,6 +15,9 @@
 #include "mechanism/joints/cams/cam.hpp"
 #include "mechanism/joints/contacts/contact.hpp"
 #include "mechanism/joints/couplings/linear_coupling.hpp"
+#include "mechanism/joints/flexible/bearing.hpp"
+#include "mechanism/joints/flexible/bushing.hpp"
+#include "mechanism/joints/flexible/clearance_joint.hpp"
 #include "mechanism/joints/gears/gear_mesh.hpp"
 #include "mechanism/joints/pairs/guided_point.hpp"
 #include "mechanism/joints/pairs/links.hpp"
@@ -34,6 +38,7 @@ const std::vector<ComponentType>& component_table() {
       {Section::elements, "superelement", read_superelement_body},
       {Section::elements, "spring_damper", read_spring_damper},
       {Section::elements, "node_force", read_node_force},
+      {Section::elements, "stiffness_field", read_stiffness_field},
       {Section::joints, "rigid", read_rigid},
       {Section::joints, "hinge", read_hinge},
       {Section::joints, "prismatic", read_prismatic},
@@ -51,6 +56,10 @@ const std::vector<ComponentType>& component_table() {
       {Section::joints, "point_on_curve", read_point_on_curve},
       {Section::joints, "slider", read_slider},
       {Section::joints, "wheel", read_wheel},
+      {Section::joints, "bushing", read_bushing},
+      {Section::joints, "bearing", read_bearing},
+      {Section::joints, "clearance_hinge", read_clearance_hinge},
+      {Section::joints, "clearance_spherical", read_clearance_spherical},
       {Section::joints, "gear", read_gear},
       {Section::joints, "gear_mesh", read_gear_mesh},
       {Section::joints, "differential", read_differential},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <set>
 
 #include <fmt/format.h>
@@ -15,6 +16,7 @@
 #include "mechanism/measures/measure_event.hpp"
 #include "mechanism/measures/read_measure.hpp"
 #include "mechanism/reading/names.hpp"
+#include "mechanism/reading/read_file.hpp"
 #include "mechanism/reading/read_frame.hpp"
 #include "reduce/common/plausible.hpp"
 
@@ -56,6 +58,28 @@ void check_once(const YamlValue& item, const std::string& name, std::set<std::st
   if (!seen.insert(name).second) item.fail(fmt::format("'{}' stands in this list twice", name));
 }
 
+/// A formula of t, or `{table: f.csv}`.
+Expression read_acceleration(const YamlValue& value) {
+  if (!value.is_map()) return value.expression({"t"});
+  value.check_keys({"table"}, "an acceleration");
+  return read_named_file(value.at("table"), [](const std::string& path) {
+    return Expression(fmt::format("table('{}', t)", std::filesystem::absolute(path).string()), {"t"});
+  });
+}
+
+PrescribedMotion read_motion(const YamlValue& value) {
+  if (!value.is_map()) {
+    const Expression displacement = value.expression({"t"});
+    doubt_jumps(value, displacement, "the prescribed motion");
+    return displacement;
+  }
+  value.check_keys({"acceleration", "velocity", "displacement"}, "a motion by its acceleration");
+  const auto velocity = value.find("velocity"), displacement = value.find("displacement");
+  return PrescribedMotion::of_acceleration(read_acceleration(value.at("acceleration")),
+                                           velocity ? velocity->number() : 0,
+                                           displacement ? displacement->number() : 0);
+}
+
 void read_holds(const YamlValue& entry, Node& node) {
   if (const auto fixed = entry.find("fixed")) {
     if (fixed->is_sequence()) {
@@ -76,8 +100,7 @@ void read_holds(const YamlValue& entry, Node& node) {
       if (node.freedom[k] == Freedom::fixed && entry.at("fixed").is_sequence())
         value.fail("this direction is fixed as well");
       node.freedom[k] = Freedom::prescribed;
-      node.motion[k] = value.expression({"t"});
-      doubt_jumps(value, node.motion[k], "the prescribed motion");
+      node.motion[k] = read_motion(value);
     }
     // Rotations are prescribed together: those that are fixed stay zero.
     const auto rotations = node.freedom.begin() + 3;

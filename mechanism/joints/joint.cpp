@@ -33,7 +33,7 @@ CoordinateRate Joint::principal_coordinate(std::size_t index, const LocalState& 
   const NodeState &first = state.node(0), &second = state.node(1);
   const Frame &A = frames_.on_first, &B = frames_.on_second;
   const JointCoordinate& coordinate = coordinates_[index];
-  if (coordinate.kind == JointCoordinate::Kind::rotation) {
+  if (coordinate.kind == JointCoordinate::Kind::rotation && coordinate.axis != JointCoordinate::by_type) {
     const PairRotation rotation(first, second, A.R, B.R);
     return {rotation.psi()[coordinate.axis], rotation.omega(first, second)[coordinate.axis]};
   }
@@ -76,7 +76,7 @@ void Joint::calc_coordinate(std::size_t index, const LocalState& state, Coordina
   const Frame &A = frames_.on_first, &B = frames_.on_second;
   const JointCoordinate& coordinate = coordinates_[index];
   jet.prepare(state.slots().size());
-  if (coordinate.kind == JointCoordinate::Kind::rotation) {
+  if (coordinate.kind == JointCoordinate::Kind::rotation && coordinate.axis != JointCoordinate::by_type) {
     PairRotation(first, second, A.R, B.R).calc(coordinate.axis, first, second, jet);
     return;
   }
@@ -152,7 +152,8 @@ void Joint::write_output(const LocalState& state, double* values) const {
 }
 
 std::vector<SlidingSurface> Joint::sliding_surfaces() const {
-  if (coordinates_.empty()) return {};
+  // A joint that gives in all directions, or whose reaction follows from rates, is no pair of surfaces.
+  if (coordinates_.empty() || coordinates_.size() > 3 || reaction_has_rates()) return {};
   SlidingSurface all;
   for (std::size_t k = 0; k < coordinates_.size(); ++k) all.coordinates.push_back(k);
   return {all};

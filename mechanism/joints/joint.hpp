@@ -44,6 +44,10 @@ class Joint : public Component {
   virtual Vector6 calc_reaction(const LocalState& state) const;
   /// The same with its derivatives over the joint's local layout. @param derivatives  (6, slots().size())
   virtual Vector6 calc_reaction(const LocalState& state, MatrixX& derivatives) const;
+  /// Its derivatives by rates, of a joint whose reaction has any. @param derivatives  (6, slots().size())
+  void calc_reaction_by_rates(const LocalState& state, MatrixX& derivatives) const;
+  /// Whether the reaction depends on rates by itself: forces of dampers and friction, not of constraints.
+  virtual bool reaction_has_rates() const { return false; }
   /// Contribution of each multiplier to the reaction. @returns (6, multipliers)
   MatrixX reaction_of_multipliers(const LocalState& state) const;
 
@@ -55,7 +59,7 @@ class Joint : public Component {
   };
   CoordinateUse& use(std::size_t coordinate) { return uses_[coordinate]; }
 
-  /// Where friction acts. Default: at one surface along all coordinates.
+  /// Where friction acts. Default: at one surface along all coordinates, where these are no more than three.
   virtual std::vector<SlidingSurface> sliding_surfaces() const;
   /// A result of what acts along the coordinates: a force or torque for each, summed over all that acts so.
   OutputField force_field(const std::string& name, const std::string& description) const;

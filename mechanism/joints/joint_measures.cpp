@@ -43,6 +43,11 @@ double ReactionMeasure::calc(const LocalState& state, MeasureGradient& gradient)
   const Vector6 reaction = joint().calc_reaction(state.of(0), derivatives);
   gradient.position().segment(state.slots().reference_row(0), derivatives.cols()) =
       derivatives.row(direction_).transpose();
+  if (joint().reaction_has_rates()) {
+    joint().calc_reaction_by_rates(state.of(0), derivatives);
+    gradient.rate().segment(state.slots().reference_row(0), derivatives.cols()) =
+        derivatives.row(direction_).transpose();
+  }
   return reaction[direction_];
 }
 

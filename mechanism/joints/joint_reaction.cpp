@@ -1,4 +1,5 @@
-// The reaction of a joint in the axes of its frame, from what the joint adds to the equations of its second node.
+// The reaction of a joint in the axes of its frame, from what the joint adds to the equations of its second node: its
+// multipliers, or, where it has none, its elastic and other forces.
 //
 // With f and m the rows that the joint adds to the force and moment equations of node 2 (inertial axes, node axes), the
 // joint exerts -f and -m. About the attachment point c on node 2, along the axes of the frame A on node 1:
@@ -32,23 +33,28 @@ struct Wrench {
   }
 };
 
-/// The joint's K, in which columns of multipliers hold B^T.
-Eigen::Map<MatrixX> stiffness(const Joint& joint, const LocalState& state) {
+/// The joint's K, in which columns of multipliers hold B^T; or its C.
+Eigen::Map<MatrixX> tangent_of(const Joint& joint, const LocalState& state, bool by_rates = false) {
   thread_local std::vector<double> buffer;
   const int n = state.slots().size();
   buffer.assign(static_cast<std::size_t>(n) * static_cast<std::size_t>(n), 0.0);
-  Eigen::Map<MatrixX> K(buffer.data(), n, n);
+  Eigen::Map<MatrixX> A(buffer.data(), n, n);
   MatrixX none(0, 0);
-  LocalTangent tangent{LocalMatrix(K), LocalMatrix(none), LocalMatrix(none), true, false, false};
+  LocalTangent tangent{by_rates ? LocalMatrix(none) : LocalMatrix(A),
+                       by_rates ? LocalMatrix(A) : LocalMatrix(none),
+                       LocalMatrix(none),
+                       !by_rates,
+                       by_rates,
+                       false};
   joint.add_tangent(state, tangent);
-  return K;
+  return A;
 }
 
 }  // namespace
 
 MatrixX Joint::reaction_of_multipliers(const LocalState& state) const {
   const Slots& slots = state.slots();
-  const Eigen::Map<MatrixX> K = stiffness(*this, state);
+  const Eigen::Map<MatrixX> K = tangent_of(*this, state);
   const Wrench wrench(frames_, state.node(0), state.node(1));
   MatrixX result(6, slots.multipliers);
   for (int k = 0; k < slots.multipliers; ++k)
@@ -63,7 +69,8 @@ void Joint::add_reaction_norm(const LocalState& state, double arm, Eigen::Ref<Ma
 }
 
 Vector6 Joint::calc_reaction(const LocalState& state) const {
-  if (state.global().reaction.size() > 0) return reaction_of_multipliers(state) * state.reaction();
+  if (state.global().reaction.size() > 0 && state.slots().multipliers > 0)
+    return reaction_of_multipliers(state) * state.reaction();
   thread_local VectorX r;
   r.setZero(state.slots().size());
   add_residual(state, r);
@@ -72,9 +79,17 @@ Vector6 Joint::calc_reaction(const LocalState& state) const {
 
 Vector6 Joint::calc_reaction(const LocalState& state, MatrixX& derivatives) const {
   const Slots& slots = state.slots();
-  const Eigen::Map<MatrixX> K = stiffness(*this, state);
+  const Eigen::Map<MatrixX> K = tangent_of(*this, state);
   const Wrench w(frames_, state.node(0), state.node(1));
-  const Vector6 rows = K.block(second_node, slots.multiplier_row(), 6, slots.multipliers) * state.reaction();
+  Vector6 rows;
+  if (slots.multipliers > 0) {
+    rows = K.block(second_node, slots.multiplier_row(), 6, slots.multipliers) * state.reaction();
+  } else {
+    thread_local VectorX r;
+    r.setZero(slots.size());
+    add_residual(state, r);
+    rows = r.segment<6>(second_node);
+  }
   const Vector3 f = rows.head<3>(), N = w.moment_on_second(f, rows.tail<3>());
   const Vector3 f_1 = w.R_1.transpose() * f, f_2 = w.R_2.transpose() * f;
   const auto df = K.middleRows<3>(second_node), dm = K.middleRows<3>(second_node + 3);
@@ -93,6 +108,13 @@ Vector6 Joint::calc_reaction(const LocalState& state, MatrixX& derivatives) cons
   derivatives.topRows<3>() = (w.A.transpose() * derivatives.topRows<3>()).eval();
   derivatives.bottomRows<3>() = (w.A.transpose() * derivatives.bottomRows<3>()).eval();
   return w.of(rows);
+}
+
+void Joint::calc_reaction_by_rates(const LocalState& state, MatrixX& derivatives) const {
+  const Eigen::Map<MatrixX> C = tangent_of(*this, state, true);
+  const Wrench wrench(frames_, state.node(0), state.node(1));
+  derivatives.resize(6, state.slots().size());
+  for (Eigen::Index k = 0; k < C.cols(); ++k) derivatives.col(k) = wrench.of(C.block<6, 1>(second_node, k));
 }
 
 namespace {

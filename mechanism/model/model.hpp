@@ -13,6 +13,7 @@
 #include "mechanism/math/se3.hpp"
 #include "mechanism/model/component.hpp"
 #include "mechanism/model/entry.hpp"
+#include "mechanism/model/prescribed_motion.hpp"
 #include "reduce/common/error.hpp"
 #include "reduce/common/expression.hpp"
 
@@ -30,7 +31,7 @@ struct Node {
   std::array<Freedom, 6> freedom{};
   /// Prescribed translations are displacements added to the start position [m]; prescribed rotations the components of
   /// a rotation vector [rad] about inertial axes, applied to the start axes: R = exp(psi(t)) R_start.
-  std::array<Expression, 6> motion;
+  std::array<PrescribedMotion, 6> motion;
   std::optional<int> carrier;  ///< rigidly carried by this node, at the relative position of the start
   bool internal = false;       ///< made by an element (inside of a beam): recorded with it, not under /nodes
 };

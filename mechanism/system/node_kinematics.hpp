@@ -88,7 +88,7 @@ class NodeKinematics {
     int node;
     Frame start;
     std::array<Freedom, 6> freedom;
-    std::array<Expression, 6> motion;
+    std::array<PrescribedMotion, 6> motion;
     bool rotation;  ///< all three rotations follow `motion`
   };
   int unknowns_ = 0;

@@ -64,6 +64,7 @@ std::vector<Sample> contact_samples();
 std::vector<Sample> coupling_samples();
 std::vector<Sample> friction_samples();
 std::vector<Sample> drive_samples();
+std::vector<Sample> flexible_samples();
 std::vector<Sample> state_samples();
 
 }  // namespace bielle::laws

@@ -131,7 +131,9 @@ void read_joint_actions(const YamlValue& entry, Joint& joint, Model& model, cons
     }
     read_joint_start(find(sorted[k], "start"), find(sorted[k], "start_rate"), joint, k, model);
   }
-  if (const auto friction = entry.find("friction")) read_joint_friction(*friction, joint, model);
+  const bool takes_friction = std::find(own.begin(), own.end(), "friction") == own.end();
+  if (const auto friction = entry.find("friction"); friction && takes_friction)
+    read_joint_friction(*friction, joint, model);
 }
 
 }  // namespace bielle::mechanism

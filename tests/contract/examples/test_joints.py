@@ -1,4 +1,5 @@
-"""mechanism/examples/joints.yaml: every type of joint, each moving as its closed form says."""
+"""mechanism/examples/joints.yaml: every type of joint (those that give stand in flexible_joints.yaml), each moving as its
+closed form says."""
 
 import math
 import os
@@ -44,8 +45,10 @@ class Joints(unittest.TestCase):
     def test_every_type_of_joint_is_there(self):
         with open(os.path.join(REPOSITORY, "mechanism", "io", "component_table.cpp"), encoding="utf-8") as file:
             types = set(re.findall(r'\{Section::joints, "(\w+)"', file.read()))
-        with open(MODEL, encoding="utf-8") as file:
-            used = set(re.findall(r"type: (\w+)", file.read()))
+        used = set()
+        for model in (MODEL, os.path.join(os.path.dirname(MODEL), "flexible_joints.yaml")):
+            with open(model, encoding="utf-8") as file:
+                used |= set(re.findall(r"type: (\w+)", file.read()))
         # A rod with two balls is a `distance` by another name.
         self.assertEqual(types - used - {"spherical_spherical", "contact"}, set())  # contacts.yaml has the latter
 

@@ -18,7 +18,14 @@ nodes:
   base: {position: [0, 0.5, 0], motion: {x: "0.01*sin(w*t)"}, fixed: [y, z, rx, ry, rz]}
   bob: {position: [0, 0.5, -0.2], bryant: [0, 0, 0], fixed: [rx, ry, rz]}
   slider: {position: [1, 1, 0], axes: {x: [1, 0, 0], y: [0, 1, 0]}}
+  shaker: {position: [2, 0, 0], fixed: [y, z, rx, ry, rz], motion: {x: {acceleration: "sin(w*t)", velocity: 0.1, displacement: 0}}}
+  shaken: {position: [2, 0, 0.1]}
+  rotor: {position: [3, 0, 0], angular_velocity: [0, 0, 9]}
+  ball: {position: [3, 0, 0.0011], velocity: [0, 0, 0.1]}
 elements:
+  shaken: {type: rigid_body, node: shaken, mass: 1, inertia: [0.01, 0.01, 0.01]}
+  rotor: {type: rigid_body, node: rotor, mass: 1, inertia: [0.01, 0.01, 0.01]}
+  ball: {type: rigid_body, node: ball, mass: 1, inertia: [0.01, 0.01, 0.01]}
   body: {type: rigid_body, node: crank, also: [pin], mass: 1, inertia: [0.01, 0.01, 0.01]}
   link: {type: beam, nodes: [arm, tip], elements: 2, orientation: [0, 1, 0], damping: 1e-4, section: {i: {width: 0.02, height: 0.04, web: 0.002, flange: [0.003, 0.004]}, young: 2e11, poisson: 0.3, density: 7800}}
   weight: {type: point_mass, node: bob, mass: 2}
@@ -28,6 +35,9 @@ joints:
   main: {type: hinge, nodes: [ground, crank], axis: [0, 1, 0], position: [0, 0, 0]}
   pinj: {type: hinge, nodes: [pin, arm], axis: [0, 1, 0]}
   slide: {type: cylindrical, nodes: [ground, slider], axis: [0, 0, 1]}
+  mount: {type: bushing, nodes: [shaker, shaken], stiffness: [1e4, 1e4, 2e4, 100, 100, 50], damping: 1e-3, preload: [0, 0, -9.81, 0, 0, 0], curves: {x: "1e5*q^3"}, maxwell: [{factor: 0.5, time: 0.01}]}
+  bearing: {type: bearing, nodes: [ground, rotor], axis: [0, 0, 1], radial: {stiffness: [1e5, 2e5], damping: 10}, axial: 1e5, tilting: 100}
+  play: {type: clearance_hinge, nodes: [rotor, ball], at: [[0, 0, 0], [0, 0, 0]], axis: [0, 0, 1], radial_gap: 0.001, axial_gap: 0.001, length: 0.02, radius: 0.01, contact: {stiffness: 1e8, restitution: 0.5}, friction: {coefficient: 0.1, velocity: 0.01}}
 drives:
   motor: {joint: main, rate: "w*step(t, -1, 0)"}
   lift: {joint: slide, coordinate: displacement, force: "10*t"}

@@ -14,7 +14,7 @@ FOLDERS = {
     "mechanism": ["math", "model", "reading", "contact_laws", "measures",
                   "elements/beam", "elements/control", "elements/forces", "elements/rigid_body",
                   "elements/superelement/recovery", "elements/superelement",
-                  "joints", "joints/friction", "joints/actions", "joints/cables", "joints/couplings", "joints/gears", "joints/pairs", "joints/cams", "joints/contacts",
+                  "joints", "joints/friction", "joints/actions", "joints/cables", "joints/couplings", "joints/flexible", "joints/gears", "joints/pairs", "joints/cams", "joints/contacts",
                   "system", "solvers/newton", "solvers/constraints", "solvers/start", "solvers/statics", "solvers/dynamics",
                   "session", "analyses", "io", ""],
 }

@@ -1,0 +1,64 @@
+#include "mechanism/joints/flexible/bushing.hpp"
+
+#include <fmt/format.h>
+
+#include "mechanism/joints/actions/joint_actions.hpp"
+#include "mechanism/joints/actions/joint_spring.hpp"
+#include "mechanism/measures/middle_frame.hpp"
+#include "mechanism/measures/read_elastic_law.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+std::vector<JointCoordinate> bushing_coordinates() {
+  using Kind = JointCoordinate::Kind;
+  return {{"x", Kind::displacement, JointCoordinate::by_type},
+          {"y", Kind::displacement, JointCoordinate::by_type},
+          {"z", Kind::displacement, JointCoordinate::by_type},
+          {"rx", Kind::rotation, 0},
+          {"ry", Kind::rotation, 1},
+          {"rz", Kind::rotation, 2}};
+}
+
+}  // namespace
+
+Bushing::Bushing(std::string name, JointFrames frames, const Model& model)
+    : ElasticPair("bushing", std::move(name), std::move(frames), bushing_coordinates(),
+                  ElasticLaw({"x", "y", "z", "rx", "ry", "rz"}, {false, false, false, true, true, true}), model) {}
+
+void Bushing::calc_measures(const LocalState& state, ElasticLaw::Measures& measures, bool second) const {
+  MiddleFrame(state.node(0), state.node(1), frames().on_first, frames().on_second).calc(measures, second);
+}
+
+void Bushing::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {
+  Joint::accept(state, memory);
+  const Vector3 psi = PairRotation(state.node(0), state.node(1), frames().on_first.R, frames().on_second.R).psi();
+  const auto kept = [&](int k) { return 2 * (3 + k); };  // [value, rate] of rx, ry, rz
+  Vector3 before;
+  for (int k = 0; k < 3; ++k) before[k] = memory[kept(k)];
+  check_half_turn(state, fmt::format("bushing '{}'", name()), psi, before);
+  for (int k = 0; k < 3; ++k) memory[kept(k)] = psi[k];
+}
+
+void read_bushing(const std::string& name, const YamlValue& entry, Model& model) {
+  std::vector<std::string> keys = joint_frame_keys();
+  const std::vector<std::string>& own = elastic_law_keys();
+  keys.insert(keys.end(), own.begin(), own.end());
+  for (const char* action : {"stops", "locked", "start", "start_rate"}) keys.push_back(action);
+  entry.check_keys(keys, "a bushing");
+  auto made = std::make_unique<Bushing>(name, read_joint_frames(entry, model, AxisNeed::optional), model);
+  const std::vector<CurveFormula> formulas = read_elastic_law(entry, made->law());
+  Bushing& bushing = *made;
+  const Entry of_bushing{Section::joints, name};
+  model.add(std::move(made), of_bushing);
+  // Formulas may read the bushing itself: they act on its coordinates.
+  for (const auto& [k, formula] : formulas) {
+    auto spring = std::make_unique<JointSpring>(name, bushing, k, 0, 0);
+    model.when_read(Model::Stage::formulas,
+                    [added = spring.get(), formula, &model] { added->read(formula, false, model); });
+    model.add(std::move(spring), of_bushing);
+  }
+  read_joint_actions(entry, bushing, model, own);
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,59 @@
+#include "mechanism/joints/flexible/clearance_contact.hpp"
+
+namespace bielle::mechanism {
+
+using Place = ClearancePlace::Kind;
+
+//   n = rho/l,   dn = (I - n n^T) drho/l,   dp = n . drho,   second derivatives n . d2rho + drho . (I - n n^T) drho/l
+ClearanceContact::ClearanceContact(const NodeState& first, const NodeState& second, const JointFrames& frames,
+                                   const ClearancePlace& place, const PairRotation& rotation, bool second_derivatives)
+    : place_(place), rotation_(rotation) {
+  const Frame &A = frames.on_first, &B = frames.on_second;
+  const Vector3 point = B.x + place.along * B.R.col(2);
+  for (int k = 0; k < 3; ++k) s_[static_cast<std::size_t>(k)] = measure_position(first, second, A.R.col(k), A.x, point);
+  W_ = rotation.rate_gradients();
+  if (place.kind == Place::face) {
+    p_ = place.side * s_[2] - place.gap;
+    Y_.row(0) = s_[0].gradient.transpose();
+    Y_.row(1) = s_[1].gradient.transpose();
+    Y_.row(2) = place.radius * W_.row(2);
+    return;
+  }
+  const int dimensions = place.kind == Place::bore ? 2 : 3;
+  Vector3 rho = Vector3::Zero();
+  for (int k = 0; k < dimensions; ++k) rho[k] = s_[static_cast<std::size_t>(k)].value;
+  const double l = rho.norm();
+  p_.value = l - place.gap;
+  if (p_.value <= 0) return;
+  n_ = rho / l;
+  Rows slope = Rows::Zero(), all = Rows::Zero();  // drho/dz, ds/dz
+  for (int k = 0; k < 3; ++k) all.row(k) = s_[static_cast<std::size_t>(k)].gradient.transpose();
+  slope.topRows(dimensions) = all.topRows(dimensions);
+  p_.gradient = slope.transpose() * n_;
+  n_slope_ = (slope - n_ * p_.gradient.transpose()) / l;
+  Y_ = all - place.radius * skew(n_) * W_;
+  if (!second_derivatives) return;
+  for (int k = 0; k < dimensions; ++k) p_.second += n_[k] * s_[static_cast<std::size_t>(k)].second;
+  p_.second += slope.transpose() * n_slope_;
+}
+
+ClearanceContact::Rows ClearanceContact::turned_sliding(const Vector3& w) const {
+  return -n_.dot(w) * n_slope_ - n_ * (w.transpose() * n_slope_);
+}
+
+//   Y^T f = sum f_k ds_k + r W^T (n x f),   d(n x f) = -f~ dn
+Matrix12 ClearanceContact::Z(const Vector3& f) const {
+  Matrix12 Z = Matrix12::Zero();
+  if (place_.kind == Place::face) {
+    Z = f[0] * s_[0].second + f[1] * s_[1].second;
+    rotation_.add_rate_second(place_.radius * f[2] * Vector3::UnitZ(), Z);
+    return Z;
+  }
+  for (int k = 0; k < 3; ++k) Z += f[k] * s_[static_cast<std::size_t>(k)].second;
+  rotation_.add_rate_second(place_.radius * n_.cross(f), Z);
+  const Rows turned = skew(f) * n_slope_;
+  Z -= place_.radius * W_.transpose() * turned;
+  return Z;
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,67 @@
+// Hinges and ball joints with play: what happens in the gap between journal and bush.
+//
+//   clearance_hinge      a journal in a bush, with a radial gap; it touches the bore at either end of its length, so
+//                        that it may tilt as far as the gap lets it, and with an axial gap its collars touch the bush's
+//                        ends. The angle about the axis is free
+//   clearance_spherical  a ball in a socket
+// In the gap nothing acts. Where surfaces press into each other by p (clearance_contact.hpp), they push with
+// N = k p^n (1 + d pdot) (contact_laws/normal_law.hpp) and rub with N mu against the way they slide (friction_law.hpp,
+// regularised Coulomb). Steps end where surfaces touch and part. With a restitution, d follows from the speed of each
+// touch: it is remembered until they part.
+// References: P. Flores, J. Ambrosio, J. C. P. Claro, H. M. Lankarani, Kinematics and Dynamics of Multibody Systems
+// with Imperfect Joints (Springer, 2008).
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mechanism/contact_laws/friction_law.hpp"
+#include "mechanism/contact_laws/normal_law.hpp"
+#include "mechanism/joints/flexible/clearance_contact.hpp"
+#include "mechanism/joints/joint.hpp"
+#include "reduce/common/yaml_file.hpp"
+
+namespace bielle::mechanism {
+
+class ClearanceJoint final : public Joint {
+ public:
+  /// A place with its law and its name in events: "at the first end".
+  struct Place {
+    std::string name;
+    ClearancePlace place;
+    NormalLaw law;
+  };
+  ClearanceJoint(std::string type, std::string name, JointFrames frames, std::vector<JointCoordinate> coordinates,
+                 std::vector<Place> places, std::optional<FrictionLaw> friction, const Model& model);
+
+  void declare(Declaration& declaration) const override;
+  void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
+  void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
+  void add_energy(const LocalState& state, Energy& energy) const override;
+  void calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const override;
+  void begin_branch(const LocalState& state, std::span<const int> crossed, Eigen::Ref<VectorX> memory) const override;
+  bool leaves_branch(const LocalState& state) const override;
+  /// `penetration` [m] and `normal_force` [N] of each place.
+  std::vector<OutputField> output_fields() const override;
+  void write_output(const LocalState& state, double* values) const override;
+  void describe(const LocalState& state, Description& description) const override;
+  bool reaction_has_rates() const override { return true; }
+
+ private:
+  PairRotation rotation(const LocalState& state) const;
+  ClearanceContact contact(std::size_t k, const LocalState& state, const PairRotation& rotation, bool second) const;
+  NormalLaw::Force push(std::size_t k, const LocalState& state, const ClearanceContact& contact) const;
+  /// First memory of a place: whether its surfaces touch, and the damping d since then.
+  Eigen::Index memory_of(std::size_t k) const { return static_cast<Eigen::Index>(2 * (coordinates().size() + k)); }
+  std::vector<Place> places_;
+  std::optional<FrictionLaw> friction_;
+};
+
+/// `{nodes, position | at, axis, radial_gap, length, axial_gap, radius, contact, axial_contact, friction}`
+void read_clearance_hinge(const std::string& name, const YamlValue& entry, Model& model);
+/// `{nodes, position | at, axis, radial_gap, radius, contact, friction}`
+void read_clearance_spherical(const std::string& name, const YamlValue& entry, Model& model);
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,52 @@
+// The relative position and rotation of two frames as six measures, seen in the frame halfway between them.
+//
+// With the frames A on node 1 (origin p_A) and B on node 2 (p_B), C = R_A^T R_B the rotation between them and
+//     psi = log C,   M = R_A exp(psi/2) = R_B exp(-psi/2):     u = M^T (p_B - p_A) - u_0,   psi.
+// - A rigid motion of both leaves them as they are, whatever their rotation.
+// - Exchanging the frames changes the signs of all six (with u_0): neither node is preferred.
+// - |u + u_0| is the distance of the points: a force along u acts along the line between them where it resists alike in
+//   all directions, without a moment about either.
+// - psi is the same seen from A, B and M. Relative rotations stay below half a turn.
+// With h = psi/2, d = R_A^T (p_B - p_A) and T the tangent operator of rotations,
+//     u = exp(-h) d - u_0,   du = exp(-h) dd + (u + u_0) x T(h) dh.
+// Reference for frames between two nodes: P. Masarati, M. Morandini, Intrinsic deformable joints, Multibody System
+// Dynamics 23 (2010) 361-386.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "mechanism/measures/pair_measure.hpp"
+#include "mechanism/measures/pair_rotation.hpp"
+
+namespace bielle::mechanism {
+
+class MiddleFrame {
+ public:
+  /// @param A,B  frames in the axes of their nodes @param u_0  [m]
+  MiddleFrame(const NodeState& first, const NodeState& second, const Frame& A, const Frame& B,
+              const Vector3& u_0 = Vector3::Zero());
+  /// [u; psi]
+  const Vector6& value() const { return value_; }
+  /// Axes of M, inertial.
+  const Matrix3& axes() const { return M_; }
+  /// The six measures with their first derivatives, and with the second where wanted.
+  void calc(std::span<PairMeasure, 6> measures, bool second) const;
+
+ private:
+  Matrix12 second(const Vector6& factor) const;  ///< sum_k factor_k S_k
+  PairRotation rotation_;
+  PointPair points_;
+  Matrix3 A_, half_, T_, M_;  ///< half_ = exp(h), T_ = T(h)
+  Vector3 h_, way_;           ///< way_ = u + u_0
+  Vector6 value_;
+  PairRotation::Gradients turn_;           ///< dpsi/dz
+  Eigen::Matrix<double, 3, 12> approach_;  ///< dd/dz
+};
+
+/// For the end of a step: refuses relative rotations above 171 degrees, and those that have passed half a turn within
+/// the step, where psi goes over to the other side. @param who  "bushing 'mount'" @param before  psi of the last step
+/// @throws ComputationError
+void check_half_turn(const LocalState& state, const std::string& who, const Vector3& psi, const Vector3& before);
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,312 @@
+// Samples of what joins two nodes elastically or with play: bushings, bearings, stiffness fields, clearances.
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "mechanism/math/so3.hpp"
+#include "tests/laws/sample.hpp"
+
+namespace bielle::laws {
+namespace {
+
+using mechanism::Section;
+
+const std::string flexible_nodes = R"yaml(
+nodes:
+  a: {position: [0.3, 0.1, -0.2], rotation_vector: [0.3, -0.5, 0.8]}
+  b: {position: [1.1, 0.5, 0.4], rotation_vector: [-0.7, 0.2, 0.4]}
+)yaml";
+
+std::string flexible_joint(const std::string& keys) {
+  return flexible_nodes + "joints:\n  it: {nodes: [a, b], " + keys + "}\n";
+}
+
+const std::string full_matrix =
+    "[[3, .1, .2, .3, -.2, .1], [.1, 2, .1, -.2, .3, .2], [.2, .1, 2, .1, .1, .4], [.3, -.2, .1, 1, .1, .2], "
+    "[-.2, .3, .1, .1, 1.5, -.1], [.1, .2, .4, .2, -.1, 2]]";
+const std::string unsymmetric_matrix =
+    "[[1, .1, .2, .3, -.2, .1], [-.1, 1, .1, -.2, .3, .2], [.2, .3, 1, .1, .1, .4], [.3, -.2, .1, 1, .1, .2], "
+    "[-.2, .3, .1, .5, 1.5, -.1], [.1, .2, .4, .2, -.3, 1]]";
+
+Sample bushing_of_matrices() {
+  return {Section::joints,
+          "bushing",
+          "matrices, preload, branches",
+          flexible_joint(
+              "type: bushing, position: [0.5, 0.2, 0.1], axis: [1, 2, 3], second_axis: [0, 1, -1], stiffness: " +
+              full_matrix + ", damping: " + unsymmetric_matrix +
+              ", preload: [0.5, -0.3, 0.2, 0.1, 0.4, -0.2], maxwell: [{factor: 0.4, time: 0.7}, {stiffness: [1, 0, 2, "
+              "0.5, 0, 1], time: 2}]"),
+          {{"nodes", "[a, a]", "two different nodes"},
+           {"position", "[1, 2]", ""},
+           {"axis", "[0, 0, 0]", ""},
+           {"second_axis", "[1, 2, 3]", ""},
+           {"stiffness", "5", "six numbers"},
+           {"stiffness", "[1, 2, 3]", "six numbers"},
+           {"stiffness", "[1, 2, 3, 4, 5, -1]", "at least 0"},
+           {"stiffness", "[[1, 2], [2, 1]]", ""},
+           {"stiffness", "{file: none.csv}", "no such file"},
+           {"stiffness",
+            "[[1, 0.5, 0, 0, 0, 0], [0.2, 1, 0, 0, 0, 0], [0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0], [0, 0, 0, 0, 1, 0], "
+            "[0, 0, "
+            "0, 0, 0, 1]]",
+            "not symmetric"},
+           {"stiffness",
+            "[[1, 2, 0, 0, 0, 0], [2, 1, 0, 0, 0, 0], [0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0], [0, 0, 0, 0, 1, 0], [0, "
+            "0, 0, 0, "
+            "0, 1]]",
+            "not positive semidefinite"},
+           {"damping",
+            "[[0, 1, 0, 0, 0, 0], [1, 1, 0, 0, 0, 0], [0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0], [0, 0, 0, 0, 1, 0], [0, "
+            "0, 0, 0, "
+            "0, 1]]",
+            "drives the motion"},
+           {"damping", "-0.1", "at least 0"},
+           {"preload", "5", ""},
+           {"preload", "[1, 2, 3]", "six numbers"},
+           {"maxwell", "[]", "at least one"},
+           {"maxwell.0.factor", "0", "greater than 0"},
+           {"maxwell.0.time", "0", "greater than 0"},
+           {"maxwell.0.stiffness", "[1, 1, 1, 1, 1, 1]", "either"},
+           {"maxwell.1.stiffness", "[1, 1]", "six numbers"}}};
+}
+
+Sample bushing_of_curves() {
+  Sample sample{
+      Section::joints,
+      "bushing",
+      "curves",
+      flexible_joint("type: bushing, at: [[0.2, 0.1, 0.3], [-0.6, -0.2, -0.1]], stiffness: {file: k.csv}, damping: "
+                     "0.2, curves: {x: x.csv, y: {table: x.csv}, z: \"3*q^3 + 0.2*v\", rx: \"q*(1 + 0.2*sin(t))\", rz: "
+                     "\"2*q + 0.1*it.x.rate + 0.2*b.position.x\"}, start: {rx: 0.1}"),
+      {{"nodes", "[a, c]", "no node 'c'"},
+       {"at", "[1, 2, 3]", "the first node and of the second"},
+       {"stiffness", "", "which is missing"},
+       {"stiffness.file", "x.csv", ""},
+       {"damping", "[1, 1, 1, 1, 1, -1]", "at least 0"},
+       {"curves", "{q: x.csv}", "names directions"},
+       {"curves.x", "none.csv", "no such file"},
+       {"curves.x", "falling.csv", "ascend"},
+       {"curves.y.table", "one.csv", "at least two points"},
+       {"curves.z", "'3*w'", "w"},
+       {"curves.rx", "-3", "at least 0"},
+       {"curves.rz", "it.w", ""},
+       {"start", "{angle: 1}", "angle"},
+       {"start.rx", "far", ""},
+       {"rest", "{x: 1}", "rest"}}};
+  sample.inertial = true;  // a position of a node
+  sample.scales.deformation = 0.2;
+  sample.files = [](const std::string& folder) {
+    // Kinks away from where the states are.
+    std::ofstream(folder + "/x.csv") << "displacement, force\n-3,-5\n2.2,3\n4,6\n";
+    std::ofstream(folder + "/falling.csv") << "0,1\n1,2\n0.5,3\n";
+    std::ofstream(folder + "/one.csv") << "0,1\n";
+    std::ofstream(folder + "/k.csv")
+        << "1 0.1 0 0 0 0\n0.1 1 0 0 0 0\n0 0 2 0 0 0\n0 0 0 1 0 0\n0 0 0 0 3 0\n0 0 0 0 0 1\n";
+  };
+  return sample;
+}
+
+Sample bearing_of_all() {
+  return {Section::joints,
+          "bearing",
+          "",
+          flexible_joint(
+              "type: bearing, position: [0.5, 0.2, 0.1], axis: [1, 2, 3], second_axis: [0, 1, -1], radial: "
+              "{stiffness: [3, 2], damping: 0.3}, axial: {stiffness: 2, damping: 0.1}, tilting: {stiffness: 1.5, "
+              "damping: [0.2, 0.4]}, stiffness: {angle: 2, z: \"q^3\"}, damping: {angle: 0.1}, preload: {z: 0.5}"),
+          {{"nodes", "[a, c]", "no node 'c'"},
+           {"position", "[1, 2]", ""},
+           {"axis", "", "axis"},
+           {"second_axis", "[1, 2, 3]", ""},
+           {"radial", "", "radial"},
+           {"radial", "-1", "at least 0"},
+           {"radial", "{}", "expected `stiffness` or `damping`"},
+           {"radial.stiffness", "[1, 2, 3]", "two"},
+           {"radial.damping", "-1", "at least 0"},
+           {"axial", "[1, 2]", "a number"},
+           {"axial.stiffness", "-1", "at least 0"},
+           {"axial.damping", "[1, 1]", "a number"},
+           {"tilting", "-2", "at least 0"},
+           {"tilting.stiffness", "-2", "at least 0"},
+           {"tilting.damping", "[1]", "two"},
+           {"stiffness", "5", "several coordinates"},
+           {"stiffness.angle", "-1", ""},
+           {"stiffness.z", "'q*w'", "w"},
+           {"damping.angle", "-1", ""},
+           {"preload.z", "much", ""}}};
+}
+
+Sample plain_bearing() {
+  return {Section::joints,
+          "bearing",
+          "numbers",
+          flexible_joint("type: bearing, axis: [1, 2, 3], radial: 3, axial: 2, tilting: 1"),
+          {{"nodes", "[a, a]", "two different nodes"},
+           {"axis", "[0, 0, 0]", ""},
+           {"radial", "[1]", "two"},
+           {"axial", "-1", "at least 0"},
+           {"tilting", "[-1, 1]", "at least 0"}}};
+}
+
+Sample clearance(const std::string& type, const std::string& variant, const std::string& keys,
+                 std::vector<BadValue> bad) {
+  bad.insert(bad.end(), {{"nodes", "[a, a]", "two different nodes"},
+                         {"radial_gap", "0", "greater than 0"},
+                         {"radial_gap", "", "radial_gap"},
+                         {"contact", "", "contact"}});
+  Sample sample{Section::joints, type, variant, flexible_joint("type: " + type + ", " + keys), std::move(bad)};
+  // Surfaces touch nearly everywhere, and forces vary smoothly over the differences.
+  sample.scales.kinks_unloaded = true;
+  sample.scales.deformation = 1.5;
+  return sample;
+}
+
+std::vector<Sample> clearances() {
+  const std::string of_hinge = "position: [0.5, 0.2, 0.1], axis: [1, 2, 3], second_axis: [0, 1, -1], ";
+  return {
+      clearance(
+          "clearance_hinge", "ends, collars, friction",
+          of_hinge +
+              "radial_gap: 0.01, axial_gap: 0.02, length: 0.6, radius: 0.3, contact: {stiffness: 3, exponent: 2, "
+              "damping: 0.1}, axial_contact: {stiffness: 2, exponent: 3, restitution: 0.999}, friction: {coefficient: "
+              "0.3, static: 0.4, stribeck_velocity: 3, viscous: 0.1, velocity: 2, model: coulomb}",
+          {{"position", "[1, 2]", ""},
+           {"axis", "", "axis"},
+           {"second_axis", "[1, 2, 3]", ""},
+           {"axial_gap", "-1", "greater than 0"},
+           {"axial_gap", "", "which is missing"},
+           {"length", "0", "greater than 0"},
+           {"radius", "0", "greater than 0"},
+           {"radius", "", "which is missing"},
+           {"contact.stiffness", "0", "greater than 0"},
+           {"contact.exponent", "0.5", "at least 1"},
+           {"contact.damping", "-1", "at least 0"},
+           {"axial_contact.stiffness", "-1", "greater than 0"},
+           {"axial_contact.exponent", "0", "at least 1"},
+           {"axial_contact.restitution", "2", "up to 1"},
+           {"friction.coefficient", "-1", "greater than 0"},
+           {"friction.static", "0.1", "no smaller"},
+           {"friction.stribeck_velocity", "-1", ""},
+           {"friction.viscous", "-1", ""},
+           {"friction.velocity", "0", ""},
+           {"friction.model", "lugre", "coulomb"}}),
+      clearance("clearance_hinge", "one contact",
+                "axis: [1, 2, 3], radial_gap: 0.01, contact: {stiffness: 2, exponent: 1}",
+                {{"axis", "[0, 0, 0]", ""}, {"contact.exponent", "0.5", "at least 1"}}),
+      clearance("clearance_hinge", "materials",
+                "axis: [1, 2, 3], radial_gap: 0.01, length: 0.5, contact: {young: [2, 3], poisson: 0.3, damping: 0.1}",
+                {{"axis", "", "axis"},
+                 {"length", "", "which is missing"},
+                 {"contact.young", "[1, 2, 3]", "bush and journal"},
+                 {"contact.young", "-1", "greater than 0"},
+                 {"contact.poisson", "0.6", "(-1, 0.5]"},
+                 {"contact.stiffness", "5", "follows from"}}),
+      clearance("clearance_spherical", "friction",
+                "at: [[0.2, 0.1, 0.3], [-0.6, -0.2, -0.1]], radial_gap: 0.01, radius: 0.2, contact: {stiffness: 3, "
+                "exponent: 2, "
+                "damping: 0.1}, friction: {coefficient: 0.3, velocity: 2}, stiffness: {x: 0.5}",
+                {{"at", "[1, 2, 3]", "the first node and of the second"},
+                 {"radius", "", "which is missing"},
+                 {"contact.stiffness", "0", "greater than 0"},
+                 {"contact.exponent", "0.5", "at least 1"},
+                 {"contact.damping", "-1", "at least 0"},
+                 {"friction.velocity", "0", "greater than 0"},
+                 {"friction.coefficient", "0", "greater than 0"},
+                 {"stiffness.x", "-1", ""}}),
+      clearance("clearance_spherical", "materials",
+                "radial_gap: 0.1, radius: 0.2, contact: {young: 2, poisson: [0.3, 0.2]}",
+                {{"radius", "", "which is missing"},
+                 {"contact.young", "0", "greater than 0"},
+                 {"contact.poisson", "[2, 0]", "(-1, 0.5]"}})};
+}
+
+using Matrix12 = Eigen::Matrix<double, 12, 12>;
+
+/// A 12x12 matrix whose null space are the rigid motions of nodes `way` apart, from a 6x6 matrix.
+Matrix12 between(const mechanism::Matrix6& K, const mechanism::Vector3& way) {
+  Eigen::Matrix<double, 6, 12> P = Eigen::Matrix<double, 6, 12>::Zero();
+  P.leftCols<6>() = -mechanism::Matrix6::Identity();
+  P.rightCols<6>().setIdentity();
+  P.block<3, 3>(0, 3) += 0.5 * mechanism::skew(way);
+  P.block<3, 3>(0, 9) += 0.5 * mechanism::skew(way);
+  return P.transpose() * K * P;
+}
+
+std::string by_rows(const Matrix12& A) {
+  std::string text = "[";
+  for (int i = 0; i < 12; ++i) {
+    text += i == 0 ? "[" : ", [";
+    for (int j = 0; j < 12; ++j) text += fmt::format("{}{:.17g}", j == 0 ? "" : ", ", A(i, j));
+    text += "]";
+  }
+  return text + "]";
+}
+
+mechanism::Matrix6 some_matrix(double coupling) {
+  mechanism::Matrix6 K = mechanism::Matrix6::Identity() * 2;
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j)
+      if (i != j) K(i, j) = coupling * ((i * j) % 3 - 1);
+  return K;
+}
+
+Sample field() {
+  const mechanism::Vector3 way(0.8, 0.4, 0.6);
+  Matrix12 to_ground = Matrix12::Identity();
+  return {Section::elements,
+          "stiffness_field",
+          "by rows",
+          flexible_nodes + "elements:\n  it: {type: stiffness_field, nodes: [a, b], stiffness: " +
+              by_rows(between(some_matrix(0.2), way)) + ", damping: 0.3}\n",
+          {{"nodes", "[a, a]", "two different nodes"},
+           {"nodes", "[a, c]", "no node 'c'"},
+           {"stiffness", "", "stiffness"},
+           {"stiffness", "[[1]]", ""},
+           {"stiffness", by_rows(to_ground), "resists rigid motions"},
+           {"stiffness", by_rows(-between(some_matrix(0.2), way)), "not positive semidefinite"},
+           {"damping", "-1", "at least 0"}}};
+}
+
+Sample field_of_files() {
+  Sample sample{
+      Section::elements,
+      "stiffness_field",
+      "files, turned axes",
+      flexible_nodes +
+          "elements:\n  it: {type: stiffness_field, nodes: [a, b], stiffness: {file: k.csv}, damping: {file: d.csv}, "
+          "rotation_vector: [0.3, 0.2, -0.4]}\n",
+      {{"nodes", "[a]", "2 node names"},
+       {"stiffness.file", "none.csv", "no such file"},
+       {"stiffness.file", "short.csv", ""},
+       {"stiffness", "{file: skew.csv}", "not symmetric"},
+       {"damping.file", "short.csv", ""},
+       {"rotation_vector", "[1]", ""}}};
+  sample.files = [](const std::string& folder) {
+    const mechanism::Matrix3 axes = mechanism::exp_so3(mechanism::Vector3(0.3, 0.2, -0.4));
+    const mechanism::Vector3 way = axes.transpose() * mechanism::Vector3(0.8, 0.4, 0.6);
+    const auto write = [&](const std::string& name, const Matrix12& A) {
+      std::ofstream file(folder + "/" + name);
+      for (int i = 0; i < 12; ++i)
+        for (int j = 0; j < 12; ++j) file << fmt::format("{:.17g}{}", A(i, j), j < 11 ? "," : "\n");
+    };
+    mechanism::Matrix6 unsymmetric = some_matrix(0.1);
+    unsymmetric(0, 1) += 0.5;
+    write("k.csv", between(some_matrix(0.2), way));
+    write("d.csv", between(unsymmetric, way));
+    write("skew.csv", between(unsymmetric, way));
+    std::ofstream(folder + "/short.csv") << "1,2,3\n";
+  };
+  return sample;
+}
+
+}  // namespace
+
+std::vector<Sample> flexible_samples() {
+  std::vector<Sample> list = {bushing_of_matrices(), bushing_of_curves(), bearing_of_all(), plain_bearing(), field(),
+                              field_of_files()};
+  for (Sample& sample : clearances()) list.push_back(std::move(sample));
+  return list;
+}
+
+}  // namespace bielle::laws
