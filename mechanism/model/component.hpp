@@ -48,6 +48,9 @@ struct Crossing {
   /// What holds by a force is overloaded: of several that are so at once, the one that is farthest beyond (its value the
   /// most negative) lets go first, because the others may hold without it.
   bool one_by_one = false;
+  /// It is located no nearer to the start of a step than this share of the step: positions are rounded, which is an error
+  /// of rates and forces that grows as steps become shorter, and may make other crossings look met. 0: as near as can be.
+  double nearest = 0;
   /// The side on which every motion begins, +1 or -1: one that begins on the other side has crossed. 0: either.
   int begins_on = 0;
 };

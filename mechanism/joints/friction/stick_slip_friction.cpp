@@ -26,6 +26,7 @@ void StickSlipFriction::declare(Declaration& declaration) const {
   Crossing rest{name + " sticks", Crossing::Direction::falling}, slip{name + " slips", Crossing::Direction::falling};
   rest.begins_on = slip.begins_on = 1;  // what cannot stick slips at once
   slip.one_by_one = true;
+  rest.nearest = slip.nearest = 1e-5;
   declaration.crossings = {rest, slip};
 }
 

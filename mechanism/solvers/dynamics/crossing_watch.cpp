@@ -71,14 +71,20 @@ bool CrossingWatch::found(const State& end, const Environment& environment, doub
   weight_.setOnes();
   std::fill(last_end_.begin(), last_end_.end(), 0);
   tolerance_ = tolerance;
-  // Rounding of positions, over the size of a step, is an error of velocities.
-  shortest_ = 1e-5 * h;
+  step_ = h;
   return !crossed_.empty();
+}
+
+double CrossingWatch::shortest() const {
+  double share = 0;
+  for (const int k : crossed_)
+    share = std::max(share, system_.crossings()[static_cast<std::size_t>(k)].crossing.nearest);
+  return share * step_;
 }
 
 bool CrossingWatch::located() const {
   const double width = high_ - low_;
-  if (width <= tolerance_ || high_ <= shortest_) return true;
+  if (width <= tolerance_ || high_ <= shortest()) return true;
   double farthest = 0;  // by the secant
   for (const int k : crossed_)
     farthest = std::max(farthest, width * std::abs(at_high_[k]) / (std::abs(at_high_[k]) + std::abs(at_low_[k])));
@@ -96,7 +102,7 @@ double CrossingWatch::proposal() const {
   }
   // A little past the zero, where the step is to end, and away from the ends of the bracket, so that both move.
   const double least = std::min(1e-3 * width, 0.5 * tolerance_);
-  return std::max(shortest_, std::clamp(earliest + 0.5 * tolerance_, low_ + least, high_ - least));
+  return std::max(shortest(), std::clamp(earliest + 0.5 * tolerance_, low_ + least, high_ - least));
 }
 
 void CrossingWatch::narrow(const State& end, const Environment& environment, double h) {

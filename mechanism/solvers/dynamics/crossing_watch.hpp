@@ -40,6 +40,7 @@ class CrossingWatch {
   void exchange(Archive& archive);
 
  private:
+  double shortest() const;  ///< step that is tried [s]
   /// Crossings with a zero between the start and values at the end of a step.
   void collect(const VectorX& values, std::vector<int>& crossed) const;
   bool has_crossed(int k, double value) const;
@@ -56,7 +57,7 @@ class CrossingWatch {
   std::vector<int> last_end_;  ///< of each crossing: +1 or -1, the end that moved last
   double low_ = 0, high_ = 0;  ///< sizes of steps [s]
   double tolerance_ = 0;       ///< [s]
-  double shortest_ = 0;        ///< step that is tried [s]
+  double step_ = 0;            ///< whole size [s]
 };
 
 }  // namespace bielle::mechanism
