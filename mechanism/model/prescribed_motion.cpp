@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <mutex>
 
 #include <fmt/format.h>
@@ -15,6 +16,7 @@ namespace {
 /// Velocity and displacement.
 struct Travel {
   double velocity = 0, displacement = 0;
+  double lowest = 0, highest = 0;  ///< acceleration of those that were looked at
 };
 
 /// What an acceleration adds over [from, to]: integrals of a and of (to - s) a, by five points (exact to degree nine).
@@ -25,8 +27,12 @@ Travel gained(const Expression& acceleration, double from, double to) {
                                                 0.4786286704993665, 0.2369268850561891};
   const double half = 0.5 * (to - from), middle = 0.5 * (from + to);
   Travel sum;
+  sum.lowest = std::numeric_limits<double>::infinity();
+  sum.highest = -sum.lowest;
   for (std::size_t k = 0; k < point.size(); ++k) {
-    const double a = half * weight[k] * acceleration(middle + half * point[k]);
+    const double value = acceleration(middle + half * point[k]), a = half * weight[k] * value;
+    sum.lowest = std::min(sum.lowest, value);
+    sum.highest = std::max(sum.highest, value);
     sum.velocity += a;
     sum.displacement += half * (1 - point[k]) * a;
   }
@@ -91,8 +97,11 @@ class PrescribedMotion::Integral {
     const double middle = begin + 0.5 * width, end = begin + width;
     const Travel whole = gained(acceleration_, begin, end), first = gained(acceleration_, begin, middle),
                  second = gained(acceleration_, middle, end);
-    const double size = std::abs(first.velocity) + std::abs(second.velocity);
-    return std::abs(first.velocity + second.velocity - whole.velocity) <= 1e-13 * size;
+    const double lowest = std::min(first.lowest, second.lowest), highest = std::max(first.highest, second.highest);
+    const double size = std::max(std::abs(lowest), std::abs(highest)) * width;
+    // Times are rounded, and so is what the acceleration is there.
+    const double rounding = 8 * std::numeric_limits<double>::epsilon() * end * (highest - lowest);
+    return std::abs(first.velocity + second.velocity - whole.velocity) <= 1e-13 * size + rounding;
   }
 
   Expression acceleration_;

@@ -173,7 +173,22 @@ void Contact::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values
   values[0] = smallest_gap(state, true).gap;
 }
 
-void Contact::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const { remember(state, memory); }
+void Contact::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {
+  remember(state, memory);
+  thread_local std::vector<int> near;
+  find_near(state, near);
+  for (const int pair : near) {
+    const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
+    if (std::isinf(shape(a).thickness()) || std::isinf(shape(b).thickness()))
+      continue;  // a plane always knows where out is
+    const double depth = -force_of(state, pair).nearest().gap, most = shape(a).skin() + shape(b).skin();
+    if (depth > most)
+      throw ComputationError(fmt::format(
+          "contact '{}' at t = {:.6g} s: {} press {:.3g} m into each other, beyond the {:.3g} m within which "
+          "they know the way out; make the contact stiffer, or `rounding` larger",
+          name(), state.time(), pair_name(pair), depth, most));
+  }
+}
 
 void Contact::begin_branch(const LocalState& state, std::span<const int> /*crossed*/,
                            Eigen::Ref<VectorX> memory) const {
@@ -209,31 +224,48 @@ void Contact::check_passage(const LocalState& state) const {
   const auto memory = state.memory();
   if (!(state.time() > memory[0])) return;  // not known, too
   double farthest = 0;
+  const double passed = state.time() - memory[0];
+  // How far the surface of a shape may have turned about its middle; a ball's turns into itself.
+  const auto turned = [&](int k) {
+    const double lever = shape(k).reach() - shape(k).thickness() / 2;
+    return std::isfinite(lever) ? passed * std::max(0.0, lever) * state.node(local_node(k)).Omega.norm() : 0.0;
+  };
   for (int k = 0; k < static_cast<int>(shapes_.size()); ++k)
-    farthest = std::max(farthest, (middle(state, k) - memory.segment<3>(1 + 3 * k)).norm());
-  if (2 * farthest <= thinnest_) return;
+    farthest = std::max(farthest, (middle(state, k) - memory.segment<3>(1 + 3 * k)).norm() + turned(k));
+  if (4 * farthest <= thinnest_) return;
   for (int pair = 0; pair < static_cast<int>(pairs_.size()); ++pair) {
     const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
     const double thickness = shape(a).thickness() + shape(b).thickness();
     const Vector3 now = middle(state, b) - middle(state, a);
     const Vector3 way = now - (memory.segment<3>(1 + 3 * b) - memory.segment<3>(1 + 3 * a));
-    if (!(way.norm() > thickness)) continue;
+    const double turn = turned(a) + turned(b);
+    if (!(way.norm() + turn > 0.5 * thickness)) continue;
     const double share = std::clamp(now.dot(way) / way.squaredNorm(), 0.0, 1.0);
-    if ((now - share * way).norm() < shape(a).reach() + shape(b).reach()) check_passage_of(state, pair, way);
+    if ((now - share * way).norm() < shape(a).reach() + shape(b).reach() + turn)
+      check_passage_of(state, pair, way, turn);
   }
 }
 
 /// @param way  of the second shape relative to the first, since the last accepted step
-void Contact::check_passage_of(const LocalState& state, int pair, const Vector3& way) const {
+/// @param turn  how far their surfaces may have turned since then [m]
+void Contact::check_passage_of(const LocalState& state, int pair, const Vector3& way, double turn) const {
   const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
   NodeState second = state.node(local_node(b));
   const Vector3 x = second.x;
-  const auto presses = [&](double share) {
+  const auto gap = [&](double share) {
     second.x = x - share * way;
-    return PairForce(shape(a), shape(b), state.node(local_node(a)), second).nearest().gap < 0;
+    return PairForce(shape(a), shape(b), state.node(local_node(a)), second).nearest().gap;
   };
-  if (presses(0) || presses(1)) return;
-  const double parts = std::min(1000.0, std::ceil(4 * way.norm() / (shape(a).thickness() + shape(b).thickness())));
+  const auto presses = [&](double share) { return gap(share) < 0; };
+  const double thickness = shape(a).thickness() + shape(b).thickness();
+  // From within they might leave on the other side; turning they might sweep over each other.
+  const bool may_turn_over = turn > 0.25 * thickness && std::min(gap(0), gap(1)) < turn;
+  if (presses(0) || presses(1) || may_turn_over)
+    throw ComputationError(
+        fmt::format("contact '{}' at t = {:.6g} s: {} move by {:.3g} m in {:.3g} s where they touch, more than half "
+                    "their thickness",
+                    name(), state.time(), pair_name(pair), way.norm() + turn, state.time() - state.memory()[0]));
+  const double parts = std::min(1000.0, std::ceil(4 * way.norm() / thickness));
   for (double k = 1; k < parts; ++k)
     if (presses(k / parts))
       throw ComputationError(

@@ -62,7 +62,7 @@ class Contact final : public Component {
   Smallest smallest_gap(const LocalState& state, bool apart_only) const;
   void remember(const LocalState& state, Eigen::Ref<VectorX> memory) const;
   void check_passage(const LocalState& state) const;
-  void check_passage_of(const LocalState& state, int pair, const Vector3& way) const;
+  void check_passage_of(const LocalState& state, int pair, const Vector3& way, double turn) const;
   std::string pair_name(int pair) const;
 
   std::vector<ContactShape> shapes_;

@@ -94,6 +94,14 @@ TEST_CASE("accelerations may be formulas, with a velocity and a displacement at 
   });
 }
 
+TEST_CASE("accelerations by formula are integrated as well after many periods") {
+  const MechanismFile file = read_mechanism_text(oscillator("{acceleration: \"sin(2*pi*t)\"}"), "model.yaml");
+  integrate(file, 0.7, 200, [&](const Session& session) {
+    const double t = session.time(), w = 2 * M_PI;
+    CHECK(session.node("base").x[0] == Approx(t / w - std::sin(w * t) / (w * w)).margin(1e-10));
+  });
+}
+
 TEST_CASE("a run beyond the end of a record says so") {
   const bielle::test::TemporaryFolder folder;
   std::ofstream(folder.path() + "/quake.csv") << "0,0\n0.1,1\n0.2,0\n";
