@@ -71,7 +71,9 @@ std::vector<Sample> friction_samples() {
   for (const char* type : {"cylindrical", "planar"})
     list.push_back(rubbing(type, "friction", axis, creeps + bearing, all({law, of_creeping, of_bearing})));
   list.push_back(rubbing("cylindrical", "bristles", axis, bristles + bearing, all({law, of_bristles, of_bearing})));
+  list.push_back(rubbing("planar", "without widths", axis, "coefficient: 0.3, radius: 0.7", {}));
   list.back().bad.push_back({"friction.model", "stick_slip", "one coordinate"});
+  list.back().bad.push_back({"friction.radius", "0", ""});
   list.push_back(rubbing("spherical", "friction", axis, creeps + ", radius: 0.7",
                          all({law, of_creeping, {{"friction.radius", "0", ""}}})));
   list.push_back(rubbing("spherical", "bristles", axis, bristles + ", radius: 0.7",

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "mechanism/solvers/start/consistent_accelerations.hpp"
+#include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -56,7 +57,13 @@ void set_start_values(SchemeStep& step, const Environment& environment, Velocity
   MassSaddle& saddle = correction.saddle();
   step.set_size(h);
   if (!saddle.serves()) saddle.factor(environment, step.state());
-  rates.j = acceleration_rate(step, environment, saddle, h);
+  try {
+    rates.j = acceleration_rate(step, environment, saddle, h);
+  } catch (const ComputationError&) {
+    // A component refuses what lies ahead, or it has no accelerations: steps of this size will tell, and become
+    // shorter.
+    rates.j.setZero(step.rates().a.size());
+  }
   if (resolved(step, rates.j, h)) {
     rates.A = rates.a + step.scheme().delta() * h * rates.j;
     correction.add_offset(step, rates.j, h * h);
