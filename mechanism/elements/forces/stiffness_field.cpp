@@ -117,7 +117,8 @@ double resistance_to_rigid_motions(const MatrixX& K, const Vector3& way) {
 Matrix6 read_field(const YamlValue& value, const Vector3& way, bool symmetric, const char* what) {
   MatrixX A = read_square_matrix(value, 12);
   if (symmetric) make_symmetric(value, A);
-  const double rigid = resistance_to_rigid_motions(A, way);
+  // Neither do rigid motions make forces, nor have forces a sum.
+  const double rigid = std::max(resistance_to_rigid_motions(A, way), resistance_to_rigid_motions(A.transpose(), way));
   constexpr double rounding = 1e-6, most = 1e-2;
   if (rigid > most)
     value.fail(

@@ -57,8 +57,14 @@ void read_dimensions(const YamlValue& entry, const std::string& word, ContactSha
     const double unit = length_unit(entry);
     shape.surface = read_named_file(
         given, [&](const std::string& path) { return std::make_shared<const TriangleSurface>(read_stl(path, unit)); });
-    if (!entry.has("units") && shape.surface->reach() > 20)
-      given.doubt(fmt::format("reaches {:.3g} m; are its lengths in mm? Then `units: mm`", shape.surface->reach()));
+    if (!entry.has("units") && shape.surface->size() > 20)
+      given.doubt(
+          fmt::format("is {:.3g} m from end to end; are its lengths in mm? Then `units: mm`", shape.surface->size()));
+    if (shape.surface->flipped_edges() > 0)
+      given.doubt(
+          fmt::format("has {} edges at which inside and outside change places: triangles are listed "
+                      "anticlockwise, seen from outside",
+                      shape.surface->flipped_edges()));
   }
 }
 

@@ -96,8 +96,9 @@ std::string ContactShape::describe() const {
       return text + fmt::format(", {:.6g} x {:.6g} x {:.6g} m, edges rounded by {:.3g} m", 2 * half.x(), 2 * half.y(),
                                 2 * half.z(), rounding);
     case Kind::surface:
-      return text +
-             fmt::format(", {} triangles, {:.6g} m from end to end", surface->triangles().size(), 2 * surface->reach());
+      return text + fmt::format(
+                        ", {} triangles, {:.6g} m from end to end, {}", surface->triangles().size(), surface->size(),
+                        surface->open_edges() == 0 ? "closed" : fmt::format("open at {} edges", surface->open_edges()));
     default:
       return text;
   }

@@ -1,6 +1,8 @@
 #include "mechanism/joints/contacts/triangle_surface.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -14,22 +16,39 @@ TriangleSurface::TriangleSurface(const std::vector<Vector3>& corners) {
   if (triangles_.empty()) throw InputError("the surface has no triangle with an area");
   find_neighbours();
   build_tree();
-  middle_ = 0.5 * (tree_.front().low + tree_.front().high);
   for (const Vector3& point : points_) reach_ = std::max(reach_, point.norm());
 }
 
 void TriangleSurface::join_corners(const std::vector<Vector3>& corners) {
-  std::map<std::array<double, 3>, int> known;
+  Vector3 low = corners.empty() ? Vector3::Zero() : corners.front(), high = low;
+  for (const Vector3& p : corners) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  size_ = (high - low).norm();
+  // Cells of the size within which corners are joined: what is as near stands in the same cell or the next.
+  const double cell = std::max(1e-6 * size_, std::numeric_limits<double>::min());
+  std::map<std::array<long, 3>, std::vector<int>> known;
   const auto number = [&](const Vector3& p) {
-    const auto [place, added] = known.try_emplace({p.x(), p.y(), p.z()}, static_cast<int>(points_.size()));
-    if (added) points_.push_back(p);
-    return place->second;
+    std::array<long, 3> at{};
+    for (int i = 0; i < 3; ++i) at[static_cast<std::size_t>(i)] = std::lround((p[i] - low[i]) / cell);
+    for (long x = -1; x <= 1; ++x)
+      for (long y = -1; y <= 1; ++y)
+        for (long z = -1; z <= 1; ++z)
+          if (const auto found = known.find({at[0] + x, at[1] + y, at[2] + z}); found != known.end())
+            for (const int other : found->second)
+              if ((points_[static_cast<std::size_t>(other)] - p).norm() <= cell) return other;
+    known[at].push_back(static_cast<int>(points_.size()));
+    points_.push_back(p);
+    return static_cast<int>(points_.size()) - 1;
   };
   for (std::size_t k = 0; k + 2 < corners.size(); k += 3) {
     const Vector3 normal = (corners[k + 1] - corners[k]).cross(corners[k + 2] - corners[k]);
     const double longest = std::max((corners[k + 1] - corners[k]).norm(), (corners[k + 2] - corners[k]).norm());
     if (!(normal.norm() > 1e-12 * longest * longest)) continue;  // slivers have no side
-    triangles_.push_back({number(corners[k]), number(corners[k + 1]), number(corners[k + 2])});
+    const Triangle triangle = {number(corners[k]), number(corners[k + 1]), number(corners[k + 2])};
+    if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0]) continue;
+    triangles_.push_back(triangle);
     normals_.push_back(normal.normalized());
   }
 }
@@ -49,10 +68,13 @@ void TriangleSurface::find_neighbours() {
         continue;
       }
       const auto [other, other_edge] = found->second;
+      const Triangle& beyond = triangles_[static_cast<std::size_t>(other)];
+      if (beyond[static_cast<std::size_t>(other_edge)] == corners[e]) ++flipped_edges_;  // both run along it one way
       neighbours_[static_cast<std::size_t>(t)][e] = other;
       neighbours_[static_cast<std::size_t>(other)][static_cast<std::size_t>(other_edge)] = t;
       open.erase(found);
     }
+  open_edges_ = static_cast<int>(open.size());
 }
 
 void TriangleSurface::build_tree() {
@@ -111,6 +133,27 @@ TriangleSurface::Nearest TriangleSurface::nearest(int triangle, const Vector3& p
   return {p - n * n.dot(ap), -1};
 }
 
+Vector3 TriangleSurface::outward(int triangle, int feature) const {
+  const auto t = static_cast<std::size_t>(triangle);
+  if (feature < 0) return normals_[t];
+  if (feature < 3) {
+    const int other = neighbours_[t][static_cast<std::size_t>(feature)];
+    return other < 0 ? normals_[t] : Vector3(normals_[t] + normals_[static_cast<std::size_t>(other)]);
+  }
+  const int corner = triangles_[t][static_cast<std::size_t>(feature - 3)];
+  Vector3 sum = Vector3::Zero();
+  for (const int each : around_corner_[static_cast<std::size_t>(corner)]) {
+    const Triangle& corners = triangles_[static_cast<std::size_t>(each)];
+    const std::size_t k = corners[0] == corner ? 0 : corners[1] == corner ? 1 : 2;
+    const auto point = [&](std::size_t number) -> const Vector3& {
+      return points_[static_cast<std::size_t>(corners[number % 3])];
+    };
+    const Vector3 to = point(k + 1) - point(k), from = point(k + 2) - point(k);
+    sum += std::atan2(to.cross(from).norm(), to.dot(from)) * normals_[static_cast<std::size_t>(each)];
+  }
+  return sum;
+}
+
 /// Whether the neighbours that share the edge or corner are nearest there, too.
 bool TriangleSurface::is_local(int triangle, const Nearest& found, const Vector3& point) const {
   if (found.feature < 0) return true;
@@ -155,7 +198,7 @@ void TriangleSurface::find_nearest(const Vector3& point, double radius, std::vec
       Place place{found.feature < 0   ? Place::Kind::face
                   : found.feature < 3 ? Place::Kind::edge
                                       : Place::Kind::corner,
-                  found.foot, normals_[static_cast<std::size_t>(t)], found.foot, found.foot};
+                  found.foot, outward(t, found.feature), found.foot, found.foot};
       if (place.kind != Place::Kind::face) place.from = corner(found.feature);
       if (place.kind == Place::Kind::edge) place.to = corner(found.feature + 1);
       places.push_back(place);

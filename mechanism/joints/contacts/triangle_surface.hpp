@@ -17,20 +17,26 @@ namespace bielle::mechanism {
 class TriangleSurface {
  public:
   using Triangle = std::array<int, 3>;  ///< its corners
-  /// @param corners  three of each triangle, one after the other [m]; equal ones are joined
+  /// @param corners  three of each triangle, one after the other [m]; those within a millionth of the surface's size
+  /// are joined
   /// @throws InputError where no triangle has an area
   explicit TriangleSurface(const std::vector<Vector3>& corners);
 
   const std::vector<Vector3>& points() const { return points_; }
   const std::vector<Triangle>& triangles() const { return triangles_; }
-  const Vector3& middle() const { return middle_; }  ///< of the box around it
-  double reach() const { return reach_; }            ///< of the farthest point from the origin [m]
+  double reach() const { return reach_; }               ///< of the farthest point from the origin [m]
+  double size() const { return size_; }                 ///< of the box around it, from corner to corner [m]
+  int open_edges() const { return open_edges_; }        ///< of one triangle alone: the surface ends there
+  int flipped_edges() const { return flipped_edges_; }  ///< of triangles whose outsides are on different sides
 
   /// A place that is nearest to a point: inside of a triangle, on an edge, or at a corner.
   struct Place {
     enum class Kind { face, edge, corner } kind;
     Vector3 foot;
-    Vector3 normal;    ///< of the face
+    /// Outwards. Of an edge the sum of its faces' normals; of a corner that of its faces weighted by their angles
+    /// there: a point is outside if it is on that side (J. A. Baerentzen, H. Aanaes, IEEE Trans. Visualization and
+    /// Computer Graphics 11 (2005) 243-253), however sharp they are.
+    Vector3 normal;
     Vector3 from, to;  ///< of the edge; `from` is the corner
   };
   /// Adds those nearer than `radius` to a point; behind a face as well as before it.
@@ -45,6 +51,7 @@ class TriangleSurface {
   void join_corners(const std::vector<Vector3>& corners);
   void find_neighbours();
   void build_tree();
+  Vector3 outward(int triangle, int feature) const;
   int build_node(int begin, int end);
   bool is_local(int triangle, const Nearest& found, const Vector3& point) const;
   struct Branch {
@@ -58,8 +65,8 @@ class TriangleSurface {
   std::vector<std::vector<int>> around_corner_;  ///< triangles
   std::vector<int> order_;
   std::vector<Branch> tree_;
-  Vector3 middle_ = Vector3::Zero();
-  double reach_ = 0;
+  double reach_ = 0, size_ = 0;
+  int open_edges_ = 0, flipped_edges_ = 0;
 };
 
 /// Reads an STL file, binary or text. @param unit  of its lengths [m] @throws InputError
