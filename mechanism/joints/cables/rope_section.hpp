@@ -14,7 +14,8 @@
 #include <vector>
 
 #include "mechanism/joints/cables/rope_span.hpp"
-#include "mechanism/model/component.hpp"
+#include "mechanism/model/model.hpp"
+#include "reduce/common/yaml_file.hpp"
 
 namespace bielle::mechanism {
 

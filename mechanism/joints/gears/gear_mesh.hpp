@@ -14,7 +14,9 @@
 #pragma once
 
 #include "mechanism/joints/gears/tooth_contact.hpp"
+#include "mechanism/model/model.hpp"
 #include "mechanism/model/references.hpp"
+#include "reduce/common/yaml_file.hpp"
 
 namespace bielle::mechanism {
 
