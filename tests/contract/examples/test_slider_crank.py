@@ -56,6 +56,33 @@ class SliderCrank(unittest.TestCase):
         self.assertLess(np.abs(piston[:, 0] - formula).max(), 3e-4)
         self.assertLess(np.abs(piston[:, 1:]).max(), 1e-9)
 
+    def test_a_rod_that_is_drawn_roughly_is_assembled_without_deforming(self):
+        """Drawn 10 mm and 10 degrees off, the flexible rod moves to its joints as a whole."""
+        with open(os.path.join(self.folder.name, "slider_crank.yaml")) as file:
+            text = file.read()
+        bent = "rotation_vector: [0, 0, 0.17]"
+        for old, new in (
+                ('big_end:   {position: ["r", 0, 0]}', f'big_end: {{position: ["r + 0.008", 0.005, 0.003], {bent}}}'),
+                ('small_end: {position: ["r + l", 0, 0]}',
+                 f'small_end: {{position: ["r + 0.008 + l*cos(0.17)", "0.005 + l*sin(0.17)", 0.003], {bent}}}'),
+                ('    position: ["r", 0, 0]\n', f'    position: ["r + 0.008", 0.005, 0.003]\n    {bent}\n'),
+                ("nodes: [crank_pin, big_end], axis: [0, 0, 1]",
+                 "nodes: [crank_pin, big_end], at: [[0, 0, 0], [0, 0, 0]], axis: [[0, 0, 1], [0, 0, 1]]"),
+                ("nodes: [small_end, piston]}", "nodes: [small_end, piston], at: [[0, 0, 0], [0, 0, 0]]}")):
+            self.assertIn(old, text)
+            text = text.replace(old, new)
+        rough = os.path.join(self.folder.name, "rough.yaml")
+        with open(rough, "w") as file:
+            file.write(text[:text.index("analysis:")] + "analysis: [{type: assembly}]\n")
+        done = subprocess.run([PROGRAM, rough], capture_output=True, text=True, timeout=600)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("node 'small_end': 0.0393 m, 9.74 degrees", done.stdout)
+        results = Results(rough.replace(".yaml", ".h5"))
+        big, small = (results.rows(f"nodes/{end}_end/position")[-1] for end in ("big", "small"))
+        np.testing.assert_allclose(big, [R, 0, 0], atol=1e-10)
+        np.testing.assert_allclose(small, [R + L, 0, 0], atol=1e-10)
+        results.file.close()
+
     def test_gas_and_inertia_load_the_wrist_as_a_piston_on_its_own(self):
         """Along the cylinder: m a = gas + wrist force; the guide's friction-free wall gives nothing along it."""
         rows = self.time > RUN_UP
