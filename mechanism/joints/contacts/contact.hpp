@@ -8,7 +8,9 @@
 // continuous.
 //
 // What is thinner than the way of a step might pass through another shape unseen. A trial in which this happens, by the
-// straight way from where the shapes were at the step's start, is refused: the step is made shorter.
+// straight way from where the shapes were at the step's start, is refused: the step is made shorter. So is one in which
+// shapes that touch at either end of it move by more than half their thickness. What presses deeper than the skins of
+// both does not know the way out any more: the run ends.
 //
 // Memory: [time and middles of the shapes at the last accepted step | damping of each pair, -1 while apart].
 #pragma once

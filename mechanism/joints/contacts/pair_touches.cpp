@@ -31,6 +31,16 @@ Touch<T> touch_of(const PointDistance<T>& found, double point_skin, double core_
   return touch;
 }
 
+/// Whether the lines along u and v, the second beginning at d from the first, are nearest to each other inside of both.
+/// @param between  the square of their distance there
+bool crosses_inside(const Vector3& u, const Vector3& v, const Vector3& d, double& between) {
+  const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v), D = uu * vv - uv * uv;
+  if (D <= 1e-14 * uu * vv) return false;
+  const double s = (d.dot(u) * vv - uv * d.dot(v)) / D, t = (uv * d.dot(u) - uu * d.dot(v)) / D;
+  between = (d + t * v - s * u).squaredNorm();
+  return s > 0 && s < 1 && t > 0 && t < 1;
+}
+
 /// Compares a pair of shapes feature by feature.
 template <class T>
 class PairOfShapes {
@@ -72,11 +82,8 @@ class PairOfShapes {
           return corners[side][static_cast<std::size_t>(edge[static_cast<std::size_t>(end)])];
         };
         const Vector3 u = at(0, 1) - at(0, 0), v = at(1, 1) - at(1, 0), d = at(1, 0) - at(0, 0);
-        const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v), D = uu * vv - uv * uv;
-        if (D <= 1e-14 * uu * vv) continue;
-        const double s = (d.dot(u) * vv - uv * d.dot(v)) / D, t = (uv * d.dot(u) - uu * d.dot(v)) / D;
-        if (s <= 0 || s >= 1 || t <= 0 || t >= 1) continue;
-        if ((d + t * v - s * u).squaredNorm() < skins * skins) act(i, j);
+        double between = 0;
+        if (crosses_inside(u, v, d, between) && between < skins * skins) act(i, j);
       }
   }
 
@@ -269,10 +276,8 @@ Touch<double> find_nearest_place(const PlacedShape<double>& first, const PlacedS
     for (std::size_t j = 0; j < second.shape->edges().size(); ++j) {
       const auto a = pair.ends(0, i), b = pair.ends(1, j);
       const Vector3 u = value_of(a[1] - a[0]), v = value_of(b[1] - b[0]), d = value_of(b[0] - a[0]);
-      const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v), D = uu * vv - uv * uv;
-      if (D <= 1e-14 * uu * vv) continue;
-      const double s = (d.dot(u) * vv - uv * d.dot(v)) / D, t = (uv * d.dot(u) - uu * d.dot(v)) / D;
-      if (s > 0 && s < 1 && t > 0 && t < 1) take(pair.crossing(i, j));
+      double between = 0;
+      if (crosses_inside(u, v, d, between)) take(pair.crossing(i, j));
     }
   return nearest;
 }

@@ -100,11 +100,16 @@ double StickSlipFriction::acceleration(const LocalState& state) const {
   return s.w.col(0).dot(a) + s.by_position.col(0).dot(v);
 }
 
+double StickSlipFriction::longest_arm() const {
+  double arm = 0;
+  for (const FrictionSurface::Part& part : surface().parts) arm = std::max(arm, std::abs(part.arm));
+  return arm;
+}
+
 double StickSlipFriction::no_velocity(const LocalState& state) const {
   const LocalState of_joint = state.of(0);
   const NodeState &first = of_joint.node(0), &second = of_joint.node(1);
-  double arm = 0;
-  for (const FrictionSurface::Part& part : surface().parts) arm = std::max(arm, std::abs(part.arm));
+  const double arm = longest_arm();
   // Positions are rounded: over a step that is an error of velocities, whatever these are.
   constexpr double per_second = 1e-11;
   return 1e-12 * (first.v.norm() + second.v.norm() + arm * (first.Omega.norm() + second.Omega.norm())) +
@@ -114,8 +119,7 @@ double StickSlipFriction::no_velocity(const LocalState& state) const {
 double StickSlipFriction::no_acceleration(const LocalState& state) const {
   const LocalState of_joint = state.of(0);
   const NodeState &first = of_joint.node(0), &second = of_joint.node(1);
-  double arm = 0;
-  for (const FrictionSurface::Part& part : surface().parts) arm = std::max(arm, std::abs(part.arm));
+  const double arm = longest_arm();
   return 1e-9 * (state.environment().gravity.norm() + first.a.norm() + second.a.norm() +
                  arm * (first.Omegadot.norm() + second.Omegadot.norm()));
 }

@@ -44,6 +44,7 @@ class StickSlipFriction final : public JointFriction {
   double distance(const LocalState& state) const;
   /// Sliding acceleration [m/s^2].
   double acceleration(const LocalState& state) const;
+  double longest_arm() const;
   // What is rounding of velocities and of accelerations.
   double no_velocity(const LocalState& state) const;
   double no_acceleration(const LocalState& state) const;

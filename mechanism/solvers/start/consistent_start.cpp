@@ -20,9 +20,10 @@ void release_overloaded(const System& system, const Environment& environment, St
   const auto& crossings = system.crossings();
   const auto count = static_cast<int>(crossings.size());
   const bool any = std::any_of(crossings.begin(), crossings.end(), [](const auto& c) { return c.crossing.one_by_one; });
+  if (!any) return;
   VectorX values(count);
   // Each lets go once; what comes to hold again is the motion's to see.
-  for (int k = 0; any && k < count; ++k) {
+  for (int k = 0; k < count; ++k) {
     system.calc_crossings(state, environment, values);
     int worst = -1;
     for (int i = 0; i < count; ++i)

@@ -1,5 +1,5 @@
-// Joints that stick beside what else acts in them: drives, locks, other sticking joints, statics, start rates, axes
-// that turn. Each against a closed form.
+// Joints that stick, together with what else acts in them: drives, locks, other sticking joints, statics, start rates,
+// axes that turn. Each against a closed form.
 #include <algorithm>
 #include <cmath>
 

@@ -92,7 +92,7 @@ joints:
   CHECK(model.system.set_aside().size() == 1);
 }
 
-// The tangent of a time step is M/(beta h^2) beside B: as it stands, its condition grows with h^-4 and with any change
+// The tangent of a time step is M/(beta h^2) next to B: as it stands, its condition grows with h^-4 and with any change
 // of units. Forces come with a moment of the same size at the model's length, violations of constraints with those of a
 // step: the solution is good to rounding at every step and in every unit.
 TEST_CASE("a Newton step is as accurate with tiny steps and in tiny units") {
