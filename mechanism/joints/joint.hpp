@@ -61,6 +61,13 @@ class Joint : public Component {
 
   /// Where friction acts. Default: at one surface along all coordinates, where these are no more than three.
   virtual std::vector<SlidingSurface> sliding_surfaces() const;
+  /// What of the reaction presses surfaces that slide: all of it, unless it bears the friction as well (along a curve,
+  /// path_press.hpp).
+  virtual Vector6 calc_press(const LocalState& state) const { return calc_reaction(state); }
+  /// The same with its derivatives over the joint's local layout. @param derivatives  (6, slots().size())
+  virtual Vector6 calc_press(const LocalState& state, MatrixX& derivatives) const {
+    return calc_reaction(state, derivatives);
+  }
   /// A result of what acts along the coordinates: a force or torque for each, summed over all that acts so.
   OutputField force_field(const std::string& name, const std::string& description) const;
 

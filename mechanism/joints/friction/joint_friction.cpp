@@ -68,13 +68,13 @@ JointFriction::Slip& JointFriction::slip(const LocalState& state, bool with_posi
 }
 
 double JointFriction::normal_force(const LocalState& state) const {
-  const Press press = press_of(joint_.calc_reaction(state.of(0)), surface_.thread_radius);
+  const Press press = press_of(joint_.calc_press(state.of(0)), surface_.thread_radius);
   return press.force.norm() + press.moment.norm() / surface_.moment_arm + surface_.preload;
 }
 
 double JointFriction::normal_force(const LocalState& of_joint, VectorX& gradient) const {
   thread_local MatrixX derivatives;
-  const Vector6 reaction = joint_.calc_reaction(of_joint, derivatives);
+  const Vector6 reaction = joint_.calc_press(of_joint, derivatives);
   const Press press = press_of(reaction, surface_.thread_radius);
   const double force = press.force.norm(), moment = press.moment.norm();
   gradient.setZero(derivatives.cols());

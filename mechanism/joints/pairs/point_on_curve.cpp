@@ -6,6 +6,7 @@
 
 #include "mechanism/joints/lift_off.hpp"
 #include "mechanism/joints/pairs/read_pair.hpp"
+#include "mechanism/joints/path_press.hpp"
 #include "mechanism/model/description.hpp"
 #include "mechanism/reading/read_file.hpp"
 #include "reduce/common/table_file.hpp"
@@ -41,6 +42,23 @@ void PointOnCurve::declare(Declaration& declaration) const {
   Crossing leaves_start{"leaves the curve at its beginning", Crossing::Direction::falling};
   leaves_start.stops = true;
   declaration.crossings = {leaves_start, leaves};
+}
+
+std::vector<SlidingSurface> PointOnCurve::sliding_surfaces() const {
+  return guide_ == Guide::plane ? std::vector<SlidingSurface>{} : Joint::sliding_surfaces();
+}
+
+Vector6 PointOnCurve::calc_press(const LocalState& state) const {
+  return take_out_along_path(calc_reaction(state), curve_(state.amplitude()[0]).first);
+}
+
+Vector6 PointOnCurve::calc_press(const LocalState& state, MatrixX& derivatives) const {
+  const Curve::Place c = curve_(state.amplitude()[0]);
+  const Vector6 reaction = calc_reaction(state, derivatives);
+  thread_local Eigen::Matrix<double, 3, Eigen::Dynamic> by_position;
+  by_position.setZero(3, derivatives.cols());
+  by_position.col(parameter) = c.second;
+  return take_out_along_path(reaction, c.first, by_position, derivatives);
 }
 
 void PointOnCurve::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {

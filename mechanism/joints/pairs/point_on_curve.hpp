@@ -3,10 +3,11 @@
 // The curve c(u) is fixed in J_A (math/curve.hpp). Its parameter u is an unknown of the joint, an amplitude without
 // mass:
 //     Phi = d - c(u) = 0,   d the way from J_A to J_B along the axes of J_A                     (three rows)
-// The equation of u is -c' . lambda = 0: without friction the reaction is normal to the curve. That holds at any
-// curvature, and u tells places apart where the curve passes the same point twice. Coordinate `displacement`: the arc
-// length from where the point is drawn. In the plane of J_A alone (a roller on a cam) there are two rows, and the curve
-// only pushes: where it would have to pull, an event is noted.
+// The equation of u is -c' . lambda = 0: without friction the reaction is normal to the curve; with friction, which
+// acts on u, its part along the curve bears it, and the rest presses. That holds at any curvature, and u tells places
+// apart where the curve passes the same point twice. Coordinate `displacement`: the arc length from where the point is
+// drawn. In the plane of J_A alone (a roller on a cam) there are two rows, and the curve only pushes: where it would
+// have to pull, an event is noted.
 #pragma once
 
 #include "mechanism/joints/joint.hpp"
@@ -23,8 +24,10 @@ class PointOnCurve final : public Joint {
   PointOnCurve(std::string type, std::string name, JointFrames frames, Curve curve, double start, Guide guide,
                const Model& model);
 
-  /// None: along a curve the reaction bears the friction itself, which is no part of what presses.
-  std::vector<SlidingSurface> sliding_surfaces() const override { return {}; }
+  /// None of a roller, which rolls.
+  std::vector<SlidingSurface> sliding_surfaces() const override;
+  Vector6 calc_press(const LocalState& state) const override;
+  Vector6 calc_press(const LocalState& state, MatrixX& derivatives) const override;
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/joints/path_press.hpp"
 #include "mechanism/model/description.hpp"
 #include "reduce/common/error.hpp"
 
@@ -145,6 +146,32 @@ void SliderJoint::calc_tangent_row(int axis, const LocalState& state, Row& resul
     add(measure_position(sliding, node, e, Vector3::Zero(), Vector3::Zero()), w.N[k], w1.N[k], w2.N[k]);
     add(measure_alignment(sliding, node, e, line_.tangent[end]), w.M[k], w1.M[k], w2.M[k]);
   }
+}
+
+// p' along the axes of J_A stands in the rows of positions, as their derivative by u.
+Vector6 SliderJoint::calc_press(const LocalState& state) const {
+  thread_local Row row;
+  Vector3 along;
+  for (int axis = 0; axis < 3; ++axis) {
+    calc_row(axis, state, row);
+    along[axis] = -row.gradient[parameter()];
+  }
+  return take_out_along_path(calc_reaction(state), along);
+}
+
+Vector6 SliderJoint::calc_press(const LocalState& state, MatrixX& derivatives) const {
+  thread_local Row row;
+  thread_local Eigen::Matrix<double, 3, Eigen::Dynamic> by_position;
+  const Vector6 reaction = calc_reaction(state, derivatives);
+  const int u = parameter();
+  by_position.setZero(3, derivatives.cols());
+  Vector3 along;
+  for (int axis = 0; axis < 3; ++axis) {
+    calc_row(axis, state, row);
+    along[axis] = -row.gradient[u];
+    by_position.row(axis).head(u + 1) = -row.second.row(u);
+  }
+  return take_out_along_path(reaction, along, by_position, derivatives);
 }
 
 void SliderJoint::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {

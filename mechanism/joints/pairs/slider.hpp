@@ -6,7 +6,8 @@
 //                                       M = L_e {xi - 2 xi^2 + xi^3, xi^3 - xi^2},
 // t_k the unit tangent that rides on node k. u is an unknown of the joint, without mass. Rows, in the axes of J_A,
 // which rides on the beam's first node:
-//     x y z     d - p(u) = 0, d to the slider's attachment point: its equation of u makes the force normal to the beam
+//     x y z     d - p(u) = 0, d to the slider's attachment point: its equation of u makes the force normal to the beam,
+//               but for friction, which acts on u (by lengths as drawn)
 //     ry rz     with `orientation: tangent`: y_B . p' = z_B . p' = 0, x_B along the beam as drawn; turning about it is
 //     free
 // The force goes to the two nodes of the element as N_k f and moments M_k t_k x f: it passes from element to element
@@ -35,8 +36,8 @@ class SliderJoint final : public Joint {
   SliderJoint(std::string name, JointFrames frames, BeamLine line, double start, bool tangent, Ends ends,
               const Model& model);
 
-  /// None: along a curve the reaction bears the friction itself, which is no part of what presses.
-  std::vector<SlidingSurface> sliding_surfaces() const override { return {}; }
+  Vector6 calc_press(const LocalState& state) const override;
+  Vector6 calc_press(const LocalState& state, MatrixX& derivatives) const override;
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
