@@ -1,4 +1,6 @@
 // Samples of friction in joints.
+#include <fstream>
+
 #include "tests/laws/sample.hpp"
 
 namespace bielle::laws {
@@ -29,6 +31,65 @@ Sample rubbing(const std::string& type, const std::string& variant, const std::s
                 std::move(bad)};
   sample.scales.kinks_unloaded = true;  // |F|, |M| and |v| where they vanish
   sample.scales.smooth_within = 0.25;   // on the way there
+  return sample;
+}
+
+/// A point that rubs along a curve.
+Sample rubbing_point(const std::string& variant, bool closed, const std::string& friction, std::vector<BadValue> bad) {
+  bad.push_back({"friction.coefficient", "0", ""});
+  bad.push_back({"friction.radius", "1", "does not turn"});
+  bad.push_back({"friction.model", "dry", "a model of friction"});
+  bad.push_back({"nodes", "[a, a]", "two different nodes"});
+  bad.push_back({"position", "[1, 2]", ""});
+  bad.push_back({"curve", "none.csv", "none.csv"});
+  bad.push_back({"closed", "5", ""});
+  Sample sample{Section::joints, "point_on_curve", variant,
+                "nodes:\n"
+                "  a: {position: [0.3, 0.1, -0.2], rotation_vector: [0.3, -0.5, 0.8]}\n"
+                "  b: {position: [1.1, 0.5, 0.4], rotation_vector: [-0.7, 0.2, 0.4]}\n"
+                "joints:\n  it: {type: point_on_curve, nodes: [a, b], position: [0.55, 0.2, 0.15], curve: points.csv, "
+                "closed: " +
+                    std::string(closed ? "true" : "false") + ", friction: {" + friction + "}}\n",
+                std::move(bad)};
+  // One piece, or five: finite differences stay within a piece, where the curve has all derivatives.
+  sample.files = [closed](const std::string& folder) {
+    std::ofstream(folder + "/points.csv") << (closed ? "0.2,0.1,0\n1.0,0.3,0.3\n1.2,1.0,0.2\n0.5,1.4,0\n-0.1,0.9,-0.2\n"
+                                                     : "0.2,0.1,0\n1.0,0.3,0.3\n1.2,1.0,0.2\n0.5,1.4,0\n");
+  };
+  sample.scales.amplitude = 0.2;
+  sample.scales.kinks_unloaded = true;
+  sample.scales.smooth_within = 0.25;
+  return sample;
+}
+
+/// A slider that rubs on a beam.
+Sample rubbing_slider(const std::string& variant, const std::string& orientation, const std::string& friction,
+                      std::vector<BadValue> bad) {
+  bad.push_back({"friction.coefficient", "0", ""});
+  bad.push_back({"friction.model", "dry", "a model of friction"});
+  bad.push_back({"node", "a", "slide on itself"});
+  bad.push_back({"beam", "shft", "did you mean 'shaft'"});
+  bad.push_back({"at", "[1, 2]", ""});
+  bad.push_back({"start", "1.5", "from 0"});
+  bad.push_back({"ends", "open", ""});
+  bad.push_back({"orientation", "fixed", ""});
+  Sample sample{
+      Section::joints, "slider", variant,
+      "nodes:\n"
+      "  a: {position: [0.3, 0.1, -0.2], rotation_vector: [0.3, -0.5, 0.8]}\n"
+      "  b: {position: [1.5, 0.7, 0.4], rotation_vector: [-0.7, 0.2, 0.4]}\n"
+      "  s: {position: [0.7, 0.4, 0.1], rotation_vector: [0.2, 0.2, 0.4]}\n"
+      "elements:\n"
+      "  shaft: {type: beam, nodes: [a, b], elements: 4, arc_through: [1, 0.2, 0.4], section: {circle: 0.1, young: "
+      "1e6, "
+      "poisson: 0.3, density: 100}}\n"
+      "joints:\n"
+      "  it: {type: slider, node: s, beam: shaft, at: [0.1, -0.05, 0.1], start: 0.38, ends: stop, orientation: " +
+          orientation + ", friction: {" + friction + "}}\n",
+      std::move(bad)};
+  sample.scales.amplitude = 0.1;  // within one element: the curvature jumps from one to the next
+  sample.scales.kinks_unloaded = true;
+  sample.scales.smooth_within = 0.25;
   return sample;
 }
 
@@ -93,6 +154,16 @@ std::vector<Sample> friction_samples() {
     list.back().bad.push_back(each);
   list.push_back(rubbing("point_on_line", "friction", "line: [1, 2, 3]", creeps, all({law, of_creeping})));
   list.push_back(rubbing("point_on_plane", "bristles", "normal: [1, 2, 3]", bristles, all({law, of_bristles})));
+  list.push_back(rubbing_point("friction", false, creeps, all({law, of_creeping})));
+  list.push_back(rubbing_point("friction, closed", true, creeps + ", preload: 0.8",
+                               all({law, of_creeping, {{"friction.preload", "-1", ""}}})));
+  list.push_back(rubbing_point("bristles", true, bristles, all({law, of_bristles})));
+  list.push_back(rubbing_point("stick and slip", true, sticks, law));
+  list.push_back(rubbing_slider("friction", "free", creeps, all({law, of_creeping})));
+  list.push_back(rubbing_slider("friction, tangent", "tangent", creeps + ", arm: 0.6",
+                                all({law, of_creeping, {{"friction.arm", "0", ""}}})));
+  list.push_back(rubbing_slider("bristles", "tangent", bristles, all({law, of_bristles})));
+  list.push_back(rubbing_slider("stick and slip", "free", sticks, law));
   return list;
 }
 
