@@ -59,6 +59,25 @@ PairForce Contact::force_of(const LocalState& state, int pair) const {
   return {shape(a), shape(b), state.node(local_node(a)), state.node(local_node(b))};
 }
 
+/// What act(force of the pair) gives. What it throws says which pair, and when.
+template <class Act>
+auto Contact::of_pair(const LocalState& state, int pair, const Act& act) const {
+  try {
+    return act(force_of(state, pair));
+  } catch (const ComputationError& error) {
+    throw ComputationError(
+        fmt::format("contact '{}' at t = {:.6g} s: {}: {}", name(), state.time(), pair_name(pair), error.what()));
+  }
+}
+
+PairForce::Result Contact::acting(const LocalState& state, int pair) const {
+  return of_pair(state, pair, [&](const PairForce& force) { return force.calc(law_, damping(state, pair)); });
+}
+
+PairForce::Nearest Contact::nearest(const LocalState& state, int pair) const {
+  return of_pair(state, pair, [](const PairForce& force) { return force.nearest(); });
+}
+
 double Contact::damping(const LocalState& state, int pair) const {
   if (!remembers_touches()) return law_.normal.damping;
   if (state.environment().statics) return 0;
@@ -89,7 +108,7 @@ void Contact::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const
   thread_local std::vector<int> near;
   find_near(state, near);
   for (const int pair : near) {
-    const Vector12 part = force_of(state, pair).calc(law_, damping(state, pair)).r;
+    const Vector12 part = acting(state, pair).r;
     const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
     r.segment<6>(6 * local_node(a)) += part.head<6>();
     r.segment<6>(6 * local_node(b)) += part.tail<6>();
@@ -101,10 +120,8 @@ void Contact::add_tangent(const LocalState& state, LocalTangent& tangent) const 
   find_near(state, near);
   Matrix12 K, C;
   for (const int pair : near) {
-    const PairForce force = force_of(state, pair);
-    const double d = damping(state, pair);
-    if (force.calc(law_, d).depth <= 0) continue;
-    force.calc_tangent(law_, d, K, C);
+    if (acting(state, pair).depth <= 0) continue;
+    force_of(state, pair).calc_tangent(law_, damping(state, pair), K, C);
     const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
     const std::array<int, 4> at = {6 * local_node(a), 6 * local_node(a) + 3, 6 * local_node(b), 6 * local_node(b) + 3};
     for (int i = 0; i < 4; ++i)
@@ -120,7 +137,7 @@ void Contact::add_energy(const LocalState& state, Energy& energy) const {
   thread_local std::vector<int> near;
   find_near(state, near);
   for (const int pair : near) {
-    const PairForce::Result result = force_of(state, pair).calc(law_, damping(state, pair));
+    const PairForce::Result result = acting(state, pair);
     energy.elastic += result.elastic;
     energy.dissipation += result.dissipation;
   }
@@ -135,8 +152,8 @@ Contact::Smallest Contact::smallest_gap(const LocalState& state, bool apart_only
     const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
     if (NearPairs::apart(bound[static_cast<std::size_t>(a)], bound[static_cast<std::size_t>(b)]) >= smallest.gap)
       continue;
-    const PairForce::Nearest nearest = force_of(state, pair).nearest();
-    if (nearest.gap < smallest.gap) smallest = {nearest.gap, nearest.place};
+    const PairForce::Nearest found = nearest(state, pair);
+    if (found.gap < smallest.gap) smallest = {found.gap, found.place};
   }
   return smallest;
 }
@@ -157,7 +174,7 @@ void Contact::write_output(const LocalState& state, double* values) const {
   find_near(state, near);
   double& touching = values[1 + 3 * forces];
   for (const int pair : near) {
-    const PairForce::Result result = force_of(state, pair).calc(law_, damping(state, pair));
+    const PairForce::Result result = acting(state, pair);
     if (result.depth <= 0) continue;
     ++touching;
     const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
@@ -173,43 +190,58 @@ void Contact::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values
   values[0] = smallest_gap(state, true).gap;
 }
 
-void Contact::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {
-  remember(state, memory);
-  thread_local std::vector<int> near;
-  find_near(state, near);
-  for (const int pair : near) {
-    const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
-    if (std::isinf(shape(a).thickness()) || std::isinf(shape(b).thickness()))
-      continue;  // a plane always knows where out is
-    const double depth = -force_of(state, pair).nearest().gap, most = shape(a).skin() + shape(b).skin();
-    if (depth > most)
-      throw ComputationError(fmt::format(
-          "contact '{}' at t = {:.6g} s: {} press {:.3g} m into each other, beyond the {:.3g} m within which "
-          "they know the way out; make the contact stiffer, or `rounding` larger",
-          name(), state.time(), pair_name(pair), depth, most));
-  }
-}
+void Contact::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const { remember(state, memory); }
 
 void Contact::begin_branch(const LocalState& state, std::span<const int> /*crossed*/,
                            Eigen::Ref<VectorX> memory) const {
   remember(state, memory);
 }
 
+/// @throws ComputationError where what presses does not know the way out any more
+void Contact::check_depth(const LocalState& state, int pair, const PairForce::Nearest& found) const {
+  const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
+  if (std::isinf(shape(a).thickness()) || std::isinf(shape(b).thickness()))
+    return;  // a plane always knows where out is
+  const double most = shape(a).skin() + shape(b).skin();
+  if (-found.gap > most)
+    throw ComputationError(
+        fmt::format("contact '{}' at t = {:.6g} s: {} press {:.3g} m into each other, beyond the {:.3g} m within which "
+                    "they know the way out; make the contact stiffer, or `rounding` larger",
+                    name(), state.time(), pair_name(pair), -found.gap, most));
+  if (-found.gap > 0.5 * most && has_turned_over(state, pair, found))
+    throw ComputationError(fmt::format(
+        "contact '{}' at t = {:.6g} s: {} have gone through each other's middle, where they would press {:.3g} m into "
+        "each other; make the contact stiffer",
+        name(), state.time(), pair_name(pair), most));
+}
+
+/// Whether the normal points the other way since the last accepted step: lines and points have no inside in which they
+/// would be found.
+bool Contact::has_turned_over(const LocalState& state, int pair, const PairForce::Nearest& found) const {
+  const auto memory = state.memory();
+  if (!(state.time() > memory[0])) return false;
+  const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
+  NodeState second = state.node(local_node(b));
+  second.x -= middle(state, b) - middle(state, a) - (memory.segment<3>(1 + 3 * b) - memory.segment<3>(1 + 3 * a));
+  return PairForce(shape(a), shape(b), state.node(local_node(a)), second).nearest().normal.dot(found.normal) < 0;
+}
+
 void Contact::remember(const LocalState& state, Eigen::Ref<VectorX> memory) const {
   memory[0] = state.time();
   const auto shapes = static_cast<Eigen::Index>(shapes_.size());
   for (int k = 0; k < static_cast<int>(shapes_.size()); ++k) memory.segment<3>(1 + 3 * k) = middle(state, k);
-  if (!remembers_touches()) return;
-  auto dampings = memory.tail(static_cast<Eigen::Index>(pairs_.size()));
-  const auto before = state.memory().segment(1 + 3 * shapes, dampings.size());
-  dampings.setConstant(apart);
+  const Eigen::Index dampings = 1 + 3 * shapes;
+  if (remembers_touches()) memory.tail(memory.size() - dampings).setConstant(apart);
   thread_local std::vector<int> near;
   find_near(state, near);
   for (const int pair : near) {
-    const PairForce::Nearest nearest = force_of(state, pair).nearest();
-    const bool touches = nearest.gap < 0 || (nearest.gap == 0 && nearest.rate <= 0);
+    const PairForce::Nearest found = nearest(state, pair);
+    check_depth(state, pair, found);
+    if (!remembers_touches()) continue;
+    const bool touches = found.gap < 0 || (found.gap == 0 && found.rate <= 0);
     if (!touches) continue;
-    dampings[pair] = before[pair] != apart ? before[pair] : law_.normal.damping_after(std::max(0.0, -nearest.rate));
+    const double before = state.memory()[dampings + pair];
+    memory[dampings + pair] = before != apart ? before : law_.normal.damping_after(std::max(0.0, -found.rate));
   }
 }
 
@@ -293,10 +325,13 @@ std::pair<std::string, double> Contact::drawn_into_each_other(const Model& model
   near_pairs_.find(bounds, near);
   for (const int pair : near) {
     const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
-    const double depth =
-        -PairForce(shape(a), shape(b), nodes[static_cast<std::size_t>(a)], nodes[static_cast<std::size_t>(b)])
-             .nearest()
-             .gap;
+    const PairForce force(shape(a), shape(b), nodes[static_cast<std::size_t>(a)], nodes[static_cast<std::size_t>(b)]);
+    double depth = 0;
+    try {
+      depth = -force.nearest().gap;
+    } catch (const ComputationError& error) {
+      throw InputError(fmt::format("{}: {}", pair_name(pair), error.what()));
+    }
     if (depth <= deepest) continue;
     deepest = depth;
     deepest_pair = pair;

@@ -10,7 +10,7 @@
 // What is thinner than the way of a step might pass through another shape unseen. A trial in which this happens, by the
 // straight way from where the shapes were at the step's start, is refused: the step is made shorter. So is one in which
 // shapes that touch at either end of it move by more than half their thickness. What presses deeper than the skins of
-// both does not know the way out any more: the run ends.
+// both does not know the way out any more, nor does what has gone through the other's middle: the run ends.
 //
 // Memory: [time and middles of the shapes at the last accepted step | damping of each pair, -1 while apart].
 #pragma once
@@ -32,6 +32,7 @@ class Contact final : public Component {
   Contact(std::string name, std::vector<ContactShape> shapes, std::vector<std::pair<int, int>> pairs, SurfaceLaw law);
 
   /// How deep shapes are drawn into each other, the deepest pair: a clause and the depth over their size; or nothing.
+  /// @throws InputError  where nothing tells in which direction they are
   std::pair<std::string, double> drawn_into_each_other(const Model& model) const;
   void set_remark(std::string remark) { remark_ = std::move(remark); }
 
@@ -57,11 +58,17 @@ class Contact final : public Component {
   int local_node(int shape) const { return local_node_[static_cast<std::size_t>(shape)]; }
   const ContactShape& shape(int k) const { return shapes_[static_cast<std::size_t>(k)]; }
   PairForce force_of(const LocalState& state, int pair) const;
+  template <class Act>
+  auto of_pair(const LocalState& state, int pair, const Act& act) const;
+  PairForce::Result acting(const LocalState& state, int pair) const;
+  PairForce::Nearest nearest(const LocalState& state, int pair) const;
   double damping(const LocalState& state, int pair) const;
   Vector3 middle(const LocalState& state, int shape) const;
   const std::vector<NearPairs::Bound>& bounds(const LocalState& state) const;
   void find_near(const LocalState& state, std::vector<int>& pairs) const;
   Smallest smallest_gap(const LocalState& state, bool apart_only) const;
+  void check_depth(const LocalState& state, int pair, const PairForce::Nearest& found) const;
+  bool has_turned_over(const LocalState& state, int pair, const PairForce::Nearest& found) const;
   void remember(const LocalState& state, Eigen::Ref<VectorX> memory) const;
   void check_passage(const LocalState& state) const;
   void check_passage_of(const LocalState& state, int pair, const Vector3& way, double turn) const;

@@ -1,6 +1,7 @@
 // `contact`: its shapes, which of them may touch, and the laws of their surfaces.
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -171,7 +172,13 @@ void read_contact(const std::string& name, const YamlValue& entry, Model& model)
   ReadShapes read = read_shapes(entry, model);
   std::vector<std::pair<int, int>> pairs = pairs_of(read, entry, model);
   auto contact = std::make_unique<Contact>(name, std::move(read.shapes), std::move(pairs), law);
-  const auto [depth, share] = contact->drawn_into_each_other(model);
+  std::string depth;
+  double share = 0;
+  try {
+    std::tie(depth, share) = contact->drawn_into_each_other(model);
+  } catch (const InputError& error) {
+    entry.fail(error.what());
+  }
   if (share > 0.02) entry.doubt(depth + ": they will be thrown apart");
   contact->set_remark(depth);
   model.add_within(std::move(contact), Entry{Section::joints, name}, Entry{Section::contacts, name});

@@ -181,7 +181,7 @@ PairForce::Nearest PairForce::nearest() const {
   const SeenFromFirst<double> seen(first_, second_, s_, R_12_, s_rate_, turning_);
   const Touch<double> touch = find_nearest_place(seen.first, seen.second);
   return {-touch.depth, dot(touch.normal, velocity_at(seen, touch.place)),
-          node_1_.x + node_1_.R * value_of(touch.place)};
+          node_1_.x + node_1_.R * value_of(touch.place), node_1_.R * value_of(touch.normal)};
 }
 
 }  // namespace bielle::mechanism

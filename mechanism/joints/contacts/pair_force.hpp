@@ -46,6 +46,7 @@ class PairForce {
   struct Nearest {
     double gap, rate;  ///< [m], [m/s]
     Vector3 place;     ///< inertial
+    Vector3 normal;    ///< from the first body to the second, inertial
   };
   Nearest nearest() const;
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <type_traits>
 
+#include "mechanism/joints/contacts/core_overlap.hpp"
 #include "mechanism/joints/contacts/point_distances.hpp"
 
 namespace bielle::mechanism {
@@ -50,7 +52,7 @@ class PairOfShapes {
 
   /// Calls act(touch, side, corner) for each corner of either shape against the other as a whole.
   template <class Act>
-  void for_each_corner(double within, const Act& act) const {
+  void for_each_corner(const Act& act) const {
     for (const std::size_t side : {0UL, 1UL}) {
       const ContactShape &of = *shapes_[side], &other = *shapes_[1 - side];
       if (other.kind == Kind::sphere && of.kind != Kind::sphere) continue;  // its middle is compared, not the corners
@@ -58,7 +60,7 @@ class PairOfShapes {
       for (std::size_t k = 0; k < of.corners().size(); ++k) {
         const Triple<T> point = point_of(*placed_[side], of.corners()[k]);
         if (other.kind == Kind::surface)
-          for_each_place(point, side, within, [&](const Touch<T>& touch) { act(touch, side, k); });
+          for_each_place(point, side, [&](const Touch<T>& touch) { act(touch, side, k); });
         else
           act(touch_of(distance_to_core(point, *placed_[1 - side]), of.skin(), other.skin(), side == 1), side, k);
       }
@@ -105,6 +107,36 @@ class PairOfShapes {
     return touch_of(distance_to_point(on_second, on_first), shapes_[1]->skin(), shapes_[0]->skin(), true);
   }
 
+  /// The place of a surface that is nearest to a corner of the other shape, however far it is: what is within a closed
+  /// one is deeper than its skin. Behind an open one nothing is within.
+  Touch<double> nearest_of_surface(std::size_t side, std::size_t corner) const requires std::is_same_v<T, double> {
+    const PlacedShape<double>& surface = *placed_[1 - side];
+    const TriangleSurface& triangles = *surface.shape->surface;
+    const double skin = shapes_[side]->skin();
+    const Triple<double> point = point_of(*placed_[side], shapes_[side]->corners()[corner]);
+    const Triple<double> way = point - surface.origin;
+    const Vector3 q(dot(surface.axes[0], way), dot(surface.axes[1], way), dot(surface.axes[2], way));
+    std::vector<TriangleSurface::Place> places;
+    for (double within = 2 * skin; places.empty() && within < 4 * (q.norm() + triangles.reach() + skin); within *= 2)
+      triangles.find_nearest(q, within, places);
+    Touch<double> nearest;
+    nearest.depth = -std::numeric_limits<double>::infinity();
+    if (places.empty()) return nearest;
+    const auto& place = *std::min_element(places.begin(), places.end(), [&](const auto& a, const auto& b) {
+      return (q - a.foot).squaredNorm() < (q - b.foot).squaredNorm();
+    });
+    const double distance = (q - place.foot).norm();
+    const bool behind = place.normal.dot(q - place.foot) < 0;
+    const bool within = behind && (triangles.open_edges() == 0 || distance <= skin);
+    Vector3 normal = place.normal.normalized();
+    if (distance > 0 && (place.kind != TriangleSurface::Place::Kind::face || (behind && !within)))
+      normal = (within ? -1 : 1) / distance * (q - place.foot);
+    nearest.depth = skin + (within ? distance : -distance);
+    nearest.normal = turned(surface, side == 1 ? normal : Vector3(-normal));
+    nearest.place = point_of(surface, place.foot - 0.5 * nearest.depth * normal);
+    return nearest;
+  }
+
   /// An end of an edge of one shape against an edge of the other.
   Touch<T> end_on_edge(std::size_t side, const Triple<T>& end, const std::array<Triple<T>, 2>& edge) const {
     return touch_of(distance_to_segment(end, edge[0], edge[1]), shapes_[side]->skin(), shapes_[1 - side]->skin(),
@@ -112,9 +144,9 @@ class PairOfShapes {
   }
 
  private:
-  /// The lowest place of a cylinder's rim above a plane. With s the sine of the angle between axis and normal, it lies
-  /// R f(s) below the middle of the end, f = (sqrt(s^2 + e^2) - e)/(sqrt(1 + e^2) - e), e = 0.01: exact for s = 0
-  /// and 1. An end that stands flat is the top of a very flat dome, and tilts smoothly.
+  /// The lowest place of a cylinder's rim above a plane. With s the sine of the angle between axis and normal, that of
+  /// its core lies R f(s) below the middle of the core's end, f = (sqrt(s^2 + e^2) - e)/(sqrt(1 + e^2) - e), e = 0.01:
+  /// exact for s = 0 and 1. An end that stands flat is the top of a very flat dome, and tilts smoothly.
   Touch<T> rim(std::size_t side, int end) const {
     constexpr double e = 0.01;
     const double whole = std::sqrt(1 + e * e) - e;
@@ -122,21 +154,22 @@ class PairOfShapes {
     const PlacedShape<T>& plane = *placed_[1 - side];
     const Triple<T>& axis = placed_[side]->axes[2];
     const Triple<T>& n = plane.axes[2];
-    const Triple<T> middle = point_of(*placed_[side], {0, 0, end * cylinder.half_length});
+    const double r = cylinder.rounding, R = cylinder.radius - r;
+    const Triple<T> middle = point_of(*placed_[side], {0, 0, end * (cylinder.half_length - r)});
     const Triple<T> up = n - dot(axis, n) * axis;  // across the axis, of length s
     const T root = root_of(dot(up, up) + T(e * e));
     // f'(s)/s = 1/(root whole)
-    const Triple<T> lowest = middle - (T(cylinder.radius / whole) / root) * up;
-    const T below = T(cylinder.radius / whole) * (root - T(e));
+    const Triple<T> lowest = middle - (T(R / whole) / root) * up;
+    const T below = T(R / whole) * (root - T(e));
     Touch<T> touch;
-    touch.depth = below - dot(n, middle - plane.origin);
+    touch.depth = below + T(r) - dot(n, middle - plane.origin);
     touch.place = lowest - (dot(n, lowest - plane.origin) + T(0.5) * touch.depth) * n;
     touch.normal = side == 1 ? n : -n;
     return touch;
   }
 
   template <class Act>
-  void for_each_place(const Triple<T>& point, std::size_t side, double within, const Act& act) const {
+  void for_each_place(const Triple<T>& point, std::size_t side, const Act& act) const {
     const PlacedShape<T>& surface = *placed_[1 - side];
     const double skin = shapes_[side]->skin();
     const Vector3 p = value_of(point), o = value_of(surface.origin);
@@ -144,7 +177,7 @@ class PairOfShapes {
     for (int k = 0; k < 3; ++k) axes.col(k) = value_of(surface.axes[static_cast<std::size_t>(k)]);
     const Vector3 q = axes.transpose() * (p - o);
     std::vector<TriangleSurface::Place> places;
-    surface.shape->surface->find_nearest(q, within + skin, places);
+    surface.shape->surface->find_nearest(q, skin, places);
     using Place = TriangleSurface::Place;
     for (const Place& place : places) {
       const bool behind = place.normal.dot(q - place.foot) < 0;
@@ -242,7 +275,7 @@ void find_touches(const PlacedShape<T>& first, const PlacedShape<T>& second, con
   std::array<std::vector<int>, 2> corner_touch;
   corner_touch[0].assign(first.shape->corners().size(), -1);
   corner_touch[1].assign(second.shape->corners().size(), -1);
-  pair.for_each_corner(0, [&](Touch<T> touch, std::size_t side, std::size_t corner) {
+  pair.for_each_corner([&](Touch<T> touch, std::size_t side, std::size_t corner) {
     if (value_of(touch.depth) <= 0) return;
     const Spring<T> spring(law, touch.depth);
     touch.force = touch.load = spring.force;
@@ -260,17 +293,25 @@ template void find_touches(const PlacedShape<Twelve>&, const PlacedShape<Twelve>
                            PairTouches<Twelve>&);
 
 Touch<double> find_nearest_place(const PlacedShape<double>& first, const PlacedShape<double>& second) {
+  if (const auto overlap = overlap_of_cores(first, second)) {
+    Touch<double> through;
+    through.depth = overlap->depth + first.shape->skin() + second.shape->skin();
+    through.normal = Triple<double>(overlap->normal);
+    through.place = Triple<double>(overlap->place);
+    return through;
+  }
   Touch<double> nearest;
   nearest.depth = -std::numeric_limits<double>::infinity();
   const PairOfShapes<double> pair(first, second);
   const auto take = [&](const Touch<double>& touch) {
     if (touch.depth > nearest.depth) nearest = touch;
   };
-  const bool surface = first.shape->kind == Kind::surface || second.shape->kind == Kind::surface;
-  // Near triangles are looked at first.
-  for (double within = surface ? first.shape->skin() + second.shape->skin() : 0;
-       std::isinf(nearest.depth) && within < std::numeric_limits<double>::max(); within *= 2)
-    pair.for_each_corner(within, [&](const Touch<double>& touch, std::size_t, std::size_t) { take(touch); });
+  for (const std::size_t side : {0UL, 1UL})
+    if ((side == 0 ? second : first).shape->kind == Kind::surface)
+      for (std::size_t k = 0; k < (side == 0 ? first : second).shape->corners().size(); ++k)
+        take(pair.nearest_of_surface(side, k));
+  if (!std::isinf(nearest.depth)) return nearest;
+  pair.for_each_corner([&](const Touch<double>& touch, std::size_t, std::size_t) { take(touch); });
   // Crossings of edges that do not press yet.
   for (std::size_t i = 0; i < first.shape->edges().size(); ++i)
     for (std::size_t j = 0; j < second.shape->edges().size(); ++j) {

@@ -175,3 +175,24 @@ loads:
          CHECK_THAT(-session.node("tip").x.z(), Catch::WithinRel(1e-3 + p, 1e-4));
        });
 }
+
+TEST_CASE("the rounding of a cylinder's rim lifts it where it stands on the rim alone") {
+  // Axis at an angle a to the normal: the core's rim lies (h - r) cos(a) + (R - r) f(sin a) below the middle, and the
+  // skin r below that, f as in pair_touches.cpp.
+  constexpr double R = 0.2, h = 0.3, e = 0.01;
+  for (const double r : {0.01, 0.05, 0.15})
+    for (const double a : {0.0, 0.3, 0.8, M_PI / 2}) {
+      CAPTURE(r, a);
+      const double s = std::sin(a), f = (std::sqrt(s * s + e * e) - e) / (std::sqrt(1 + e * e) - e);
+      const double below = (h - r) * std::cos(a) + (R - r) * f + r;
+      const std::string text = contact_model(
+          {{"body", fmt::format("position: [0, 0, 1], rotation_vector: [0, {:.17g}, 0]", a)}},
+          fmt::format("  it: {{type: contact, shapes: [{{node: ground, plane: [0, 0, 1]}}, {{node: body, cylinder: "
+                      "[{}, {}], rounding: {}}}], stiffness: 1}}\n",
+                      R, 2 * h, r));
+      double gap = 0;
+      run_contact(text, {1e-3, 1e-3},
+                  [&](const Session& session, const Motion&) { gap = session.read("contacts/it/gap")[0]; });
+      CHECK_THAT(gap, Catch::WithinAbs(1 - below, 1e-12));
+    }
+}
