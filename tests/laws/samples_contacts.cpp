@@ -163,6 +163,28 @@ std::vector<Sample> contact_samples() {
                 {"restitution", "0", ""}},
                "stiffness: 3, friction: {coefficient: 0.4, static: 0.6, stribeck_velocity: 2, velocity: 1.5, "
                "viscous: 0.1}"));
+  // What formulas read of a contact: a spring between the nodes follows it.
+  Sample measured{Section::elements,
+                  "spring_damper",
+                  "measures of a contact",
+                  R"yaml(
+nodes:
+  a: {position: [0.1, 0.05, -0.1], rotation_vector: [0.1, -0.2, 0.3]}
+  b: {position: [0.2, 0.1, 1.3], rotation_vector: [-0.2, 0.1, 0.2]}
+joints:
+  c: {type: contact, shapes: [{node: a, sphere: 1.1, at: [0.1, 0, 0]}, {node: b, box: [1.2, 1.1, 1.3], rounding: 0.3}], )yaml" +
+                      contact_law + R"yaml(}
+elements:
+  it: {type: spring_damper, nodes: [a, b], at: [[0.2, 0.1, -0.3], [0.1, 0.3, 0.2]], force: "2*c.gap + 0.3*c.force.x - 0.2*c.force.y*c.gap + 0.4*c.force.z + 0.1*c.force + c.touching"}
+)yaml",
+                  {{"nodes", "[a, a]", "two different nodes"},
+                   {"nodes", "[a, c]", "no node 'c'"},
+                   {"at", "[[1, 2], [0, 0, 0]]", ""},
+                   {"force", "c.gapp", "did you mean 'gap'"}}};
+  measured.inertial = true;  // components of the force
+  measured.scales.deformation = 0.12;
+  measured.scales.smooth_within = 0.02;
+  list.push_back(std::move(measured));
   for (Sample& sample : list)
     if (sample.variant == "sphere, sphere") sample.bad.push_back({"friction.model", "lugre", ""});
   return list;

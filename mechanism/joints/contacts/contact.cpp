@@ -28,6 +28,10 @@ Contact::Contact(std::string name, std::vector<ContactShape> shapes, std::vector
     local_node_.push_back(static_cast<int>(known - nodes_.begin()));
     if (known == nodes_.end()) nodes_.push_back(shape.node);
   }
+  std::vector<bool> is_first(shapes_.size(), false), is_second(shapes_.size(), false);
+  for (const auto& [a, b] : pairs_)
+    is_first[static_cast<std::size_t>(a)] = is_second[static_cast<std::size_t>(b)] = true;
+  for (std::size_t k = 0; k < shapes_.size(); ++k) divided_ = divided_ && !(is_first[k] && is_second[k]);
   for (const auto& [a, b] : pairs_) thinnest_ = std::min(thinnest_, shape(a).thickness() + shape(b).thickness());
 }
 
@@ -143,19 +147,40 @@ void Contact::add_energy(const LocalState& state, Energy& energy) const {
   }
 }
 
-/// Over all pairs; those that bounding balls say are farther than the smallest so far are not looked at.
-Contact::Smallest Contact::smallest_gap(const LocalState& state, bool apart_only) const {
-  Smallest smallest{1e300, Vector3::Constant(std::numeric_limits<double>::quiet_NaN())};
+/// Pairs that bounding balls say are farther than the nearest so far are not looked at.
+Contact::NearestPair Contact::nearest_of_all(const LocalState& state, bool apart_only) const {
+  const Vector3 nowhere = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
+  NearestPair all{-1, {1e300, 0, nowhere, nowhere}};
   const std::vector<NearPairs::Bound>& bound = bounds(state);
   for (int pair = 0; pair < static_cast<int>(pairs_.size()); ++pair) {
     if (apart_only && state.memory()[1 + 3 * static_cast<Eigen::Index>(shapes_.size()) + pair] != apart) continue;
     const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
-    if (NearPairs::apart(bound[static_cast<std::size_t>(a)], bound[static_cast<std::size_t>(b)]) >= smallest.gap)
+    if (NearPairs::apart(bound[static_cast<std::size_t>(a)], bound[static_cast<std::size_t>(b)]) >= all.found.gap)
       continue;
-    const PairForce::Nearest found = nearest(state, pair);
-    if (found.gap < smallest.gap) smallest = {found.gap, found.place};
+    if (const PairForce::Nearest found = nearest(state, pair); found.gap < all.found.gap) all = {pair, found};
   }
-  return smallest;
+  return all;
+}
+
+/// Of a pair how far; of a group the shapes that touch nothing.
+std::string Contact::what_is_open(const LocalState& state) const {
+  std::vector<bool> touches(shapes_.size(), false);
+  bool any = false;
+  for_each_touching(state, [&](int pair, const Vector3&) {
+    const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
+    any = touches[static_cast<std::size_t>(a)] = touches[static_cast<std::size_t>(b)] = true;
+  });
+  if (!any) return fmt::format("is open, its shapes are {:.3g} m apart", nearest_of_all(state).found.gap);
+  std::string open;
+  int count = 0;
+  for (std::size_t k = 0; k < shapes_.size(); ++k) {
+    if (touches[k]) continue;
+    if (++count <= 3)
+      open += fmt::format("{}{} on '{}'", count == 1 ? "" : ", ", shapes_[k].kind_name(), shapes_[k].node_name);
+  }
+  if (count == 0) return {};
+  return fmt::format("is open at {}{}, which touch{} nothing", open,
+                     count > 3 ? fmt::format(" and {} more", count - 3) : "", count == 1 ? "es" : "");
 }
 
 std::vector<OutputField> Contact::output_fields() const {
@@ -181,13 +206,13 @@ void Contact::write_output(const LocalState& state, double* values) const {
     if (forces > 1) Eigen::Map<Vector3>(values + 1 + 3 * a) -= result.force;
     Eigen::Map<Vector3>(values + 1 + (forces > 1 ? 3 * b : 0)) += result.force;
   }
-  const Smallest smallest = smallest_gap(state, false);
+  const PairForce::Nearest smallest = nearest_of_all(state).found;
   values[0] = smallest.gap;
   Eigen::Map<Vector3>(values + 2 + 3 * forces) = smallest.place;
 }
 
 void Contact::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const {
-  values[0] = smallest_gap(state, true).gap;
+  values[0] = nearest_of_all(state, true).found.gap;
 }
 
 void Contact::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const { remember(state, memory); }
@@ -350,7 +375,7 @@ void Contact::describe(const LocalState& state, Description& description) const 
   if (shapes_.size() > most) description.add_line(fmt::format("and {} more shapes", shapes_.size() - most));
   description.add(law_.normal.describe());
   if (law_.friction) description.add(law_.friction->describe());
-  description.add(fmt::format("smallest gap {:.6g} m", smallest_gap(state, false).gap));
+  description.add(fmt::format("smallest gap {:.6g} m", nearest_of_all(state).found.gap));
 }
 
 }  // namespace bielle::mechanism

@@ -15,6 +15,8 @@
 // Memory: [time and middles of the shapes at the last accepted step | damping of each pair, -1 while apart].
 #pragma once
 
+#include <array>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,11 +24,12 @@
 #include "mechanism/joints/contacts/near_pairs.hpp"
 #include "mechanism/joints/contacts/pair_force.hpp"
 #include "mechanism/model/model.hpp"
+#include "mechanism/model/open_contact.hpp"
 #include "reduce/common/yaml_file.hpp"
 
 namespace bielle::mechanism {
 
-class Contact final : public Component {
+class Contact final : public Component, public OpenContact {
  public:
   /// @param pairs  numbers of the shapes that may touch, the smaller first
   Contact(std::string name, std::vector<ContactShape> shapes, std::vector<std::pair<int, int>> pairs, SurfaceLaw law);
@@ -35,6 +38,30 @@ class Contact final : public Component {
   /// @throws InputError  where nothing tells in which direction they are
   std::pair<std::string, double> drawn_into_each_other(const Model& model) const;
   void set_remark(std::string remark) { remark_ = std::move(remark); }
+
+  /// The pair of shapes that are nearest to each other; -1: none. Where `apart_only`, of those that do not touch by the
+  /// memory.
+  struct NearestPair {
+    int pair;
+    PairForce::Nearest found;
+  };
+  NearestPair nearest_of_all(const LocalState& state, bool apart_only = false) const;
+  /// Calls act(pair, force on its second shape) for each pair that touches.
+  template <class Act>
+  void for_each_touching(const LocalState& state, const Act& act) const {
+    std::vector<int> near;
+    find_near(state, near);
+    for (const int pair : near)
+      if (const PairForce::Result result = acting(state, pair); result.depth > 0) act(pair, result.force);
+  }
+  /// Derivatives of a pair's residual by positions and by rates of its two nodes.
+  void calc_tangent_of(const LocalState& state, int pair, Matrix12& K, Matrix12& C) const {
+    force_of(state, pair).calc_tangent(law_, damping(state, pair), K, C);
+  }
+  std::array<int, 2> nodes_of(int pair) const {
+    const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
+    return {local_node(a), local_node(b)};
+  }
 
   void declare(Declaration& declaration) const override;
   void add_pattern(const Slots& slots, LocalPattern& pattern) const override;
@@ -45,15 +72,15 @@ class Contact final : public Component {
   void write_output(const LocalState& state, double* values) const override;
   void describe(const LocalState& state, Description& description) const override;
   std::string remark() const override { return remark_; }
+  /// gap, touching, force; force.x, y, z where each shape is the first of all its pairs, or the second.
+  std::vector<std::string> measure_names() const override;
+  std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const override;
+  std::string what_is_open(const LocalState& state) const override;
   void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
   void calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const override;
   void begin_branch(const LocalState& state, std::span<const int> crossed, Eigen::Ref<VectorX> memory) const override;
 
  private:
-  struct Smallest {
-    double gap;
-    Vector3 place;
-  };
   bool remembers_touches() const { return law_.normal.restitution > 0; }
   int local_node(int shape) const { return local_node_[static_cast<std::size_t>(shape)]; }
   const ContactShape& shape(int k) const { return shapes_[static_cast<std::size_t>(k)]; }
@@ -66,7 +93,6 @@ class Contact final : public Component {
   Vector3 middle(const LocalState& state, int shape) const;
   const std::vector<NearPairs::Bound>& bounds(const LocalState& state) const;
   void find_near(const LocalState& state, std::vector<int>& pairs) const;
-  Smallest smallest_gap(const LocalState& state, bool apart_only) const;
   void check_depth(const LocalState& state, int pair, const PairForce::Nearest& found) const;
   bool has_turned_over(const LocalState& state, int pair, const PairForce::Nearest& found) const;
   void remember(const LocalState& state, Eigen::Ref<VectorX> memory) const;
@@ -79,6 +105,7 @@ class Contact final : public Component {
   SurfaceLaw law_;
   std::vector<int> nodes_, local_node_;
   NearPairs near_pairs_;
+  bool divided_ = true;  ///< no shape is the first of one pair and the second of another
   double thinnest_ = 0;  ///< pair, sum of its thicknesses [m]
   std::string remark_;
 };

@@ -1,6 +1,7 @@
 #include "mechanism/joints/flexible/clearance_joint.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -134,6 +135,14 @@ void ClearanceJoint::begin_branch(const LocalState& state, std::span<const int> 
     memory[memory_of(k)] = touches ? 1 : 0;
     if (touches && !touched) memory[memory_of(k) + 1] = places_[k].law.damping_after(std::max(0.0, rate));
   }
+}
+
+std::string ClearanceJoint::what_is_open(const LocalState& state) const {
+  const PairRotation turned = rotation(state);
+  double deepest = -std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < places_.size(); ++k)
+    deepest = std::max(deepest, contact(k, state, turned, false).p().value);
+  return deepest > 0 ? std::string() : fmt::format("is open, its surfaces are {:.3g} m apart", -deepest);
 }
 
 bool ClearanceJoint::leaves_branch(const LocalState& state) const {

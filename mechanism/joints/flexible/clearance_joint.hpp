@@ -21,11 +21,12 @@
 #include "mechanism/contact_laws/normal_law.hpp"
 #include "mechanism/joints/flexible/clearance_contact.hpp"
 #include "mechanism/joints/joint.hpp"
+#include "mechanism/model/open_contact.hpp"
 #include "reduce/common/yaml_file.hpp"
 
 namespace bielle::mechanism {
 
-class ClearanceJoint final : public Joint {
+class ClearanceJoint final : public Joint, public OpenContact {
  public:
   /// A place with its law and its name in events: "at the first end".
   struct Place {
@@ -48,6 +49,7 @@ class ClearanceJoint final : public Joint {
   void write_output(const LocalState& state, double* values) const override;
   void describe(const LocalState& state, Description& description) const override;
   bool reaction_has_rates() const override { return true; }
+  std::string what_is_open(const LocalState& state) const override;
 
  private:
   PairRotation rotation(const LocalState& state) const;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/model/open_contact.hpp"
 #include "mechanism/solvers/constraints/redundancy.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
 #include "mechanism/solvers/start/consistent_accelerations.hpp"
@@ -46,7 +47,21 @@ int Equilibrium::attempt(int (Equilibrium::*iterations)(double, State&), double 
   if (count >= 0) return count;
   if (why_.empty()) why_ = fmt::format("Newton did not converge; largest residual: {}", convergence_.worst());
   state = start;
+  why_ += what_is_open(state);
   return -1;
+}
+
+/// Contacts that bear nothing yet: where something lacks a support, they may be why.
+std::string Equilibrium::what_is_open(const State& state) const {
+  std::string text;
+  const auto& members = system_.model().members();
+  for (std::size_t m = 0; m < members.size(); ++m)
+    if (const auto* contact = dynamic_cast<const OpenContact*>(members[m].component.get()))
+      if (const std::string open = contact->what_is_open(LocalState(state, system_.slots()[m], environment_));
+          !open.empty())
+        text += fmt::format("; {} {}", describe(members[m]), open);
+  if (!text.empty()) text += " (in statics what is open holds nothing: begin with the parts in contact)";
+  return text;
 }
 
 void Equilibrium::accept(double factor, State& state) const {

@@ -31,6 +31,7 @@ class Equilibrium {
   int iterate(double factor, State& state);
   int iterate_relaxing(double factor, State& state);
   int attempt(int (Equilibrium::*iterations)(double, State&), double factor, State& state);
+  std::string what_is_open(const State& state) const;
   double extent(const State& state) const;
   double first_tau_squared(const State& state);
   /// An iteration of Newton's method that takes prescribed motions along. @returns false where nothing is prescribed

@@ -196,3 +196,59 @@ TEST_CASE("the rounding of a cylinder's rim lifts it where it stands on the rim 
       CHECK_THAT(gap, Catch::WithinAbs(1 - below, 1e-12));
     }
 }
+
+TEST_CASE("what a contact tells formulas is what it records") {
+  const std::string text =
+      contact_model({{"ball", "position: [0, 0, 0.099], fixed: [rx, ry, rz]", 3}},
+                    "  it: {type: contact, between: [[{node: ground, plane: [0, 0.6, 0.8], at: [0, 0, 0.05]}, "
+                    "{node: ground, plane: [0, 0, 1]}], [{node: ball, sphere: 0.1}]], stiffness: 1e5}\n"
+                    "measures: {gap: it.gap, x: it.force.x, y: it.force.y, z: it.force.z, all: it.force, "
+                    "pairs: it.touching}\n",
+                    "[0, 0, -9.81]");
+  run_contact(text, {1e-3, 0.05}, [&](const Session& session, const Motion&) {
+    const auto measure = [&](const char* name) { return session.read(fmt::format("measures/{}", name))[0]; };
+    const std::vector<double> force = session.read("contacts/it/force");  // planes, ball
+    CHECK(measure("gap") == session.read("contacts/it/gap")[0]);
+    CHECK(measure("pairs") == session.read("contacts/it/state")[0]);
+    CHECK_THAT(measure("x"), Catch::WithinAbs(force[6], 1e-12));
+    CHECK_THAT(measure("y"), Catch::WithinAbs(force[7], 1e-12));
+    CHECK_THAT(measure("z"), Catch::WithinAbs(force[8], 1e-12));
+    const auto size = [&](std::size_t k) { return Vector3(force[k], force[k + 1], force[k + 2]).norm(); };
+    CHECK_THAT(measure("all"), Catch::WithinRel(size(0) + size(3), 1e-12));
+  });
+  // In a group whose shapes are first and second in turn no sum has a meaning.
+  const auto read = [](const char* measure) {
+    return fmt::format(
+        "nodes: {{a: {{}}, b: {{position: [1, 0, 0]}}, c: {{position: [2, 0, 0]}}}}\njoints: {{it: {{type: contact, "
+        "shapes: [{{node: a, sphere: 0.1}}, {{node: b, sphere: 0.1}}, {{node: c, sphere: 0.1}}], stiffness: 1}}}}\n"
+        "measures: {{m: it.{}}}\n",
+        measure);
+  };
+  CHECK_NOTHROW(read_mechanism_text(read("force"), "model.yaml"));
+  CHECK_THROWS_WITH(read_mechanism_text(read("force.x"), "model.yaml"), Catch::Contains("'it' has no 'force.x'"));
+}
+
+TEST_CASE("a static analysis that finds nothing to hold a part says which contact is open") {
+  const std::vector<Body> ball = {{"ball", "position: [0, 0, 0.13], fixed: [x, y, rx, ry, rz]"}};
+  const std::string law = "stiffness: 1e5";
+  const auto refused = [&](const std::string& joint) {
+    CHECK_THROWS_WITH(rest(contact_model(ball, joint, "[0, 0, -9.81]"), [](const Session&) {}),
+                      Catch::Contains("joint 'it' is open, its ") && Catch::Contains("0.03 m apart") &&
+                          Catch::Contains("holds nothing"));
+  };
+  refused(
+      "  it: {type: contact, shapes: [{node: ground, plane: [0, 0, 1]}, {node: ball, sphere: 0.1}], stiffness: 1e5}\n");
+  refused(
+      "  it: {type: clearance_spherical, nodes: [ground, ball], position: [0, 0, 0], radial_gap: 0.03, radius: 0.01, "
+      "contact: {stiffness: 1e5}}\n");
+}
+
+TEST_CASE("in a group a static analysis names the shapes that touch nothing") {
+  const std::string text = contact_model(
+      {{"low", "position: [0, 0, 0.099], fixed: [x, y, rx, ry, rz]"},
+       {"high", "position: [1, 0, 0.3], fixed: [x, y, rx, ry, rz]"}},
+      "  it: {type: contact, shapes: [{node: ground, plane: [0, 0, 1]}, {node: low, sphere: 0.1}, {node: high, sphere: "
+      "0.1}], stiffness: 1e5}\n",
+      "[0, 0, -9.81]");
+  CHECK_THROWS_WITH(rest(text, [](const Session&) {}), Catch::Contains("joint 'it' is open at sphere on 'high'"));
+}
