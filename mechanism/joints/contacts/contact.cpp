@@ -21,6 +21,7 @@ Contact::Contact(std::string name, std::vector<ContactShape> shapes, std::vector
       shapes_(std::move(shapes)),
       pairs_(std::move(pairs)),
       law_(std::move(law)),
+      frictionless_{law_.normal, {}},
       near_pairs_(static_cast<int>(shapes_.size()), pairs_),
       thinnest_(std::numeric_limits<double>::infinity()) {
   for (const ContactShape& shape : shapes_) {
@@ -31,6 +32,8 @@ Contact::Contact(std::string name, std::vector<ContactShape> shapes, std::vector
   std::vector<bool> is_first(shapes_.size(), false), is_second(shapes_.size(), false);
   for (const auto& [a, b] : pairs_)
     is_first[static_cast<std::size_t>(a)] = is_second[static_cast<std::size_t>(b)] = true;
+  // Of a heap each touches some ten others; two boxes touch in up to 16 corners, and edges.
+  if (has_bristles()) most_bristles_ = 32 * static_cast<Eigen::Index>(std::min(pairs_.size(), 2 * shapes_.size()));
   for (std::size_t k = 0; k < shapes_.size(); ++k) divided_ = divided_ && !(is_first[k] && is_second[k]);
   for (const auto& [a, b] : pairs_) thinnest_ = std::min(thinnest_, shape(a).thickness() + shape(b).thickness());
 }
@@ -40,8 +43,13 @@ void Contact::declare(Declaration& declaration) const {
   declaration.stiffness = declaration.in_blocks = declaration.kinks = true;
   declaration.damping = law_.friction || law_.normal.damping > 0 || remembers_touches();
   declaration.memory.assign(1 + 3 * shapes_.size(), std::numeric_limits<double>::quiet_NaN());
+  if (remembers_touches()) declaration.memory.resize(declaration.memory.size() + pairs_.size(), apart);
+  if (has_bristles())
+    declaration.memory.resize(
+        declaration.memory.size() + static_cast<std::size_t>(12 * static_cast<Eigen::Index>(nodes_.size()) + 1 +
+                                                             bristle_entry * most_bristles_),
+        0);
   if (!remembers_touches()) return;
-  declaration.memory.resize(declaration.memory.size() + pairs_.size(), apart);
   Crossing touches{"touches", Crossing::Direction::falling};
   touches.restarts = false;  // forces begin at zero
   declaration.crossings = {touches};
@@ -75,7 +83,9 @@ auto Contact::of_pair(const LocalState& state, int pair, const Act& act) const {
 }
 
 PairForce::Result Contact::acting(const LocalState& state, int pair) const {
-  return of_pair(state, pair, [&](const PairForce& force) { return force.calc(law_, damping(state, pair)); });
+  return of_pair(state, pair, [&](const PairForce& force) {
+    return force.calc(law_of(state), damping(state, pair), bristles(state, pair));
+  });
 }
 
 PairForce::Nearest Contact::nearest(const LocalState& state, int pair) const {
@@ -85,7 +95,68 @@ PairForce::Nearest Contact::nearest(const LocalState& state, int pair) const {
 double Contact::damping(const LocalState& state, int pair) const {
   if (!remembers_touches()) return law_.normal.damping;
   if (state.environment().statics) return 0;
-  return std::max(0.0, state.memory()[1 + 3 * static_cast<Eigen::Index>(shapes_.size()) + pair]);
+  return std::max(0.0, state.memory()[dampings_begin() + pair]);
+}
+
+const Bristles& Contact::bristles(const LocalState& state, int pair) const {
+  thread_local Bristles found;
+  found.before.clear();
+  if (!has_bristles()) return found;
+  const auto memory = state.memory();
+  found.known = !std::isnan(memory[0]);
+  if (!found.known) return found;
+  const auto x = [&](int node) { return Vector3(memory.segment<3>(bristles_begin() + 12 * node)); };
+  const auto R = [&](int node) {
+    return Matrix3(Eigen::Map<const Matrix3>(memory.data() + bristles_begin() + 12 * node + 3));
+  };
+  const auto [a, b] = nodes_of(pair);
+  found.s = R(a).transpose() * (x(b) - x(a));
+  found.R_12 = R(a).transpose() * R(b);
+  const Eigen::Index begin = bristle_count();
+  const auto count = static_cast<Eigen::Index>(memory[begin]);
+  const auto entry = [&](Eigen::Index k) { return begin + 1 + bristle_entry * k; };
+  Eigen::Index first = 0;
+  for (Eigen::Index end = count; first < end;) {
+    const Eigen::Index middle = (first + end) / 2;
+    if (memory[entry(middle)] < pair)
+      first = middle + 1;
+    else
+      end = middle;
+  }
+  for (Eigen::Index k = first; k < count && memory[entry(k)] == pair; ++k)
+    found.before.push_back({static_cast<int>(memory[entry(k) + 1]), memory.segment<3>(entry(k) + 2)});
+  return found;
+}
+
+void Contact::remember_bristles(const LocalState& state, const std::vector<int>& near,
+                                Eigen::Ref<VectorX> memory) const {
+  for (int k = 0; k < static_cast<int>(nodes_.size()); ++k) {
+    memory.segment<3>(bristles_begin() + 12 * k) = state.node(k).x;
+    Eigen::Map<Matrix3>(memory.data() + bristles_begin() + 12 * k + 3) = state.node(k).R;
+  }
+  if (state.environment().statics) return;  // nothing slides: they stay as they are
+  const Eigen::Index begin = bristle_count();
+  thread_local std::vector<Bristle> now;
+  Eigen::Index count = 0;
+  for (const int pair : near) {
+    now.clear();
+    of_pair(state, pair, [&](const PairForce& force) {
+      force.add_bristles(law_, bristles(state, pair), now);
+      return 0;
+    });
+    for (const Bristle& each : now) {
+      if (count == most_bristles_)
+        throw ComputationError(
+            fmt::format("contact '{}' at t = {:.6g} s: more than {} places touch, as many as can have "
+                        "bristles; take `model: coulomb`, or several contacts",
+                        name(), state.time(), most_bristles_));
+      const Eigen::Index at = begin + 1 + bristle_entry * count++;
+      memory[at] = pair;
+      memory[at + 1] = each.id;
+      memory.segment<3>(at + 2) = each.z;
+    }
+  }
+  memory[begin] = static_cast<double>(count);
 }
 
 Vector3 Contact::middle(const LocalState& state, int k) const {
@@ -125,7 +196,7 @@ void Contact::add_tangent(const LocalState& state, LocalTangent& tangent) const 
   Matrix12 K, C;
   for (const int pair : near) {
     if (acting(state, pair).depth <= 0) continue;
-    force_of(state, pair).calc_tangent(law_, damping(state, pair), K, C);
+    calc_tangent_of(state, pair, K, C);
     const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
     const std::array<int, 4> at = {6 * local_node(a), 6 * local_node(a) + 3, 6 * local_node(b), 6 * local_node(b) + 3};
     for (int i = 0; i < 4; ++i)
@@ -144,6 +215,7 @@ void Contact::add_energy(const LocalState& state, Energy& energy) const {
     const PairForce::Result result = acting(state, pair);
     energy.elastic += result.elastic;
     energy.dissipation += result.dissipation;
+    energy.input += result.input;
   }
 }
 
@@ -153,7 +225,7 @@ Contact::NearestPair Contact::nearest_of_all(const LocalState& state, bool apart
   NearestPair all{-1, {1e300, 0, nowhere, nowhere}};
   const std::vector<NearPairs::Bound>& bound = bounds(state);
   for (int pair = 0; pair < static_cast<int>(pairs_.size()); ++pair) {
-    if (apart_only && state.memory()[1 + 3 * static_cast<Eigen::Index>(shapes_.size()) + pair] != apart) continue;
+    if (apart_only && state.memory()[dampings_begin() + pair] != apart) continue;
     const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
     if (NearPairs::apart(bound[static_cast<std::size_t>(a)], bound[static_cast<std::size_t>(b)]) >= all.found.gap)
       continue;
@@ -253,10 +325,9 @@ bool Contact::has_turned_over(const LocalState& state, int pair, const PairForce
 
 void Contact::remember(const LocalState& state, Eigen::Ref<VectorX> memory) const {
   memory[0] = state.time();
-  const auto shapes = static_cast<Eigen::Index>(shapes_.size());
   for (int k = 0; k < static_cast<int>(shapes_.size()); ++k) memory.segment<3>(1 + 3 * k) = middle(state, k);
-  const Eigen::Index dampings = 1 + 3 * shapes;
-  if (remembers_touches()) memory.tail(memory.size() - dampings).setConstant(apart);
+  const Eigen::Index dampings = dampings_begin();
+  if (remembers_touches()) memory.segment(dampings, bristles_begin() - dampings).setConstant(apart);
   thread_local std::vector<int> near;
   find_near(state, near);
   for (const int pair : near) {
@@ -268,6 +339,7 @@ void Contact::remember(const LocalState& state, Eigen::Ref<VectorX> memory) cons
     const double before = state.memory()[dampings + pair];
     memory[dampings + pair] = before != apart ? before : law_.normal.damping_after(std::max(0.0, -found.rate));
   }
+  if (has_bristles()) remember_bristles(state, near, memory);
 }
 
 std::string Contact::pair_name(int pair) const {

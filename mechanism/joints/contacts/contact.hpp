@@ -12,7 +12,9 @@
 // shapes that touch at either end of it move by more than half their thickness. What presses deeper than the skins of
 // both does not know the way out any more, nor does what has gone through the other's middle: the run ends.
 //
-// Memory: [time and middles of the shapes at the last accepted step | damping of each pair, -1 while apart].
+// Memory: [time and middles of the shapes at the last accepted step | with a restitution: damping of each pair, -1
+// while apart | with bristles: x and R of the nodes; the number of bristles, and pair, place and deflection of each, by
+// pairs].
 #pragma once
 
 #include <array>
@@ -56,7 +58,7 @@ class Contact final : public Component, public OpenContact {
   }
   /// Derivatives of a pair's residual by positions and by rates of its two nodes.
   void calc_tangent_of(const LocalState& state, int pair, Matrix12& K, Matrix12& C) const {
-    force_of(state, pair).calc_tangent(law_, damping(state, pair), K, C);
+    force_of(state, pair).calc_tangent(law_of(state), damping(state, pair), bristles(state, pair), K, C);
   }
   std::array<int, 2> nodes_of(int pair) const {
     const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
@@ -90,6 +92,18 @@ class Contact final : public Component, public OpenContact {
   PairForce::Result acting(const LocalState& state, int pair) const;
   PairForce::Nearest nearest(const LocalState& state, int pair) const;
   double damping(const LocalState& state, int pair) const;
+  bool has_bristles() const { return law_.friction && law_.friction->model == FrictionLaw::Model::lugre; }
+  /// Nothing slides in statics, and bristles stay as they are.
+  const SurfaceLaw& law_of(const LocalState& state) const { return state.environment().statics ? frictionless_ : law_; }
+  /// Of the last accepted step. Valid until it is asked for again in the same thread.
+  const Bristles& bristles(const LocalState& state, int pair) const;
+  void remember_bristles(const LocalState& state, const std::vector<int>& near, Eigen::Ref<VectorX> memory) const;
+  Eigen::Index dampings_begin() const { return 1 + 3 * static_cast<Eigen::Index>(shapes_.size()); }
+  Eigen::Index bristles_begin() const {
+    return dampings_begin() + (remembers_touches() ? static_cast<Eigen::Index>(pairs_.size()) : 0);
+  }
+  Eigen::Index bristle_count() const { return bristles_begin() + 12 * static_cast<Eigen::Index>(nodes_.size()); }
+  static constexpr Eigen::Index bristle_entry = 5;  ///< pair, place, z
   Vector3 middle(const LocalState& state, int shape) const;
   const std::vector<NearPairs::Bound>& bounds(const LocalState& state) const;
   void find_near(const LocalState& state, std::vector<int>& pairs) const;
@@ -102,7 +116,8 @@ class Contact final : public Component, public OpenContact {
 
   std::vector<ContactShape> shapes_;
   std::vector<std::pair<int, int>> pairs_;
-  SurfaceLaw law_;
+  SurfaceLaw law_, frictionless_;
+  Eigen::Index most_bristles_ = 0;
   std::vector<int> nodes_, local_node_;
   NearPairs near_pairs_;
   bool divided_ = true;  ///< no shape is the first of one pair and the second of another

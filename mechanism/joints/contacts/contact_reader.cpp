@@ -167,7 +167,7 @@ void read_contact(const std::string& name, const YamlValue& entry, Model& model)
   law.normal = read_normal_law(entry, 1.5);
   if (const auto friction = entry.find("friction")) {
     friction->check_keys(friction_law_keys(), "the friction of a contact");
-    law.friction = read_friction_law(*friction, {"coulomb"});
+    law.friction = read_friction_law(*friction, {"coulomb", "lugre"});
   }
   ReadShapes read = read_shapes(entry, model);
   std::vector<std::pair<int, int>> pairs = pairs_of(read, entry, model);

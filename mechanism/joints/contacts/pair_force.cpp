@@ -1,6 +1,7 @@
 #include "mechanism/joints/contacts/pair_force.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace bielle::mechanism {
 namespace {
@@ -32,6 +33,7 @@ template <class T>
 struct SeenFromFirst {
   using Gradient = Eigen::Matrix<double, 3, 12>;
   PlacedShape<T> first, second;
+  std::array<Triple<T>, 3> node_axes;  ///< of the second node
   Triple<T> s, s_rate, turning;
 
   static PlacedShape<T> place(const ContactShape& shape, const Vector3& s, const Matrix3& R, bool moves) {
@@ -60,14 +62,17 @@ struct SeenFromFirst {
         second(place(second_shape, at, R_12, true)),
         s(variable(at, 0)),
         s_rate(variable(at_rate, 6)),
-        turning(variable(turn, 9)) {}
+        turning(variable(turn, 9)) {
+    ContactShape at_node;  // its frame is the node's
+    node_axes = place(at_node, at, R_12, true).axes;
+  }
 };
 
 /// Force on the second body and its moment about the second node, in the axes of the first node.
 template <class T>
 struct Wrench {
   Triple<T> force, moment;
-  double dissipation = 0;
+  double dissipation = 0, input = 0;
 };
 
 template <class T>
@@ -80,15 +85,64 @@ Triple<T> velocity_at(const SeenFromFirst<T>& seen, const Triple<T>& place) {
   return seen.s_rate + cross(seen.turning, place - seen.s);
 }
 
+/// How far the second body's material at a place has moved since the last accepted step, seen from the first body.
+template <class T>
+Triple<T> way_to(const Triple<T>& place, const SeenFromFirst<T>& seen, const Bristles& bristles) {
+  if (!bristles.known) return {};
+  const Triple<T> arm = place - seen.s;
+  Triple<T> was(bristles.s);
+  for (std::size_t k = 0; k < 3; ++k)
+    was += dot(seen.node_axes[k], arm) * Triple<T>(Vector3(bristles.R_12.col(static_cast<Eigen::Index>(k))));
+  return place - was;
+}
+
+/// |v|. It has no derivative at rest; nothing that depends on it changes there.
+template <class T>
+T size_of(const Triple<T>& v) {
+  const T squared = dot(v, v);
+  return value_of(squared) > 0 ? root_of(squared) : T(0);
+}
+
+/// A bristle z at the end of the step and its rate u.
+template <class T>
+struct MovedBristle {
+  Triple<T> z, u;
+  T speed{};
+  /// @param v  across the normal
+  MovedBristle(const Touch<T>& touch, const SeenFromFirst<T>& seen, const FrictionLaw& law, const Bristles& bristles,
+               const Triple<T>& v)
+      : speed(size_of(v)) {
+    const Triple<T>& n = touch.normal;
+    const auto [mu, slope] = law.level(value_of(speed));
+    const T stiffness = T(law.bristle_stiffness) * composed(speed, 1 / mu, -slope * value_of(speed) / (mu * mu));
+    const Triple<T> way = way_to(touch.place, seen, bristles), across = way - dot(n, way) * n,
+                    before(bristles.of(touch.id));
+    z = (T(1) / (T(1) + stiffness * size_of(across))) * (before - dot(n, before) * n + across);
+    u = v - stiffness * speed * z;
+  }
+};
+
 template <class T>
 void add_touch(const Touch<T>& touch, const SeenFromFirst<T>& seen, const SurfaceLaw& law, double damping,
-               Wrench<T>& wrench) {
+               const Bristles& bristles, Wrench<T>& wrench) {
   const Triple<T> v = velocity_at(seen, touch.place);
   const T along = dot(touch.normal, v);  // -pdot
   const T push = positive_part(T(1) - T(damping) * along);
   Triple<T> force = (touch.force + touch.load * (push - T(1))) * touch.normal;
   wrench.dissipation += value_of(touch.load) * (1 - value_of(push)) * value_of(along);
-  if (law.friction && value_of(touch.load) > 0) {
+  if (law.friction && law.friction->model == FrictionLaw::Model::lugre && value_of(touch.load) > 0) {
+    const FrictionLaw& friction = *law.friction;
+    const Triple<T> across = v - along * touch.normal;
+    const MovedBristle<T> bristle(touch, seen, friction, bristles, across);
+    const auto [sigma, slope] = friction.bristle_damping_at(value_of(bristle.speed));
+    const T damping_now = composed(bristle.speed, sigma, slope * value_of(bristle.speed));
+    const T load = touch.load * push, stiffness(friction.bristle_stiffness);
+    const Triple<T> pull = stiffness * bristle.z + damping_now * bristle.u + T(friction.viscous) * across;
+    const double stored = friction.bristle_stiffness * value_of(dot(bristle.z, bristle.u));
+    force = force - load * pull;
+    wrench.input -= value_of(load) * stored;
+    wrench.dissipation += value_of(load) * (value_of(dot(pull, across)) - stored);
+  } else if (law.friction && value_of(touch.load) > 0) {
     const Triple<T> across = v - along * touch.normal;
     const T squared = dot(across, across);
     const T slope = touch.load * push * friction_slope(*law.friction, squared);
@@ -100,9 +154,10 @@ void add_touch(const Touch<T>& touch, const SeenFromFirst<T>& seen, const Surfac
 }
 
 template <class T>
-Wrench<T> wrench_of(const PairTouches<T>& found, const SeenFromFirst<T>& seen, const SurfaceLaw& law, double damping) {
+Wrench<T> wrench_of(const PairTouches<T>& found, const SeenFromFirst<T>& seen, const SurfaceLaw& law, double damping,
+                    const Bristles& bristles) {
   Wrench<T> wrench;
-  for (const Touch<T>& touch : found.touches) add_touch(touch, seen, law, damping, wrench);
+  for (const Touch<T>& touch : found.touches) add_touch(touch, seen, law, damping, bristles, wrench);
   return wrench;
 }
 
@@ -117,18 +172,19 @@ PairForce::PairForce(const ContactShape& first, const ContactShape& second, cons
   turning_ = R_12_ * node_2_.Omega - node_1_.Omega;
 }
 
-PairForce::Result PairForce::calc(const SurfaceLaw& law, double damping) const {
+PairForce::Result PairForce::calc(const SurfaceLaw& law, double damping, const Bristles& bristles) const {
   const SeenFromFirst<double> seen(first_, second_, s_, R_12_, s_rate_, turning_);
   thread_local PairTouches<double> found;
   find_touches(seen.first, seen.second, law.normal, found);
   Result result;
   if (found.touches.empty()) return result;
-  const Wrench<double> wrench = wrench_of(found, seen, law, damping);
+  const Wrench<double> wrench = wrench_of(found, seen, law, damping, bristles);
   const Vector3 f = value_of(wrench.force), m = value_of(wrench.moment);
   result.force = node_1_.R * f;
   result.r << result.force, s_.cross(f) + m, -result.force, -(R_12_.transpose() * m);
   result.elastic = found.potential;
   result.dissipation = wrench.dissipation;
+  result.input = wrench.input;
   const auto deepest = std::max_element(found.touches.begin(), found.touches.end(),
                                         [](const auto& a, const auto& b) { return a.depth < b.depth; });
   result.depth = deepest->depth;
@@ -139,14 +195,15 @@ PairForce::Result PairForce::calc(const SurfaceLaw& law, double damping) const {
 
 // With J the derivatives of (s, phi) by the increments of the nodes and y = (f, m) the wrench, the residual is
 // r = -J^T y, and the wrench a function of (s, phi) and of the rates (sdot, turning) alone.
-void PairForce::calc_tangent(const SurfaceLaw& law, double damping, Matrix12& K, Matrix12& C) const {
+void PairForce::calc_tangent(const SurfaceLaw& law, double damping, const Bristles& bristles, Matrix12& K,
+                             Matrix12& C) const {
   const SeenFromFirst<Twelve> seen(first_, second_, s_, R_12_, s_rate_, turning_);
   thread_local PairTouches<Twelve> found;
   find_touches(seen.first, seen.second, law.normal, found);
   K.setZero();
   C.setZero();
   if (found.touches.empty()) return;
-  const Wrench<Twelve> wrench = wrench_of(found, seen, law, damping);
+  const Wrench<Twelve> wrench = wrench_of(found, seen, law, damping, bristles);
   const Vector3 f = value_of(wrench.force), m = value_of(wrench.moment);
   Eigen::Matrix<double, 6, 12> G;
   G << wrench.force.x.gradient.transpose(), wrench.force.y.gradient.transpose(), wrench.force.z.gradient.transpose(),
@@ -175,6 +232,18 @@ void PairForce::calc_tangent(const SurfaceLaw& law, double damping, Matrix12& K,
   K.block<3, 3>(6, 3) += turned;
   K.middleRows<3>(3) -= skew(f) * J.topRows<3>();
   K.middleRows<3>(9) -= R_12_.transpose() * skew(m) * J.bottomRows<3>();
+}
+
+void PairForce::add_bristles(const SurfaceLaw& law, const Bristles& bristles, std::vector<Bristle>& now) const {
+  const SeenFromFirst<double> seen(first_, second_, s_, R_12_, s_rate_, turning_);
+  thread_local PairTouches<double> found;
+  find_touches(seen.first, seen.second, law.normal, found);
+  for (const Touch<double>& touch : found.touches) {
+    if (touch.load <= 0) continue;
+    const Triple<double> v = velocity_at(seen, touch.place);
+    const MovedBristle<double> moved(touch, seen, *law.friction, bristles, v - dot(touch.normal, v) * touch.normal);
+    now.push_back({touch.id, value_of(moved.z)});
+  }
 }
 
 PairForce::Nearest PairForce::nearest() const {

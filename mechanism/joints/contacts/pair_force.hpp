@@ -6,6 +6,15 @@
 // c relative to the first body's. h of friction_law.hpp. Everything is computed in the axes of the first node, where it
 // is a function of s = R_1^T (x_2 - x_1), R_12 = R_1^T R_2 and of the rates of both as the first node sees them.
 // Forces at one place, equal and opposite: momentum and angular momentum are exact. Derivatives are exact, too.
+// `lugre`: each place that presses has a bristle z, zero where it begins to touch. It rides on the first body, as what
+// sticks does, across the normal. Over a step in which the second body's material at c has moved by d, seen from the
+// first,
+//     z = P (z_before + d)/(1 + sigma_0 |P d|/mu),   P = I - n n^T,   F_t = -L max(..) [sigma_0 z + sigma_1 u + sigma_2
+//     v_t],
+// u = v_t - sigma_0 |v_t| z/mu: the implicit Euler method, stable for bristles of any stiffness. d is found from the
+// positions at both ends of the step, not from rates: what sticks stays at its place, however it turns with the pair.
+// What is lost is L [sigma_0^2 |v_t| z^2/mu + sigma_1 u . v_t + sigma_2 v_t^2] >= 0; what bristles take and give back,
+// L sigma_0 z . u, counts as input.
 #pragma once
 
 #include <optional>
@@ -22,6 +31,25 @@ struct SurfaceLaw {
   std::optional<FrictionLaw> friction;
 };
 
+/// The bristle of a place of contact, as the last accepted step has left it.
+struct Bristle {
+  int id = 0;                   ///< Touch::id
+  Vector3 z = Vector3::Zero();  ///< in the axes of the first node [m]
+};
+
+/// Of a pair: its bristles of the last accepted step, and where the second node was then, seen from the first.
+struct Bristles {
+  bool known = false;  ///< there was such a step
+  Vector3 s = Vector3::Zero();
+  Matrix3 R_12 = Matrix3::Identity();
+  std::vector<Bristle> before;
+  Vector3 of(int id) const {
+    for (const Bristle& each : before)
+      if (each.id == id) return each.z;
+    return Vector3::Zero();
+  }
+};
+
 class PairForce {
  public:
   /// Both must outlive it.
@@ -36,11 +64,14 @@ class PairForce {
     double depth = 0;                     ///< of the deepest contact [m]; 0: they do not touch
     double approach = 0;                  ///< its rate [m/s]
     double elastic = 0, dissipation = 0;  ///< [J], [W]
+    double input = 0;                     ///< what bristles give back [W]
   };
-  /// @param damping  d [s/m]
-  Result calc(const SurfaceLaw& law, double damping) const;
+  /// @param damping  d [s/m] @param bristles  of `lugre`; its `before` may be empty
+  Result calc(const SurfaceLaw& law, double damping, const Bristles& bristles) const;
   /// Derivatives of the residual by positions, and by rates.
-  void calc_tangent(const SurfaceLaw& law, double damping, Matrix12& K, Matrix12& C) const;
+  void calc_tangent(const SurfaceLaw& law, double damping, const Bristles& bristles, Matrix12& K, Matrix12& C) const;
+  /// Adds the bristles of the places that press, of `lugre`.
+  void add_bristles(const SurfaceLaw& law, const Bristles& bristles, std::vector<Bristle>& now) const;
 
   /// The place at which the surfaces are nearest to each other.
   struct Nearest {

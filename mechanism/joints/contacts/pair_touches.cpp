@@ -13,6 +13,8 @@ namespace {
 using Kind = ContactShape::Kind;
 using Twelve = GradientNumber<12>;
 
+constexpr std::size_t crossings = 100000;  ///< their numbers begin there
+
 /// V = k p^(n+1)/(n+1) and V'.
 template <class T>
 struct Spring {
@@ -245,6 +247,7 @@ class CrossingShare {
       result.touches.push_back(touch[k]);
     }
     crossing.force = crossing.load = whole.force * share;
+    crossing.id = static_cast<int>(crossings + 32 * i + j);
     result.touches.push_back(crossing);
   }
 
@@ -279,6 +282,9 @@ void find_touches(const PlacedShape<T>& first, const PlacedShape<T>& second, con
     if (value_of(touch.depth) <= 0) return;
     const Spring<T> spring(law, touch.depth);
     touch.force = touch.load = spring.force;
+    touch.id = static_cast<int>(32 * side + corner);
+    for (const Touch<T>& other : result.touches)
+      if (other.id == touch.id) touch.id += 64;
     result.potential += spring.potential;
     if (corner < corner_touch[side].size()) corner_touch[side][corner] = static_cast<int>(result.touches.size());
     result.touches.push_back(touch);
