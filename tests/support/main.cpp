@@ -6,4 +6,7 @@
 /// Read by the leak sanitizer at the end: gmsh and OpenCASCADE (libTK*) keep geometry until the process ends.
 extern "C" __attribute__((visibility("default"))) const char* __lsan_default_suppressions();
 const char* __lsan_default_suppressions() { return "leak:libgmsh\nleak:libTK\n"; }
+/// A refused allocation of a library in C is for it to handle, as without the sanitizer.
+extern "C" __attribute__((visibility("default"))) const char* __asan_default_options();
+const char* __asan_default_options() { return "allocator_may_return_null=1"; }
 #endif
