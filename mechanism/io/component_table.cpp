@@ -10,6 +10,7 @@
 #include "mechanism/elements/forces/stiffness_field.hpp"
 #include "mechanism/elements/rigid_body/rigid_body.hpp"
 #include "mechanism/elements/superelement/superelement_body.hpp"
+#include "mechanism/hydraulics/reading/actuator_reader.hpp"
 #include "mechanism/joints/actions/drive.hpp"
 #include "mechanism/joints/cables/rope_section.hpp"
 #include "mechanism/joints/cams/cam.hpp"
@@ -39,6 +40,7 @@ const std::vector<ComponentType>& component_table() {
       {Section::elements, "spring_damper", read_spring_damper},
       {Section::elements, "node_force", read_node_force},
       {Section::elements, "stiffness_field", read_stiffness_field},
+      {Section::elements, "hydraulic_actuator", read_hydraulic_actuator},
       {Section::joints, "rigid", read_rigid},
       {Section::joints, "hinge", read_hinge},
       {Section::joints, "prismatic", read_prismatic},

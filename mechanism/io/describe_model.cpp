@@ -18,8 +18,8 @@
 namespace bielle::mechanism {
 namespace {
 
-constexpr std::array described_sections = {Section::elements, Section::joints,   Section::drives, Section::loads,
-                                           Section::states,   Section::measures, Section::events};
+constexpr std::array described_sections = {Section::elements, Section::joints,     Section::drives,   Section::loads,
+                                           Section::states,   Section::hydraulics, Section::measures, Section::events};
 
 /// What formulas have made for themselves is no entry of the file.
 bool is_own(const Member& member) {
@@ -118,7 +118,8 @@ std::string describe_start_conditions(const System& system) {
     std::vector<std::string> asked;
     if (each.value) asked.push_back(fmt::format("{:.6g} {}", *each.value, coordinate.units));
     if (each.rate) asked.push_back(fmt::format("{:.6g} {}", *each.rate, coordinate.rate_units));
-    text += fmt::format("  start        {}: {}\n", coordinate_name(system, each.member, coordinate), fmt::join(asked, ", "));
+    text += fmt::format("  start        {}: {}\n", coordinate_name(system, each.member, coordinate),
+                        fmt::join(asked, ", "));
   }
   return text;
 }

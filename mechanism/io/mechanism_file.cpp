@@ -10,6 +10,7 @@
 #include "mechanism/analyses/analysis_table.hpp"
 #include "mechanism/elements/forces/support.hpp"
 #include "mechanism/elements/superelement/body_points.hpp"
+#include "mechanism/hydraulics/reading/circuit_reader.hpp"
 #include "mechanism/io/component_table.hpp"
 #include "mechanism/io/doubtful_lengths.hpp"
 #include "mechanism/measures/input_measure.hpp"
@@ -158,7 +159,7 @@ std::vector<std::pair<std::string, YamlValue>> named_entries(const YamlValue& se
 
 MechanismFile read_mechanism(YamlValue root, const std::map<std::string, std::string>& overrides) {
   root.check_keys({"mechanism", "gravity", "parameters", "nodes", "elements", "joints", "drives", "loads", "states",
-                   "measures", "inputs", "events", "analysis", "output", "points"},
+                   "measures", "inputs", "events", "analysis", "output", "points", "hydraulics"},
                   "a mechanism file");
   MechanismFile file;
   file.text = root.source_text();
@@ -176,6 +177,7 @@ MechanismFile read_mechanism(YamlValue root, const std::map<std::string, std::st
   if (root.has("nodes"))
     for (const auto& [name, entry] : named_entries(root.at("nodes"))) read_node(name, entry, file.model);
   if (const auto points = root.find("points")) read_body_points(*points, root.find("elements"), file.model);
+  if (const auto hydraulics = root.find("hydraulics")) read_hydraulics(*hydraulics, file.model);
   for (const Section section : {Section::elements, Section::joints, Section::drives, Section::loads, Section::states}) {
     const auto entries = root.find(section_name(section));
     if (!entries) continue;

@@ -7,9 +7,9 @@
 namespace bielle::mechanism {
 
 /// Sections of a mechanism file whose entries have names; inputs are measures. Supports are made of held nodes and bear
-/// their names; contacts are entries of joints.
-enum class Section { nodes, elements, joints, drives, loads, states, measures, events, supports, contacts };
-inline constexpr std::size_t section_count = 10;
+/// their names; contacts are entries of joints; the hydraulics have sections of their own.
+enum class Section { nodes, elements, joints, drives, loads, states, measures, events, supports, contacts, hydraulics };
+inline constexpr std::size_t section_count = 11;
 
 const char* section_name(Section section);  ///< as in the file: "joints"
 const char* section_noun(Section section);  ///< what one of its entries is: "joint"

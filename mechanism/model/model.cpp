@@ -61,6 +61,8 @@ std::vector<Component*> Model::components_named(const std::string& name) const {
   std::vector<Component*> components = components_of({Section::elements, name});
   const std::vector<Component*> of_joint = components_of({Section::joints, name});
   components.insert(components.end(), of_joint.begin(), of_joint.end());
+  const std::vector<Component*> of_hydraulics = components_of({Section::hydraulics, name});
+  components.insert(components.end(), of_hydraulics.begin(), of_hydraulics.end());
   return components;
 }
 

@@ -78,7 +78,7 @@ class Model {
   /// The same as components.
   std::vector<Component*> components_of(const Entry& entry) const;
 
-  /// The components of the element and of the joint of a name, with those that act in them.
+  /// The components of the element, the joint and the part of the hydraulics of a name, with those that act in them.
   std::vector<Component*> components_named(const std::string& name) const;
 
   /// What entries of the input file need of others is looked up when all of them are read: first what components are

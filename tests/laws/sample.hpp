@@ -52,6 +52,7 @@ struct Sample {
   bool has_no_power = false;  ///< keeps no account of energy, with the reason in a comment at the sample
   Neglected neglected{};
   std::function<void(const std::string& folder)> files{};  ///< writes files that the model refers to
+  std::string place{};  ///< the map that holds `it`, where it is not the section: "hydraulics.lines"
 };
 
 const std::vector<Sample>& samples();
@@ -66,5 +67,6 @@ std::vector<Sample> friction_samples();
 std::vector<Sample> drive_samples();
 std::vector<Sample> flexible_samples();
 std::vector<Sample> state_samples();
+std::vector<Sample> hydraulic_samples();
 
 }  // namespace bielle::laws

@@ -37,10 +37,23 @@ std::string without_indices(const std::string& path) {
   return key;
 }
 
+/// The path of the map that holds `it`: "joints", "hydraulics.lines".
+std::string place_of(const Sample& sample) {
+  return sample.place.empty() ? bielle::mechanism::section_name(sample.section) : sample.place;
+}
+
+/// `it` of a model.
+YAML::Node entry_in(const YAML::Node& root, const Sample& sample) {
+  YAML::Node node = root;
+  for (const std::string& part : split(place_of(sample))) node.reset(node[part]);
+  node.reset(node["it"]);
+  return node;
+}
+
 /// The sample's model with one value of `it` changed; an empty value leaves the key out.
 std::string changed(const Sample& sample, const std::string& key, const std::string& value) {
   YAML::Node root = YAML::Load(sample.model);
-  YAML::Node entry = root[bielle::mechanism::section_name(sample.section)]["it"];
+  YAML::Node entry = entry_in(root, sample);
   std::vector<std::string> parts = split(key);
   const std::string last = parts.back();
   parts.pop_back();
@@ -75,9 +88,7 @@ void collect(const YAML::Node& node, const std::string& path, std::vector<std::s
 
 struct Keys {
   std::vector<std::string> paths, maps;
-  explicit Keys(const Sample& sample) {
-    collect(YAML::Load(sample.model)[bielle::mechanism::section_name(sample.section)]["it"], "", paths, maps);
-  }
+  explicit Keys(const Sample& sample) { collect(entry_in(YAML::Load(sample.model), sample), "", paths, maps); }
 };
 
 /// Keys of a type, without indices, that some sample of the type shows a bad value of.
@@ -93,7 +104,7 @@ std::set<std::string> keys_with_bad_values(const Sample& like) {
 
 TEST_CASE("law 5: values out of range are refused with their key") {
   for (const Sample& sample : samples()) {
-    const std::string place = std::string(bielle::mechanism::section_name(sample.section)) + ".it";
+    const std::string place = place_of(sample) + ".it";
     for (const BadValue& bad : sample.bad) {
       CAPTURE(title(sample), bad.key, bad.value);
       const std::string said = message(sample, changed(sample, bad.key, bad.value));

@@ -15,11 +15,12 @@ FOLDERS = {
                   "elements/beam", "elements/control", "elements/forces", "elements/rigid_body",
                   "elements/superelement/recovery", "elements/superelement",
                   "joints", "joints/friction", "joints/actions", "joints/cables", "joints/couplings", "joints/flexible", "joints/gears", "joints/pairs", "joints/cams", "joints/contacts",
+                  "hydraulics/circuit", "hydraulics/lines", "hydraulics/actuators", "hydraulics/reading",
                   "system", "solvers/newton", "solvers/constraints", "solvers/start", "solvers/statics", "solvers/dynamics",
                   "session", "analyses", "io", ""],
 }
 SHARED = ["common", "spectral", "superelement"]
-COMPONENTS = [f for f in FOLDERS["mechanism"] if f.split("/")[0] in ("contact_laws", "measures", "elements", "joints")]
+COMPONENTS = [f for f in FOLDERS["mechanism"] if f.split("/")[0] in ("contact_laws", "measures", "elements", "joints", "hydraulics")]
 SOLVING = [f for f in FOLDERS["mechanism"] if f.split("/")[0] in ("system", "solvers")]
 
 
@@ -27,7 +28,7 @@ def forbidden(folder, wanted):
     """Whether a folder of the mechanism must not know one before it."""
     if folder in SOLVING:
         return wanted in COMPONENTS + ["reading"] or {folder, wanted} == {"solvers/statics", "solvers/dynamics"}
-    if folder.split("/")[0] in ("elements", "joints") and wanted.startswith("elements/"):
+    if folder.split("/")[0] in ("elements", "joints", "hydraulics") and wanted.startswith("elements/"):
         return not (wanted + "/").startswith(folder + "/")
     return False
 

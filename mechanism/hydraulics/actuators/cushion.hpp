@@ -1,0 +1,34 @@
+// Cushion: the way out of a cylinder's chamber becomes narrow near the end of its stroke.
+//
+//     A = A_c + (A_port - A_c) s(x/x_c),     x the way that is left until the end, x_c the length of the cushion
+// with s = 10 u^3 - 15 u^4 + 6 u^5. Fluid that comes in opens a check valve of the area of the port, over 0.5 bar.
+#pragma once
+
+#include "mechanism/hydraulics/actuators/cylinder.hpp"
+#include "mechanism/hydraulics/lines/line.hpp"
+#include "mechanism/hydraulics/lines/orifice_law.hpp"
+
+namespace bielle::mechanism {
+
+class Cushion final : public Line {
+ public:
+  struct Data {
+    double port_area, area;  ///< A_port, A_c [m^2]
+    double length;           ///< x_c [m]
+    double end;              ///< length of the cylinder where the chamber is smallest [m]
+    double side;             ///< +1: the way left is l - end, -1: end - l
+  };
+  /// @param chamber,port  the flow is counted out of the chamber
+  Cushion(std::string name, const Cylinder& cylinder, const PressureNode& chamber, const PressureNode& port,
+          const OrificeLaw& law, const Data& data);
+  void calc_flow(const LocalState& state, std::size_t path, FlowJet& flow) const override;
+
+ private:
+  std::string describe_law() const override;
+  const Cylinder& cylinder_;
+  int reference_;  ///< of the cylinder
+  OrificeLaw law_;
+  Data data_;
+};
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,48 @@
+// Rotary machine: a pump or motor that a shaft turns, or that turns it. Its shaft is a coordinate of a joint.
+//
+//     Q = x D rate + G (p_a - p_b)         from port a to port b [m^3/s]
+//     T = x D (e_a - e_b) - d rate         on the coordinate [N m]
+// D displacement [m^3/rad], x(t, measures) its setting (1: full; a variable machine has -1 to 1), G leakage, d drag.
+// With the heads e of the fluid in place of pressures (fluid.hpp; they differ by p/(2 B)) the machine itself loses
+// nothing. As a pump it moves fluid from a to b while it turns in the positive sense; as a motor it is turned so where
+// p_a > p_b. Along a displacement (a prismatic joint) D is an area.
+#pragma once
+
+#include <optional>
+
+#include "mechanism/hydraulics/circuit/ports.hpp"
+#include "mechanism/joints/actions/coordinate_action.hpp"
+#include "mechanism/measures/state_formula.hpp"
+
+namespace bielle::mechanism {
+
+class Machine final : public CoordinateAction {
+ public:
+  struct Data {
+    double displacement;  ///< D [m^3/rad]
+    double leakage = 0;   ///< G [m^3/(s Pa)]
+    double drag = 0;      ///< d [N m s/rad]
+  };
+  Machine(std::string name, const Joint& joint, std::size_t coordinate, const PressureNode& from,
+          const PressureNode& to, const Data& data);
+  void read_setting(const YamlValue& formula, Model& model);
+
+  void declare(Declaration& declaration) const override;
+  void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
+  void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
+  void add_energy(const LocalState& state, Energy& energy) const override;
+  void add_break_points(std::vector<double>& times) const override { setting_.add_break_points(0, times); }
+  std::vector<OutputField> output_fields() const override;
+  void write_output(const LocalState& state, double* values) const override;
+  void describe(const LocalState& state, Description& description) const override;
+
+ private:
+  double setting(const LocalState& state) const;
+  double flow(const LocalState& state, double x, double rate) const;
+  double torque(const LocalState& state, double x, double rate) const;
+  Data data_;
+  Ports ports_;
+  StateFormula setting_{1};
+};
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,40 @@
+// Accumulator: gas behind a bladder or piston in a volume of the circuit.
+//
+// The gas fills V_g = V_0 (p_0/p)^(1/n) above its precharge p_0 (absolute), n = 1 slowly to 1.4 quickly (adiabatic);
+// below it the bladder fills the shell, V_g = V_0. What is left of the shell belongs to the space of the volume:
+//     V_acc(p) = V_0 - V_g(p),       energy = integral of (p - p_a) dV_acc.
+// V_acc has a kink at the precharge.
+#pragma once
+
+#include "mechanism/hydraulics/circuit/volume.hpp"
+#include "mechanism/model/references.hpp"
+
+namespace bielle::mechanism {
+
+class Accumulator final : public Component {
+ public:
+  /// @param gas_volume  V_0 [m^3] @param precharge  p_0 [Pa] as the user's pressures @param exponent  n
+  Accumulator(std::string name, Volume& volume, double gas_volume, double precharge, double exponent);
+  void declare(Declaration& declaration) const override;
+  void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
+  void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
+  void add_pattern(const Slots& slots, LocalPattern& pattern) const override;
+  void add_start_values(const LocalState& state, Eigen::Ref<VectorX> change) const override;
+  void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
+  void add_energy(const LocalState& state, Energy& energy) const override;
+  std::vector<OutputField> output_fields() const override;
+  void write_output(const LocalState& state, double* values) const override;
+  void describe(const LocalState& state, Description& description) const override;
+
+ private:
+  struct Space {
+    double V, V_p;
+  };
+  Space space(double p) const;
+  double absolute(double p) const { return p + (volume_.fluid().ambient == 0 ? Fluid::atmosphere : 0); }
+  const Volume& volume_;
+  References references_;
+  double gas_volume_, precharge_, exponent_;
+};
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,107 @@
+#include "mechanism/hydraulics/circuit/places.hpp"
+
+#include <fmt/format.h>
+
+#include "mechanism/measures/read_measure.hpp"
+#include "mechanism/model/description.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+Declaration::Scalar pressure_unknown(double start) {
+  Declaration::Scalar pressure{"pressure", "Pa", start};
+  pressure.scale = 1e5;
+  pressure.algebraic = true;
+  return pressure;
+}
+
+OutputField pressure_field(const Fluid& fluid) {
+  return {"pressure", {}, "Pa", fluid.ambient == 0 ? "gauge" : "absolute"};
+}
+
+}  // namespace
+
+void Junction::declare(Declaration& declaration) const {
+  Declaration::Scalar pressure = pressure_unknown(start_);
+  pressure.equation_units = "m^3/s";
+  declaration.first_order = {pressure};
+}
+
+void Junction::add_pattern(const Slots& /*slots*/, LocalPattern& pattern) const { pattern.add_diagonal(0, 0, 1); }
+
+std::vector<OutputField> Junction::output_fields() const { return {pressure_field(fluid())}; }
+
+void Junction::describe(const LocalState& /*state*/, Description& description) const {
+  description.add("lines meet without volume");
+}
+
+void PressureSource::read(const YamlValue& formula, Model& model) {
+  formula_ = read_state_formula(formula, {"t"}, model, references_);
+}
+
+void PressureSource::declare(Declaration& declaration) const {
+  references_.declare(declaration);
+  Declaration::Scalar flow{"flow", "m^3/s", 0};
+  flow.scale = 1e-6;
+  flow.algebraic = true;
+  flow.equation_units = "m^3/s";
+  declaration.first_order = {pressure_unknown(fluid().ambient), flow};
+  declaration.stiffness = true;
+  declaration.damping = formula_.reads_state();
+  declaration.reads_reactions = formula_.reads_reactions();
+  declaration.starts_by_state = true;
+  declaration.memory = {0};  // whether it has begun
+}
+
+double PressureSource::given(const LocalState& state) const {
+  const double t = state.time();
+  return formula_.value(state, {&t, 1});
+}
+
+void PressureSource::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
+  r[0] += pressure(state) - given(state);
+  r[1] += state.first_order()[1];
+}
+
+void PressureSource::add_tangent(const LocalState& state, LocalTangent& tangent) const {
+  if (tangent.wants_K) {
+    tangent.K.dense()(0, 0) += 1;
+    tangent.K.dense()(1, 1) += 1;
+  }
+  if (!formula_.reads_state()) return;
+  thread_local FormulaGradient gradient;
+  const double t = state.time();
+  formula_.calc(state, {&t, 1}, gradient);
+  if (tangent.wants_K) tangent.K.dense().row(0) -= gradient.by_state.position().transpose();
+  if (tangent.wants_C) tangent.C.dense().row(0) -= gradient.by_state.rate().transpose();
+}
+
+void PressureSource::add_start_values(const LocalState& state, Eigen::Ref<VectorX> change) const {
+  if (state.memory()[0] == 0) change[0] += given(state) - pressure(state);
+}
+
+void PressureSource::accept(const LocalState& /*state*/, Eigen::Ref<VectorX> memory) const { memory[0] = 1; }
+
+double PressureSource::power(const LocalState& state) const {
+  return -state.first_order()[1] * fluid().head(pressure(state)).e;
+}
+
+void PressureSource::add_energy(const LocalState& state, Energy& energy) const { energy.input += power(state); }
+
+std::vector<OutputField> PressureSource::output_fields() const {
+  return {pressure_field(fluid()),
+          {"flow", {}, "m^3/s", "net flow of lines into it"},
+          {"power", {}, "W", "that it puts into the circuit"}};
+}
+
+void PressureSource::write_output(const LocalState& state, double* values) const {
+  values[0] = pressure(state);
+  values[1] = state.first_order()[1];
+  values[2] = power(state);
+}
+
+void PressureSource::describe(const LocalState& /*state*/, Description& description) const {
+  description.add(fmt::format("pressure {} [Pa]", formula_.text()));
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,55 @@
+// Places of a circuit without fluid of their own: junctions, and places of given pressure.
+#pragma once
+
+#include "mechanism/hydraulics/circuit/pressure_node.hpp"
+#include "mechanism/measures/state_formula.hpp"
+#include "mechanism/model/references.hpp"
+
+namespace bielle::mechanism {
+
+/// Lines meet, nothing is stored: the sum of flows is zero. Its pressure is an algebraic unknown.
+class Junction final : public PressureNode {
+ public:
+  Junction(std::string name, const Fluid& fluid, double pressure)
+      : PressureNode("junction", std::move(name), fluid, {0, 0, -1}), start_(pressure) {}
+  void declare(Declaration& declaration) const override;
+  void add_residual(const LocalState&, Eigen::Ref<VectorX>) const override {}
+  void add_tangent(const LocalState&, LocalTangent&) const override {}
+  void add_pattern(const Slots& slots, LocalPattern& pattern) const override;
+  std::vector<OutputField> output_fields() const override;
+  void write_output(const LocalState& state, double* values) const override { values[0] = pressure(state); }
+  void describe(const LocalState& state, Description& description) const override;
+
+ private:
+  double start_;
+};
+
+/// A given pressure, p = p_s(t, measures), whatever flows: a tank, a supply that a pump keeps at its pressure. Its
+/// second unknown is the flow into it [m^3/s].
+class PressureSource final : public PressureNode {
+ public:
+  PressureSource(std::string name, const Fluid& fluid)
+      : PressureNode("pressure_source", std::move(name), fluid, {0, 1, -1}) {}
+  /// Takes the formula of p, once the model is read.
+  void read(const YamlValue& formula, Model& model);
+  void keep(double pressure) { formula_ = StateFormula(pressure); }  ///< a constant in place of it
+  bool is_given() const override { return true; }
+  void declare(Declaration& declaration) const override;
+  void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
+  void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
+  void add_energy(const LocalState& state, Energy& energy) const override;
+  void add_start_values(const LocalState& state, Eigen::Ref<VectorX> change) const override;
+  void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
+  void add_break_points(std::vector<double>& times) const override { formula_.add_break_points(0, times); }
+  std::vector<OutputField> output_fields() const override;
+  void write_output(const LocalState& state, double* values) const override;
+  void describe(const LocalState& state, Description& description) const override;
+
+ private:
+  double given(const LocalState& state) const;
+  double power(const LocalState& state) const;
+  StateFormula formula_;
+  References references_;
+};
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,126 @@
+#include "mechanism/hydraulics/circuit/volume.hpp"
+
+#include <fmt/format.h>
+
+#include "mechanism/model/description.hpp"
+#include "reduce/common/error.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+constexpr double typical_pressure = 1e5;  // [Pa]: what is much smaller does not matter
+
+}  // namespace
+
+Volume::Volume(std::string name, const Fluid& fluid, double volume, std::optional<double> pressure, double compliance)
+    : PressureNode("volume", std::move(name), fluid, {pressure_row, fluid_row, space_row}),
+      volume_(volume),
+      start_(pressure),
+      compliance_(compliance),
+      drawn_(volume) {}
+
+void Volume::declare(Declaration& declaration) const {
+  // Where the pressure follows from the load a negative value says that the fluid is not known yet.
+  const double begin = start_ ? fluid_at(*start_, drawn_) : -drawn_;
+  Declaration::Scalar fluid_content{"fluid", "m^3", begin};
+  fluid_content.scale = drawn_ * typical_pressure / fluid().bulk_modulus;
+  fluid_content.equation_units = "m^3/s";
+  Declaration::Scalar pressure{"pressure", "Pa", start_.value_or(-1)};
+  pressure.scale = typical_pressure;
+  pressure.algebraic = true;
+  Declaration::Scalar space{"space", "m^3", drawn_};
+  space.scale = fluid_content.scale;
+  space.algebraic = true;
+  declaration.first_order = {fluid_content, pressure, space};
+  declaration.stiffness = declaration.damping = true;
+  declaration.starts_by_state = true;
+  declaration.memory = {0};  // whether it has begun
+}
+
+double Volume::pressure_by_state(const LocalState& own) const {
+  const double W = own.first_order()[fluid_row], V = own.first_order()[space_row];
+  if (!(V > 0))
+    throw ComputationError(fmt::format(
+        "t = {:.6g} s: the volume '{}' has {:.3g} m^3 left: what opens into it leaves it no space (a piston "
+        "beyond its stroke?)",
+        own.time(), name(), V));
+  return fluid().pressure_of(V / W, pressure(own));
+}
+
+PressureNode::Exchange Volume::exchange(const LocalState& own) const {
+  Exchange exchange;
+  if (fluid().conserves == Fluid::Conserves::mass || waits(own)) return exchange;
+  const double W = own.first_order()[fluid_row], V = own.first_order()[space_row];
+  exchange.factor = W / V;
+  exchange.by[fluid_row] = 1 / V;
+  exchange.by[space_row] = -W / (V * V);
+  return exchange;
+}
+
+double Volume::net_flow(const LocalState& own) const {
+  return own.first_order_rate()[fluid_row] / exchange(own).factor;
+}
+
+void Volume::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
+  const double p = pressure(state);
+  if (balances(state)) r[fluid_row] += state.first_order_rate()[fluid_row];
+  if (!waits(state)) r[pressure_row] += p - pressure_by_state(state);
+  r[space_row] += space(state) - volume_ - compliance_ * (p - fluid().ambient);
+}
+
+void Volume::add_tangent(const LocalState& state, LocalTangent& tangent) const {
+  if (tangent.wants_C && balances(state)) tangent.C.dense()(fluid_row, fluid_row) += 1;
+  if (!tangent.wants_K) return;
+  auto K = tangent.K.dense();
+  if (!balances(state)) K(fluid_row, fluid_row) += 1;  // it stays as it is
+  if (!waits(state)) {
+    const double W = state.first_order()[fluid_row], V = state.first_order()[space_row];
+    const double p_v = 1 / fluid().ratio(pressure_by_state(state)).v_p;
+    K(pressure_row, pressure_row) += 1;
+    K(pressure_row, fluid_row) += p_v * V / (W * W);
+    K(pressure_row, space_row) -= p_v / W;
+  }
+  K(space_row, space_row) += 1;
+  K(space_row, pressure_row) -= compliance_;
+}
+
+void Volume::add_start_values(const LocalState& state, Eigen::Ref<VectorX> change) const {
+  if (state.memory()[0] != 0) return;
+  const double p = start_.value_or(pressure(state));
+  change[space_row] += volume_ + compliance_ * (p - fluid().ambient) - space(state);
+  if (!start_) return;
+  change[pressure_row] += p - pressure(state);
+  change[fluid_row] += fluid_at(p, space(state)) - state.first_order()[fluid_row];
+}
+
+void Volume::accept(const LocalState& /*state*/, Eigen::Ref<VectorX> memory) const { memory[0] = 1; }
+
+void Volume::add_energy(const LocalState& state, Energy& energy) const {
+  if (waits(state)) return;
+  const double p = pressure(state), away = p - fluid().ambient;
+  energy.elastic += state.first_order()[fluid_row] * fluid().stored(p) + 0.5 * compliance_ * away * away;
+}
+
+std::vector<OutputField> Volume::output_fields() const {
+  const bool mass = fluid().conserves == Fluid::Conserves::mass;
+  return {{"pressure", {}, "Pa", fluid().ambient == 0 ? "gauge" : "absolute"},
+          {"flow", {}, "m^3/s", mass ? "net flow in, at the reference pressure" : "net flow in, at its pressure"},
+          {"volume", {}, "m^3", "space that the fluid fills"},
+          {"fluid", {}, "m^3", "the fluid in it, as its volume at 101325 Pa"}};
+}
+
+void Volume::write_output(const LocalState& state, double* values) const {
+  values[0] = pressure(state);
+  values[1] = net_flow(state);
+  values[2] = space(state);
+  values[3] = state.first_order()[fluid_row];
+}
+
+void Volume::describe(const LocalState& state, Description& description) const {
+  description.add(fmt::format("{:.6g} m^3", space(state)));
+  description.add(start_ ? fmt::format("{:.6g} Pa at the start", *start_)
+                         : "its pressure at the start follows from the load");
+  if (compliance_ > 0) description.add(fmt::format("walls give {:.6g} m^3/Pa", compliance_));
+}
+
+}  // namespace bielle::mechanism

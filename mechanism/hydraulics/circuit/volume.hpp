@@ -1,0 +1,62 @@
+// A volume of fluid at one pressure: a hose, a manifold, the chambers that open into it.
+//
+// Unknowns: W, the fluid that it holds, counted by its volume at the reference pressure (fluid.hpp); its pressure p;
+// the space V that it has.
+//     Wdot = sum of f Q,        f = W/V where flows conserve volume, 1 where they conserve mass
+//     p = p(v = W/V),           by the equation of state
+//     V = V_0 + c (p - p_a) + chambers + accumulators,    c the compliance of its walls [m^3/Pa]
+// Flows, chambers and accumulators add to these equations themselves. With W in place of p as what is integrated, oil
+// that is trapped is a spring in the stiffness matrix, mass is conserved to rounding, and a pressure never falls to
+// zero: V pdot/B_eff = Q - Vdot follows.
+#pragma once
+
+#include <optional>
+
+#include "mechanism/hydraulics/circuit/pressure_node.hpp"
+
+namespace bielle::mechanism {
+
+class Volume final : public PressureNode {
+ public:
+  enum { fluid_row, pressure_row, space_row };
+  /// @param volume      V_0 [m^3]; 0 where chambers alone make it
+  /// @param pressure    at the start [Pa]; none: it follows from the load of the actuator whose chamber it is
+  /// @param compliance  [m^3/Pa]
+  Volume(std::string name, const Fluid& fluid, double volume, std::optional<double> pressure, double compliance);
+
+  /// While the model is read: a chamber or accumulator that opens into it, with its space as drawn [m^3].
+  void add_room(double space) { drawn_ += space; }
+  double drawn() const { return drawn_; }                 ///< V as drawn [m^3]
+  std::optional<double> start() const { return start_; }  ///< its pressure at the start, if it is given [Pa]
+
+  /// Whether its fluid is not known yet: a motion begins, and its pressure follows from the load.
+  bool waits(const LocalState& own) const { return own.first_order()[fluid_row] < 0; }
+  double space(const LocalState& own) const { return own.first_order()[space_row]; }
+  /// The fluid that fills it at a pressure: W.
+  double fluid_at(double pressure, double space) const { return space / fluid().ratio(pressure).v; }
+  /// The flow that changes its fluid [m^3/s], at its pressure or the reference pressure, as flows are counted.
+  double net_flow(const LocalState& own) const;
+
+  bool balances(const LocalState& own) const override { return !own.environment().statics; }
+  Exchange exchange(const LocalState& own) const override;
+
+  void declare(Declaration& declaration) const override;
+  void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
+  void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
+  void add_start_values(const LocalState& state, Eigen::Ref<VectorX> change) const override;
+  void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
+  void add_energy(const LocalState& state, Energy& energy) const override;
+  std::vector<OutputField> output_fields() const override;
+  void write_output(const LocalState& state, double* values) const override;
+  void describe(const LocalState& state, Description& description) const override;
+
+ private:
+  /// p(W/V). @throws ComputationError  nothing is left of the space or of the fluid
+  double pressure_by_state(const LocalState& own) const;
+  double volume_;
+  std::optional<double> start_;
+  double compliance_;
+  double drawn_;
+};
+
+}  // namespace bielle::mechanism

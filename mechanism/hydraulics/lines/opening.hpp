@@ -1,0 +1,27 @@
+// Smooth transitions of openings, with two continuous derivatives.
+#pragma once
+
+#include "mechanism/math/types.hpp"
+
+namespace bielle::mechanism {
+
+struct Opening {
+  double value, slope;
+};
+
+/// 0 for x <= 0, x for x >= width, between them x (6 u - 8 u^2 + 3 u^3) u, u = x/width: an edge that opens.
+inline Opening edge_opening(double x, double width) {
+  if (x <= 0) return {0, 0};
+  if (x >= width) return {x, 1};
+  const double u = x / width;
+  return {width * u * u * u * (6 - u * (8 - 3 * u)), u * u * (18 - u * (32 - 15 * u))};
+}
+
+/// 0 for x <= 0, 1 for x >= 1, between them 10 x^3 - 15 x^4 + 6 x^5: a poppet from its seat to its end.
+inline Opening poppet_opening(double x) {
+  if (x <= 0) return {0, 0};
+  if (x >= 1) return {1, 0};
+  return {x * x * x * (10 - x * (15 - 6 * x)), 30 * x * x * (1 - x) * (1 - x)};
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,57 @@
+// Lines without moving parts that decide: orifices whose area is given, narrow gaps, and sources of flow.
+#pragma once
+
+#include "mechanism/hydraulics/lines/line.hpp"
+#include "mechanism/hydraulics/lines/orifice_law.hpp"
+#include "mechanism/measures/state_formula.hpp"
+
+namespace bielle::mechanism {
+
+/// An orifice of the area A(t, measures) >= 0 [m^2].
+class Orifice final : public Line {
+ public:
+  Orifice(std::string name, const PressureNode& from, const PressureNode& to, const OrificeLaw& law, double area);
+  /// A formula in place of the area, once the model is read.
+  void read_area_formula(const YamlValue& formula, Model& model);
+  void calc_flow(const LocalState& state, std::size_t path, FlowJet& flow) const override;
+  void add_break_points(std::vector<double>& times) const override { area_.add_break_points(0, times); }
+
+ private:
+  bool has_damping() const override { return area_.reads_state(); }
+  bool reads_reactions() const override { return area_.reads_reactions(); }
+  std::string describe_law() const override;
+  OrificeLaw law_;
+  StateFormula area_;
+};
+
+/// A narrow gap or a laminar resistance: Q = G (p_a - p_b).
+class Leakage final : public Line {
+ public:
+  /// @param to           nullptr: outside, at the ambient pressure
+  /// @param conductance  G [m^3/(s Pa)]
+  Leakage(std::string name, const PressureNode& from, const PressureNode* to, double conductance);
+  void calc_flow(const LocalState& state, std::size_t path, FlowJet& flow) const override;
+
+ private:
+  std::string describe_law() const override;
+  double conductance_;
+};
+
+/// A pump of constant or given flow Q(t, measures) [m^3/s], from a place or from outside. Its power is input.
+class FlowSource final : public Line {
+ public:
+  /// @param from  nullptr: from outside, where the fluid has the ambient pressure
+  FlowSource(std::string name, const PressureNode* from, const PressureNode& to);
+  void read(const YamlValue& formula, Model& model);
+  void calc_flow(const LocalState& state, std::size_t path, FlowJet& flow) const override;
+  void add_energy(const LocalState& state, Energy& energy) const override;
+  void add_break_points(std::vector<double>& times) const override { formula_.add_break_points(0, times); }
+
+ private:
+  bool has_damping() const override { return formula_.reads_state(); }
+  bool reads_reactions() const override { return formula_.reads_reactions(); }
+  std::string describe_law() const override;
+  StateFormula formula_;
+};
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,43 @@
+// A length of pipe whose fluid has inertia: one flow q, driven by what the heads at its ends differ by.
+//
+//     (rho L/S) qdot = e_a - e_b - R(q),     S = pi d^2/4
+//     R = f(Re) (L/d) (rho/2) w |w|,         w = q/S,  Re = rho |w| d/mu
+// with S. W. Churchill's friction factor for all regimes (Friction-factor equation spans all fluid-flow regimes,
+// Chemical Engineering 84 (1977) 91-92):
+//     f = 8 ((8/Re)^12 + (A + B)^(-3/2))^(1/12),  A = (2.457 ln 1/((7/Re)^0.9 + 0.27 k/d))^16,  B = (37530/Re)^16.
+// Segments between volumes of fluid make a pipe: waves travel at sqrt(B_eff/rho), within the error of the division.
+#pragma once
+
+#include "mechanism/hydraulics/lines/line.hpp"
+
+namespace bielle::mechanism {
+
+struct PipeData {
+  double length, diameter;  ///< [m]
+  double roughness = 0;     ///< k [m]
+};
+
+/// R(q) with its derivative [Pa], [Pa s/m^3].
+struct PipeLoss {
+  double R, R_q;
+};
+PipeLoss pipe_loss(const PipeData& pipe, double density, double viscosity, double q);
+
+class PipeSegment final : public Line {
+ public:
+  PipeSegment(std::string name, const PressureNode& from, const PressureNode& to, const PipeData& data);
+  void declare(Declaration& declaration) const override;
+  void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
+  void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
+  void add_pattern(const Slots& slots, LocalPattern& pattern) const override;
+  void add_energy(const LocalState& state, Energy& energy) const override;
+  void calc_flow(const LocalState& state, std::size_t path, FlowJet& flow) const override;
+
+ private:
+  double inertia() const;
+  PipeLoss loss(double q) const;
+  std::string describe_law() const override;
+  PipeData data_;
+};
+
+}  // namespace bielle::mechanism

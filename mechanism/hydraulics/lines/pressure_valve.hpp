@@ -1,0 +1,76 @@
+// Valves that pressures open: check, relief and counterbalance valves; and the flow valve that pressures hold constant.
+//
+// A poppet opens over a range of pressures above its setting:
+//     x = (p_a - s p_b + r p_x - p_set)/range,    A = A_full (10 x^3 - 15 x^4 + 6 x^5), 0 <= x <= 1
+// check valve:           s = 1; r = 0; only from a to b
+// relief valve:          s = 1 (or 0, where its spring room is vented), r = 0
+// counterbalance valve:  a the load, x the pilot, r its ratio; and a check valve lets the fluid back from b to a
+// With a time constant T the opening follows: T ydot = y(x) - y.
+//
+// A flow valve with compensator passes Q_set as long as D = p_a - p_b is larger than D_min; below it is an orifice. The
+// way back is an orifice of the same area:
+//     Q = Q_set sign(D) sqrt(D_e/D_min),   D_e = |D|/(1 + (|D|/D_min)^8)^(1/8) for D > 0, |D| for D < 0, both smooth at
+//     0.
+#pragma once
+
+#include "mechanism/hydraulics/lines/line.hpp"
+#include "mechanism/hydraulics/lines/orifice_law.hpp"
+#include "mechanism/measures/state_formula.hpp"
+
+namespace bielle::mechanism {
+
+class PoppetValve final : public Line {
+ public:
+  struct Setting {
+    double pressure = 0;         ///< p_set [Pa], where it begins to open
+    double range = 0;            ///< [Pa] until it is open
+    double back = 1;             ///< s
+    double pilot_ratio = 0;      ///< r
+    double area = 0;             ///< A_full [m^2]
+    double time_constant = 0;    ///< T [s]; 0: none
+    double check_pressure = -1;  ///< of the way back [Pa]; negative: there is none
+  };
+  /// @param pilot  nullptr: none
+  PoppetValve(std::string type, std::string name, const PressureNode& from, const PressureNode& to,
+              const PressureNode* pilot, const OrificeLaw& law, const Setting& setting);
+
+  void declare(Declaration& declaration) const override;
+  void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
+  void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
+  void add_pattern(const Slots& slots, LocalPattern& pattern) const override;
+  void calc_flow(const LocalState& state, std::size_t path, FlowJet& flow) const override;
+  void add_start_values(const LocalState& state, Eigen::Ref<VectorX> change) const override;
+  void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
+
+ private:
+  /// The opening that the pressures ask for, with its derivatives.
+  double wanted(const LocalState& state, MeasureGradient& gradient) const;
+  double opening(const LocalState& state, MeasureGradient& gradient) const;
+  std::vector<OutputField> own_fields() const override;
+  void write_own(const LocalState& state, double* values) const override;
+  std::string describe_law() const override;
+  std::vector<std::string> own_measures() const override { return {"opening"}; }
+  double calc_own_measure(const LocalState& state, const std::string& measure,
+                          MeasureGradient& gradient) const override;
+  bool follows() const { return setting_.time_constant > 0; }
+  OrificeLaw law_;
+  Setting setting_;
+};
+
+class FlowValve final : public Line {
+ public:
+  /// @param pressure  D_min [Pa]
+  FlowValve(std::string name, const PressureNode& from, const PressureNode& to, double pressure);
+  void read(const YamlValue& formula, Model& model);  ///< Q_set(t, measures) [m^3/s]
+  void calc_flow(const LocalState& state, std::size_t path, FlowJet& flow) const override;
+  void add_break_points(std::vector<double>& times) const override { formula_.add_break_points(0, times); }
+
+ private:
+  bool has_damping() const override { return formula_.reads_state(); }
+  bool reads_reactions() const override { return formula_.reads_reactions(); }
+  std::string describe_law() const override;
+  double pressure_;
+  StateFormula formula_;
+};
+
+}  // namespace bielle::mechanism

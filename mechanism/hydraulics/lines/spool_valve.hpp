@@ -1,0 +1,62 @@
+// Valves whose opening is commanded: with two ports, and with four (servo-valve).
+//
+// Four ports P (supply), T (tank), A, B. A positive opening y joins P to A and B to T, a negative one P to B and A to
+// T. Each of the four edges opens by
+//     A_edge(y) = A_full s((|y| - overlap)/(1 - overlap)),   A_full its own area,
+// s the identity above `smoothing` and zero below 0 (lines/opening.hpp). A negative overlap leaves all edges open in
+// the middle. Flows by the orifice law.
+#pragma once
+
+#include <array>
+
+#include "mechanism/hydraulics/lines/line.hpp"
+#include "mechanism/hydraulics/lines/orifice_law.hpp"
+#include "mechanism/hydraulics/lines/spool.hpp"
+
+namespace bielle::mechanism {
+
+class SpoolValve final : public Line {
+ public:
+  static constexpr double smoothing = 1e-3;  ///< share of the full opening
+  struct Edge {
+    std::string name;
+    int from, to;      ///< ports
+    double direction;  ///< +1: opens with y > 0, -1: with y < 0
+    double area;       ///< at full opening [m^2]
+  };
+  /// Two ports, y from 0 to 1.
+  SpoolValve(std::string name, const PressureNode& from, const PressureNode& to, const OrificeLaw& law, double area,
+             double overlap);
+  /// Four ports. @param places  P, T, A, B; B nullptr: three ports @param areas  of P-A, B-T, P-B, A-T
+  SpoolValve(std::string name, const std::array<const PressureNode*, 4>& places, const OrificeLaw& law,
+             const std::array<double, 4>& areas, double overlap);
+  Spool& spool() { return spool_; }
+  References& formula_references() { return references(); }
+
+  void declare(Declaration& declaration) const override;
+  void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
+  void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
+  void add_pattern(const Slots& slots, LocalPattern& pattern) const override;
+  void calc_flow(const LocalState& state, std::size_t path, FlowJet& flow) const override;
+  void add_start_values(const LocalState& state, Eigen::Ref<VectorX> change) const override;
+  void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
+  void add_break_points(std::vector<double>& times) const override { spool_.add_break_points(times); }
+  void describe(const LocalState& state, Description& description) const override;
+
+ private:
+  void add_edge(const std::string& name, int from, int to, double direction, double area);
+  bool has_damping() const override { return spool_.reads_state(); }
+  bool reads_reactions() const override { return spool_.reads_reactions(); }
+  std::vector<OutputField> own_fields() const override;
+  void write_own(const LocalState& state, double* values) const override { values[0] = spool_.opening(state); }
+  std::string describe_law() const override;
+  std::vector<std::string> own_measures() const override { return {"opening"}; }
+  double calc_own_measure(const LocalState& state, const std::string& measure,
+                          MeasureGradient& gradient) const override;
+  OrificeLaw law_;
+  double overlap_;
+  std::vector<Edge> edges_;
+  Spool spool_;
+};
+
+}  // namespace bielle::mechanism

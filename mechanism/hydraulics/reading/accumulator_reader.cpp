@@ -1,0 +1,34 @@
+#include "mechanism/hydraulics/reading/accumulator_reader.hpp"
+
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "mechanism/hydraulics/circuit/accumulator.hpp"
+#include "mechanism/hydraulics/lines/line.hpp"
+
+namespace bielle::mechanism {
+
+void add_accumulator(const std::string& name, const YamlValue& entry, Volume& volume, const Entry& own, Model& model) {
+  const double gas_volume = entry.at("gas_volume").positive_number();
+  const YamlValue given = entry.at("precharge");
+  const double precharge = given.number(), vacuum = volume.fluid().ambient == 0 ? -Fluid::atmosphere : 0;
+  if (!(precharge > vacuum)) given.fail(fmt::format("expected a pressure above {:.6g} Pa, which is vacuum", vacuum));
+  double exponent = 1.4;
+  if (const auto n = entry.find("exponent")) {
+    exponent = n->number();
+    if (exponent < 1 || exponent > 1.7) n->fail("expected 1 (isothermal) to 1.67; nitrogen has 1.4 when it is quick");
+  }
+  model.add(std::make_unique<Accumulator>(name, volume, gas_volume, precharge, exponent), own);
+}
+
+void read_accumulator(const std::string& name, const YamlValue& entry, const Entry& own, Model& model) {
+  entry.check_keys({"at", "gas_volume", "precharge", "exponent"}, "an accumulator");
+  const YamlValue at = entry.at("at");
+  const PressureNode& place = place_named_by(at, model);
+  for (Component* component : model.components_of({Section::hydraulics, place.name()}))
+    if (auto* volume = dynamic_cast<Volume*>(component)) return add_accumulator(name, entry, *volume, own, model);
+  at.fail(fmt::format("'{}' is no volume: an accumulator needs one to store in", place.name()));
+}
+
+}  // namespace bielle::mechanism

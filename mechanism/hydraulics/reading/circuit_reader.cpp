@@ -1,0 +1,182 @@
+#include "mechanism/hydraulics/reading/circuit_reader.hpp"
+
+#include <map>
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "mechanism/hydraulics/actuators/machine.hpp"
+#include "mechanism/hydraulics/circuit/accumulator.hpp"
+#include "mechanism/hydraulics/circuit/places.hpp"
+#include "mechanism/hydraulics/circuit/volume.hpp"
+#include "mechanism/hydraulics/lines/orifice.hpp"
+#include "mechanism/hydraulics/reading/accumulator_reader.hpp"
+#include "mechanism/hydraulics/reading/line_reader.hpp"
+#include "mechanism/joints/couplings/coordinate_named_by.hpp"
+#include "mechanism/reading/names.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+class CircuitReader {
+ public:
+  CircuitReader(const YamlValue& section, Model& model) : section_(section), model_(model) {
+    section.check_keys(
+        {"ambient_pressure", "fluid", "volumes", "junctions", "supplies", "lines", "accumulators", "machines"},
+        "the hydraulics");
+    read_ambient_pressure(section, fluid_);
+    if (const auto fluid = section.find("fluid")) {
+      fluid->check_keys(fluid_keys(), "a fluid");
+      read_fluid(*fluid, fluid_);
+    }
+  }
+
+  void read() {
+    note_given_pressures();
+    each("volumes", [&](const std::string& name, const YamlValue& entry) { read_volume(name, entry); });
+    if (const auto junctions = section_.find("junctions"))
+      for (const YamlValue& item : junctions->items()) read_junction(item);
+    // Pumps may draw from places that supplies of pressure make.
+    each("supplies", [&](const std::string& name, const YamlValue& entry) {
+      if (!entry.has("flow")) read_supply(name, entry);
+    });
+    if (const auto supplies = section_.find("supplies"))
+      for (const auto& [name, entry] : supplies->entries())
+        if (entry.has("flow")) read_supply(name, entry);
+    each("lines", [&](const std::string& name, const YamlValue& entry) { read_line(name, entry, fluid_, model_); });
+    each("accumulators", [&](const std::string& name, const YamlValue& entry) {
+      read_accumulator(name, entry, {Section::hydraulics, name}, model_);
+    });
+    each("machines", [&](const std::string& name, const YamlValue& entry) { read_machine(name, entry); });
+  }
+
+ private:
+  Entry own(const std::string& name) const { return {Section::hydraulics, name}; }
+
+  /// Names are those of results: one entry each in all of the hydraulics.
+  template <class Read>
+  void each(const char* key, const Read& read) {
+    const auto entries = section_.find(key);
+    if (!entries) return;
+    for (const auto& [name, entry] : entries->entries()) {
+      check_name(name, entry);
+      take(name, entry);
+      read(name, entry);
+    }
+  }
+  void take(const std::string& name, const YamlValue& place) {
+    const auto [found, is_new] = taken_.try_emplace(name, place.path());
+    if (!is_new)
+      place.fail(fmt::format("'{}' is the name of another entry of the hydraulics: {}", name, found->second));
+  }
+
+  /// Supplies of pressure: their places have it, whatever flows.
+  void note_given_pressures() {
+    if (const auto supplies = section_.find("supplies"))
+      for (const auto& [name, entry] : supplies->entries())
+        if (entry.has("pressure") && entry.has("to")) given_.emplace(entry.at("to").text(), name);
+  }
+
+  void read_volume(const std::string& name, const YamlValue& entry) {
+    entry.check_keys({"volume", "pressure", "compliance"}, "a volume");
+    const auto pressure = entry.find("pressure"), compliance = entry.find("compliance"), volume = entry.find("volume");
+    const double V = volume ? volume->non_negative_number() : 0;
+    const double p = pressure ? pressure->number() : fluid_.ambient;
+    if (pressure) check_pressure(*pressure, p);
+    const double c = compliance ? compliance->non_negative_number() : 0;
+    if (const auto given = given_.find(name); given != given_.end()) {
+      entry.doubt(fmt::format("the supply '{}' keeps the pressure of this place: its volume and start do not matter",
+                              given->second));
+      return;  // made by the supply
+    }
+    auto place = std::make_unique<Volume>(name, fluid_, V, p, c);
+    model_.when_read(Model::Stage::connections, [place = place.get(), entry] {
+      if (!(place->drawn() > 0))
+        entry.fail("has no volume, and no chamber opens into it: give `volume` [m^3], or list it under `junctions`");
+    });
+    model_.add(std::move(place), own(name));
+  }
+
+  void check_pressure(const YamlValue& place, double p) const {
+    const double least = fluid_.ambient == 0 ? -Fluid::atmosphere : 0;
+    if (!(p > least)) place.fail(fmt::format("expected a pressure above {:.6g} Pa, which is vacuum", least));
+  }
+
+  void read_junction(const YamlValue& item) {
+    const std::string name = item.text();
+    check_name(name, item);
+    take(name, item);
+    model_.add(std::make_unique<Junction>(name, fluid_, fluid_.ambient), own(name));
+  }
+
+  void read_supply(const std::string& name, const YamlValue& entry) {
+    entry.check_keys({"to", "from", "pressure", "flow"}, "a supply");
+    const auto pressure = entry.find("pressure"), flow = entry.find("flow"), from = entry.find("from");
+    if (pressure.has_value() == flow.has_value()) entry.fail("give `pressure` [Pa] or `flow` [m^3/s]: one of the two");
+    if (flow) {
+      auto source = std::make_unique<FlowSource>(name, from ? &place_named_by(*from, model_) : nullptr,
+                                                 place_named_by(entry.at("to"), model_));
+      model_.when_read(Model::Stage::formulas, [source = source.get(), formula = *flow, this_model = &model_] {
+        source->read(formula, *this_model);
+      });
+      model_.add(std::move(source), own(name));
+      return;
+    }
+    if (from) from->fail("belongs to a supply of flow");
+    std::string place = name;
+    if (const auto to = entry.find("to")) {
+      place = to->text();
+      check_name(place, *to);
+      if (const auto other = supplied_.find(place); other != supplied_.end())
+        to->fail(fmt::format("the supply '{}' gives it a pressure already", other->second));
+      supplied_.emplace(place, name);
+      if (!model_.components_of(own(place)).empty())
+        to->fail(fmt::format(
+            "'{}' exists and is no volume: a supply of pressure makes its place, or takes one of the volumes", place));
+    }
+    auto source = std::make_unique<PressureSource>(place, fluid_);
+    model_.when_read(Model::Stage::formulas, [source = source.get(), formula = *pressure, this_model = &model_] {
+      source->read(formula, *this_model);
+    });
+    model_.add(std::move(source), own(place));
+  }
+
+  void read_machine(const std::string& name, const YamlValue& entry) {
+    entry.check_keys({"joint", "from", "to", "displacement", "setting", "leakage", "drag"}, "a machine");
+    Machine::Data data{entry.at("displacement").positive_number()};
+    if (const auto leakage = entry.find("leakage")) data.leakage = leakage->non_negative_number();
+    if (const auto drag = entry.find("drag")) data.drag = drag->non_negative_number();
+    const YamlValue to = entry.at("to");
+    const PressureNode &a = place_named_by(entry.at("from"), model_), &b = place_named_by(to, model_);
+    if (&a == &b) to.fail("a machine moves fluid from one place to another");
+    model_.when_read(Model::Stage::connections, [name, entry, data, &a, &b, model = &model_] {
+      const NamedCoordinate shaft = coordinate_named_by(entry.at("joint"), *model);
+      auto machine = std::make_unique<Machine>(name, *shaft.joint, shaft.index, a, b, data);
+      if (const auto setting = entry.find("setting"))
+        model->when_read(Model::Stage::formulas, [machine = machine.get(), setting = *setting, model] {
+          machine->read_setting(setting, *model);
+        });
+      model->add(std::move(machine), {Section::hydraulics, name});
+    });
+  }
+
+  const YamlValue& section_;
+  Model& model_;
+  Fluid fluid_;
+  std::map<std::string, std::string> taken_;     ///< path of each name
+  std::map<std::string, std::string> given_;     ///< places of given pressure, and the supply of each
+  std::map<std::string, std::string> supplied_;  ///< those that are made
+};
+
+}  // namespace
+
+std::vector<std::string> circuit_types() {
+  std::vector<std::string> types = line_types();
+  for (const char* type : {"volume", "supply", "accumulator", "machine"}) types.emplace_back(type);
+  return types;
+}
+
+void read_hydraulics(const YamlValue& section, Model& model) { CircuitReader(section, model).read(); }
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,21 @@
+// The section `hydraulics` of a mechanism file: circuits that actuators share.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mechanism/hydraulics/circuit/fluid.hpp"
+#include "mechanism/model/model.hpp"
+#include "reduce/common/yaml_file.hpp"
+
+namespace bielle::mechanism {
+
+/// Reads places (volumes, junctions, supplies) and what joins them (lines, accumulators, machines). Call before
+/// elements are read: actuators name places.
+/// @throws InputError
+void read_hydraulics(const YamlValue& section, Model& model);
+
+/// Types of entries: volume, supply, accumulator, machine, and those of lines.
+std::vector<std::string> circuit_types();
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,33 @@
+// Lines of a circuit in input files: `name: {from, to, <type>: {...}}`.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "mechanism/hydraulics/circuit/fluid.hpp"
+#include "mechanism/model/model.hpp"
+#include "reduce/common/yaml_file.hpp"
+
+namespace bielle::mechanism {
+
+/// Types of lines, each the key that makes it: orifice, laminar, check, relief, ...
+std::vector<std::string> line_types();
+
+/// Reads one line. Its places are looked up when all entries are there. @throws InputError
+void read_line(const std::string& name, const YamlValue& entry, const Fluid& fluid, Model& model);
+
+class SpoolValve;
+class PressureNode;
+/// The four-port valve of `servo_valve` or of an actuator: coefficient, area or areas, overlap, command, its dynamics.
+/// @param places  P, T, A, B
+SpoolValve& add_servo_valve(const std::string& name, const YamlValue& entry,
+                            const std::array<const PressureNode*, 4>& places, const Fluid& fluid, const Entry& own,
+                            Model& model);
+/// Its keys.
+std::vector<std::string> servo_valve_keys();
+/// A relief valve: `pressure`, `range`, `area`, ...
+void add_relief(const std::string& name, const YamlValue& entry, const PressureNode& from, const PressureNode& to,
+                const Fluid& fluid, const Entry& own, Model& model);
+
+}  // namespace bielle::mechanism

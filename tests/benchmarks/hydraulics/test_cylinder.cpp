@@ -1,0 +1,122 @@
+// A cylinder and a mass against independent solutions of the textbook equations
+//     m vdot = A_1 p_1 - A_2 p_2 - c v - F,   V_k pdot_k = B (Q_k -+ A_k v),   Q = C_d A sqrt(2 |D|/rho) sign(D)
+// by scipy's Radau (1e-11) and DOP853 (1e-12), which agree to 1e-12: B = 1.4e9 Pa, rho = 850 kg/m^3, C_d = 0.62,
+// m = 500 kg, pressures relative to the atmosphere.
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "tests/benchmarks/hydraulics/hydraulic_runs.hpp"
+#include "tests/support/second_order.hpp"
+
+using namespace bielle::mechanism;
+using namespace bielle::test;
+
+namespace {
+
+constexpr double m = 500, g = 9.81;
+
+/// The mass along z above the ground. @param actuator  further keys
+std::string lift(const std::string& actuator, const std::string& node = "", double gravity = 0) {
+  return fmt::format(
+      "gravity: [0, 0, {}]\n"
+      "nodes:\n  mass: {{position: [0, 0, 1], fixed: [x, y, rx, ry, rz]{}}}\n"
+      "elements:\n  load: {{type: point_mass, node: mass, mass: {}}}\n"
+      "  jack: {{type: hydraulic_actuator, nodes: [ground, mass], ambient_pressure: 0, bulk_modulus: 1.4e9, {}}}\n",
+      -gravity, node, m, actuator);
+}
+
+const std::string single_acting = lift(
+    fmt::format("piston_areas: [2e-3, 0], dead_volumes: [1e-3, 0], stroke: [1, 1.5], pressures: [{:.17g}], friction: "
+                "{{viscous: 2000}}, supply: {{pressure: 10e6, tank: 0}}, valve: {{coefficient: 0.62, density: 850, "
+                "diameter: 2e-3, command: 1, transition_pressure: 10}}",
+                m* g / 2e-3),
+    "", g);
+
+/// The volume of the rod side is given where the piston starts: 0.8e-3 m^3 less what the stroke ahead takes.
+const std::string double_acting_cylinder =
+    "piston_areas: [2e-3, 1.2e-3], dead_volumes: [1e-3, 0.2e-3], stroke: [1, 1.5]";
+
+const std::string valve_opens =
+    lift(double_acting_cylinder +
+         ", pressures: [6e6, 10e6], leakage: 1e-12, friction: {viscous: 1500}, supply: {pressure: 21e6, tank: 0.1e6}, "
+         "valve: "
+         "{coefficient: 0.62, density: 850, area: 5e-6, command: \"min(t/0.01, 1)\", transition_pressure: 10}");
+
+const std::vector<std::string> quantities = {"elements/jack/length", "elements/jack/rate", "elements/jack/pressure"};
+
+}  // namespace
+
+TEST_CASE("a single-acting cylinder lifts a mass as its equations say") {
+  const std::vector<double> exact = {1 + .012698553260, .147797457195, 1890390.086};  // t = 0.1
+  check_second_order(
+      [&](double h) {
+        const std::vector<double> found = at_end(single_acting, {.h = h, .end = 0.1}, quantities);
+        return Eigen::Vector3d((found[0] - exact[0]) / 0.01, (found[1] - exact[1]) / 0.1, (found[2] - exact[2]) / 1e6);
+      },
+      1e-3, 3);
+}
+
+TEST_CASE("a single-acting cylinder comes to the speed of the orifice formula") {
+  // A v = K sqrt(p_s - (m g + c v)/A)
+  const std::vector<double> found = at_end(single_acting, {.h = 2e-3, .end = 2}, quantities);
+  CHECK(found[0] == Approx(1.256961663454).epsilon(2e-5));
+  CHECK(found[1] == Approx(.128672205988).epsilon(1e-8));
+  CHECK(found[2] == Approx(2581172.206).epsilon(1e-7));
+}
+
+TEST_CASE("a double-acting cylinder answers its opening valve as its equations say") {
+  // t = 0.1; the ramp of the command ends at a step. The edges of the valve open smoothly over a thousandth of their
+  // opening (lines/spool_valve.hpp), which delays the flow by 0.1e-6 of the ramp's time.
+  const std::vector<double> exact = {1 + .0294966731304, .280457879467, 3282417.615, 6697483.573};
+  check_second_order(
+      [&](double h) {
+        const std::vector<double> found = at_end(valve_opens, {.h = h, .end = 0.1}, quantities);
+        return Eigen::Vector4d((found[0] - exact[0]) / 0.01, (found[1] - exact[1]) / 0.1, (found[2] - exact[2]) / 1e6,
+                               (found[3] - exact[3]) / 1e6);
+      },
+      5e-4, 3);
+}
+
+TEST_CASE("a double-acting cylinder moves steadily at the speed of its valve and leakage") {
+  const std::vector<double> found = at_end(valve_opens, {.h = 1e-3, .end = 1}, quantities);
+  CHECK(found[0] == Approx(1.3095477330726).epsilon(1e-5));
+  CHECK(found[1] == Approx(.311514918002).epsilon(1e-7));
+  CHECK(found[2] == Approx(3957136.373).epsilon(1e-6));
+  CHECK(found[3] == Approx(6205833.641).epsilon(1e-6));
+}
+
+TEST_CASE("trapped oil is a spring: period and turning points of a blocked cylinder") {
+  // p = p_0 - B ln(V/V_0) gives a potential, hence the turning points; the period by DOP853.
+  const std::string blocked = lift(double_acting_cylinder + ", pressures: [6e6, 10e6]", ", velocity: [0, 0, 0.1]");
+  constexpr double period = .049304523, h = period / 800;
+  double highest = -1, lowest = 1, before = 0, time_before = 0;
+  std::vector<double> turns;
+  run_hydraulics(blocked, {.h = h, .end = 2.2 * period, .rho = 1}, [&](const Session& session) {
+    const double x = session.read("elements/jack/length")[0] - 1, v = session.read("elements/jack/rate")[0];
+    highest = std::max(highest, x);
+    lowest = std::min(lowest, x);
+    if (before * v < 0) turns.push_back(time_before + (session.time() - time_before) * before / (before - v));
+    before = v;
+    time_before = session.time();
+  });
+  REQUIRE(turns.size() >= 4);
+  CHECK(turns[2] - turns[0] == Approx(period).epsilon(3e-5));
+  CHECK(highest == Approx(7.8479969463e-4).epsilon(3e-5));
+  CHECK(lowest == Approx(-7.8461213445e-4).epsilon(3e-5));
+}
+
+TEST_CASE("a rigid volume fills through an orifice and through a laminar line by closed forms") {
+  // p = p_s - (sqrt(p_s) - B K t/(2 V))^2, half the time to fill; 1 - exp(-t/tau), tau = V/(B G).
+  const std::string filling =
+      "hydraulics:\n  ambient_pressure: 0\n  fluid: {bulk_modulus: 1.4e9, density: 850}\n"
+      "  volumes: {a: {volume: 1e-3, pressure: 0}, b: {volume: 1e-3, pressure: 0}}\n"
+      "  supplies: {pump: {pressure: 10e6}}\n"
+      "  lines:\n    hole: {from: pump, to: a, orifice: {coefficient: 0.62, diameter: 2e-3, transition_pressure: 1}}\n"
+      "    gap: {from: pump, to: b, laminar: {conductance: 1e-11}}\n";
+  constexpr double full = .047813976397, tau = .0714285714285714;
+  const std::vector<double> found =
+      at_end(filling, {.h = full / 400, .end = full / 2, .rho = 1}, {"hydraulics/a/pressure", "hydraulics/b/pressure"});
+  CHECK(found[0] == Approx(7.5e6).epsilon(1e-5));
+  CHECK(found[1] == Approx(10e6 * -std::expm1(-full / 2 / tau)).epsilon(1e-5));
+}

@@ -1,0 +1,290 @@
+// Samples of hydraulics: places, lines, accumulators, machines, cylinders. The fluid is soft (B = 1e5 Pa) and volumes
+// are large, so that pressures, flows and spaces of order one change each other by as much.
+//
+// None keeps an account of power by itself: what a cylinder takes from the motion stands in the energy of the fluid,
+// which is another component's. Circuits as a whole balance (tests/benchmarks/hydraulics).
+#include "tests/laws/sample.hpp"
+
+namespace bielle::laws {
+namespace {
+
+using mechanism::Section;
+
+const std::string soft =
+    "  ambient_pressure: 0\n"
+    "  fluid: {bulk_modulus: 1e5, density: 1e4, viscosity: 30, air_fraction: 0.1, air_exponent: 1.3}\n";
+
+/// Two nodes far enough apart for a cylinder, a hinge between them, and places of the circuit.
+std::string circuit(const std::string& text, const std::string& fluid = soft) {
+  return R"yaml(
+nodes:
+  a: {position: [0.3, 0.1, -0.2], rotation_vector: [0.3, -0.5, 0.8]}
+  b: {position: [1.1, 0.5, 1.4], rotation_vector: [-0.7, 0.2, 0.4]}
+joints:
+  axle: {type: hinge, nodes: [a, b], position: [0.5, 0.2, 0.1], axis: [1, 2, 3]}
+hydraulics:
+)yaml" + fluid +
+         "  volumes:\n    p: {volume: 5, pressure: 1}\n    t: {volume: 6, pressure: 0}\n"
+         "    x: {volume: 7, pressure: -1}\n" +
+         text;
+}
+
+Sample part(const std::string& section, const std::string& type, const std::string& variant, const std::string& model,
+            std::vector<BadValue> bad) {
+  Sample sample{Section::hydraulics, type, variant, model, std::move(bad)};
+  sample.place = "hydraulics." + section;
+  sample.has_no_power = true;
+  return sample;
+}
+
+Sample line(const std::string& type, const std::string& variant, const std::string& keys, std::vector<BadValue> bad,
+            const std::string& fluid = soft) {
+  bad.push_back({"from", "q", "no place of the hydraulics"});
+  bad.push_back({"to", "p", "from one place to another"});
+  bad.push_back({type, "", "a line is one of"});
+  return part("lines", type, variant,
+              circuit("  lines:\n    it: {from: p, to: t, " + type + ": {" + keys + "}}\n", fluid), std::move(bad));
+}
+
+const std::vector<BadValue> bad_orifice = {{"coefficient", "1.2", "up to 1"}, {"density", "0", "greater than 0"}};
+
+std::vector<BadValue> within(const std::string& type, const std::vector<BadValue>& list) {
+  std::vector<BadValue> bad;
+  for (const BadValue& each : list) bad.push_back({type + "." + each.key, each.value, each.says});
+  for (const BadValue& each : bad_orifice) bad.push_back({type + "." + each.key, each.value, each.says});
+  return bad;
+}
+
+const std::string law = "coefficient: 0.7, density: 1.5";
+const std::string conserving =
+    "  ambient_pressure: 0\n  fluid: {bulk_modulus: 1e5, density: 1, conserves: mass, vapour_pressure: 5000}\n";
+
+/// One whose opening follows rests closed at the reference, on the kink of what cannot be less than closed.
+Sample following(Sample sample) {
+  sample.scales.kinks_unloaded = true;
+  return sample;
+}
+
+std::vector<Sample> lines() {
+  return {
+      line("orifice", "area by a formula", law + ", area: \"0.3 + 0.1*sin(axle.angle + t)\", transition_pressure: 2",
+           within("orifice",
+                  {{"area", "axle.angel", "did you mean 'angle'"}, {"transition_pressure", "0", "greater than 0"}})),
+      line("orifice", "by Reynolds number", law + ", diameter: 0.5, transition_reynolds: 1e-2",
+           within("orifice", {{"diameter", "-1", "greater than 0"}, {"transition_reynolds", "0", "greater than 0"}}),
+           conserving),
+      line("laminar", "", "conductance: 0.3", {{"laminar.conductance", "0", "greater than 0"}}),
+      line("laminar", "a gap", "length: 2, diameter: 3",
+           {{"laminar.length", "", "length"}, {"laminar.diameter", "0", "greater than 0"}}, conserving),
+      line("check", "", law + ", area: 0.4, pressure: 0.2, range: 3, transition_pressure: 2",
+           within("check", {{"area", "0", "greater than 0"},
+                            {"pressure", "-1", "at least 0"},
+                            {"range", "0", "greater than 0"},
+                            {"transition_pressure", "0", "greater than 0"}})),
+      following(line("relief", "that follows",
+                     law + ", diameter: 0.4, pressure: 0.2, range: 3, time_constant: 0.7, transition_reynolds: 0.1",
+                     within("relief", {{"diameter", "0", "greater than 0"},
+                                       {"pressure", "0", "greater than 0"},
+                                       {"range", "0", "greater than 0"},
+                                       {"time_constant", "0", "greater than 0"},
+                                       {"transition_reynolds", "0", "greater than 0"}}))),
+      line("relief", "vented", law + ", area: 0.4, pressure: 0.2, range: 5, vented: true, transition_pressure: 1",
+           within("relief", {{"area", "0", "greater than 0"},
+                             {"pressure", "0", "greater than 0"},
+                             {"range", "0", "greater than 0"},
+                             {"vented", "often", ""},
+                             {"transition_pressure", "0", "greater than 0"}})),
+      following(line("counterbalance", "",
+                     law + ", area: 0.4, pressure: 0.1, pilot: x, pilot_ratio: 0.7, range: 5, check_pressure: 0.3, "
+                           "time_constant: 0.3, "
+                           "transition_pressure: 2",
+                     within("counterbalance", {{"area", "0", "greater than 0"},
+                                               {"pressure", "0", "greater than 0"},
+                                               {"pilot", "y", "no place"},
+                                               {"pilot_ratio", "0", "greater than 0"},
+                                               {"range", "0", "greater than 0"},
+                                               {"check_pressure", "-1", "at least 0"},
+                                               {"time_constant", "0", "greater than 0"},
+                                               {"transition_pressure", "0", "greater than 0"}}))),
+      line("flow_valve", "", "flow: \"0.3 + 0.1*axle.angle.rate^2 + 0.1*t\", pressure: 3",
+           {{"flow_valve.flow", "", "flow"}, {"flow_valve.pressure", "0", "greater than 0"}}),
+      line("valve", "second order",
+           law + ", area: 0.5, overlap: -0.3, command: \"0.3*axle.angle + 0.01*t\", frequency: 0.4, damping: 0.6, "
+                 "transition_pressure: 1",
+           within("valve", {{"area", "0", "greater than 0"},
+                            {"overlap", "1", "between -1 and 1"},
+                            {"command", "axle.angel", "did you mean"},
+                            {"frequency", "0", "greater than 0"},
+                            {"damping", "-1", "at least 0"},
+                            {"transition_pressure", "0", "greater than 0"}})),
+      line("pipe", "",
+           "length: 3, diameter: 2, roughness: 0.01, cells: 2, pressure: 0, wall: {thickness: 0.1, young: 1e6}",
+           {{"pipe.length", "0", "greater than 0"},
+            {"pipe.diameter", "0", "greater than 0"},
+            {"pipe.roughness", "1", "well below"},
+            {"pipe.cells", "0", "1 to 10000"},
+            {"pipe.pressure", "", "pressure"},
+            {"pipe.wall.thickness", "0", "greater than 0"},
+            {"pipe.wall.young", "0", "greater than 0"}}),
+  };
+}
+
+Sample servo_valve(const std::string& variant, const std::string& keys, std::vector<BadValue> bad) {
+  for (const BadValue& each : std::vector<BadValue>{{"ports", "", "ports"},
+                                                    {"ports.P", "", "P"},
+                                                    {"ports.T", "p", "another port"},
+                                                    {"ports.A", "nowhere", "no place"},
+                                                    {"ports.B", "nowhere", "no place"},
+                                                    {"servo_valve", "", "a line is one of"}})
+    bad.push_back(each);
+  return part("lines", "servo_valve", variant,
+              circuit("    b: {volume: 4, pressure: 2}\n  lines:\n    it: {ports: {P: p, T: t, A: x, B: b}, "
+                      "servo_valve: {" +
+                      keys + "}}\n"),
+              std::move(bad));
+}
+
+std::vector<Sample> places() {
+  std::vector<Sample> list = {
+      part("volumes", "volume", "", circuit("    it: {volume: 5, pressure: 1, compliance: 3e-5}\n"),
+           {{"volume", "-1", "at least 0"}, {"pressure", "-2e5", "vacuum"}, {"compliance", "-1", "at least 0"}}),
+      part("volumes", "volume", "without air", circuit("    it: {volume: 5, pressure: 3e4}\n", conserving),
+           {{"volume", "0", "has no volume"}, {"pressure", "-2e5", "vacuum"}}),
+      part("supplies", "supply", "pressure", circuit("  supplies:\n    it: {pressure: \"1 + axle.angle + t\"}\n"),
+           {{"pressure", "", "one of the two"}}),
+      part("supplies", "supply", "flow",
+           circuit("  supplies:\n    it: {to: p, from: t, flow: \"1 + axle.angle.rate + t\"}\n"),
+           {{"to", "", "to"}, {"from", "nowhere", "no place"}, {"flow", "", "one of the two"}}),
+      part("accumulators", "accumulator", "",
+           circuit("  accumulators:\n    it: {at: p, gas_volume: 3, precharge: -5, exponent: 1.3}\n"),
+           {{"at", "nowhere", "no place"},
+            {"gas_volume", "0", "greater than 0"},
+            {"precharge", "-2e5", "vacuum"},
+            {"exponent", "3", "nitrogen"}}),
+      part("machines", "machine", "",
+           circuit("  machines:\n    it: {joint: axle, from: p, to: t, displacement: 0.3, setting: \"0.7 + "
+                   "0.1*sin(axle.angle + axle.angle.rate)\", leakage: 0.2, drag: 0.4}\n"),
+           {{"joint", "axel", "did you mean"},
+            {"from", "nowhere", "no place"},
+            {"to", "p", "from one place to another"},
+            {"displacement", "0", "greater than 0"},
+            {"setting", "axle.angel", "did you mean"},
+            {"leakage", "-1", "at least 0"},
+            {"drag", "-1", "at least 0"}}),
+  };
+  return list;
+}
+
+const std::string soft_keys =
+    "ambient_pressure: 0, bulk_modulus: 1e5, density: 1e4, viscosity: 30, air_fraction: 0.1, air_exponent: 1.3";
+
+Sample cylinder(const std::string& variant, const std::string& keys, std::vector<BadValue> bad,
+                const std::string& hydraulics = "") {
+  bad.push_back({"nodes", "[a, a]", "two different nodes"});
+  bad.push_back({"at", "[[0, 0, 0]]", "expected two points"});
+  bad.push_back({"stroke", "[2, 1]", "the shortest distance first"});
+  Sample sample{Section::elements, "hydraulic_actuator", variant, circuit(hydraulics), std::move(bad)};
+  sample.model +=
+      "elements:\n  it: {type: hydraulic_actuator, nodes: [a, b], at: [[0.1, 0, 0.2], [0, 0.2, 0.1]], stroke: "
+      "[0.5, 2.5], " +
+      keys + "}\n";
+  sample.has_no_power = true;
+  return sample;
+}
+
+std::vector<Sample> cylinders() {
+  return {
+      cylinder(
+          "circuit of its own",
+          soft_keys +
+              ", vapour_pressure: 900, conserves: volume, piston_areas: [1.2, 0.7], dead_volumes: [3, 4], pressures: "
+              "[1.1, 0.9], leakage: 0.1, external_leakage: [0.1, 0.2], compliances: [1e-5, 0], friction: {viscous: "
+              "0.3, "
+              "coulomb: 0.4, static: 0.6, stribeck_velocity: 0.8, velocity: 0.5}, end_stops: {stiffness: 20, damping: "
+              "3}, "
+              "supply: {pressure: 3, tank: 1}, valve: {area: 0.1, coefficient: 0.6, density: 800, command: 0.5, "
+              "overlap: 0.1, time_constant: 0.1, transition_pressure: 3}, relief: {pressure: 1, area: 0.2}, "
+              "accumulator: "
+              "{gas_volume: 1, precharge: 1, exponent: 1.2}, cushions: {lengths: [0.1, 0.1], areas: [0.01, 0.02], "
+              "port_area: 0.1}",
+          {{"ambient_pressure", "-1", "at least 0"},
+           {"bulk_modulus", "0", "greater than 0"},
+           {"density", "0", "greater than 0"},
+           {"viscosity", "0", "greater than 0"},
+           {"air_fraction", "1", "less than 1"},
+           {"air_exponent", "3", "isothermal"},
+           {"vapour_pressure", "1e5", "well below"},
+           {"conserves", "energy", "what flows conserve"},
+           {"piston_areas", "[0, 1]", "greater than 0"},
+           {"dead_volumes", "[-1, 0]", "below 0"},
+           {"pressures", "[-2e5, 0]", "vacuum"},
+           {"leakage", "-1", "at least 0"},
+           {"external_leakage", "[-1, 0]", "below 0"},
+           {"compliances", "[-1, 0]", "below 0"},
+           {"friction.viscous", "-1", "at least 0"},
+           {"friction.coulomb", "-1", "at least 0"},
+           {"friction.static", "0.1", "no less than"},
+           {"friction.stribeck_velocity", "", "needs a `stribeck_velocity`"},
+           {"friction.velocity", "0", "greater than 0"},
+           {"end_stops.stiffness", "0", "greater than 0"},
+           {"end_stops.damping", "-1", "at least 0"},
+           {"supply.pressure", "", "one of the two"},
+           {"supply.tank", "no", ""},
+           {"valve.area", "", "needs an `area`"},
+           {"valve.coefficient", "2", "up to 1"},
+           {"valve.density", "0", "greater than 0"},
+           {"valve.command", "1.2", "from -1 to 1"},
+           {"valve.overlap", "2", "between -1 and 1"},
+           {"valve.time_constant", "0", "greater than 0"},
+           {"valve.transition_pressure", "0", "greater than 0"},
+           {"relief.pressure", "0", "greater than 0"},
+           {"relief.area", "", "needs an `area`"},
+           {"accumulator.gas_volume", "0", "greater than 0"},
+           {"accumulator.precharge", "-2e5", "vacuum"},
+           {"accumulator.exponent", "3", "isothermal"},
+           {"cushions.lengths", "[3, 1]", "longer than the stroke"},
+           {"cushions.areas", "[1, 1]", "smaller than"},
+           {"cushions.port_area", "0", "greater than 0"}}),
+      cylinder("telescopic, in a circuit",
+               "stages: [{piston_areas: [1.5, 0.4], length: 0.8}, {piston_areas: [0.9, 0.2], length: 1.2}], "
+               "dead_volumes: [2, "
+               "3], ports: [p, t]",
+               {{"stages", "[{piston_areas: [1, 1], length: 1}]", "m long together"},
+                {"stages.0.piston_areas", "[1, 2, 3]", "expected [A1, A2]"},
+                {"stages.1.length", "0", "greater than 0"},
+                {"dead_volumes", "[1, 2, 3]", "two numbers"},
+                {"ports", "[p]", "two places"}}),
+      cylinder("single-acting, against a given pressure",
+               "piston_areas: [1.5, 0.5], dead_volumes: [2, 0], ports: [p, tank]",
+               {{"piston_areas", "[]", "expected [A1, A2]"},
+                {"dead_volumes", "[1, 2, 3]", "two numbers"},
+                {"ports", "[p, p]", "the same place"}},
+               "  supplies: {tank: {pressure: 0}}\n"),
+  };
+}
+
+}  // namespace
+
+std::vector<Sample> hydraulic_samples() {
+  std::vector<Sample> list = lines();
+  for (const Sample& sample :
+       {servo_valve("first order",
+                    law +
+                        ", areas: [0.3, 0.4, 0.5, 0.6], overlap: 0.17, command: \"0.3*axle.angle\", time_constant: 0.3, "
+                        "transition_pressure: 1",
+                    within("servo_valve", {{"areas", "[1, 2, 3]", "P-A"},
+                                           {"overlap", "1", "between -1 and 1"},
+                                           {"command", "", "command"},
+                                           {"time_constant", "0", "greater than 0"},
+                                           {"transition_pressure", "0", "greater than 0"}})),
+        servo_valve("without dynamics", "area: 0.4, command: \"0.5 + 0.4*sin(axle.angle.rate)\", transition_pressure: 1",
+                    {{"servo_valve.area", "", "needs an `area`"},
+                     {"servo_valve.command", "2", "from -1 to 1"},
+                     {"servo_valve.transition_pressure", "0", "greater than 0"}})})
+    list.push_back(sample);
+  for (const auto& more : {places, cylinders})
+    for (Sample& sample : more()) list.push_back(std::move(sample));
+  return list;
+}
+
+}  // namespace bielle::laws
