@@ -75,8 +75,8 @@ void Cylinder::declare(Declaration& declaration) const {
   declaration.stiffness = true;
   declaration.damping = geometry_.friction || geometry_.stop_damping > 0;
   declaration.mass = tank_.has_value();  // the row of a start that follows from the load
-  declaration.starts_by_state = true;
-  declaration.memory = {0, 0, 0};
+  declaration.starts_by_state = tank_.has_value();
+  declaration.memory = {0, 0};
   if (geometry_.stop_stiffness == 0) return;
   declaration.kinks = true;  // where the damper of a stop lets go
   declaration.crossings = {{"the long end of its stroke is reached"}, {"the short end of its stroke is reached"}};
@@ -189,12 +189,9 @@ void Cylinder::add_energy(const LocalState& state, Energy& energy) const {
 // -- start
 
 void Cylinder::add_start_values(const LocalState& state, Eigen::Ref<VectorX> change) const {
-  if (state.memory()[memory_begun] != 0) return;
-  const double l = length(state).value;
-  for (std::size_t k = 0; k < chambers_.size(); ++k)
-    if (const int row = space_row(state, k); row >= 0) change[row] += chambers_[k].space.at(l).V;
   constexpr double unknown = -1;  // where the search for it begins, see Volume
   if (!waits(state) || chamber_pressure(state, 0) == unknown) return;
+  const double l = length(state).value;
   std::vector<double> p(chambers_.size(), *tank_);
   p[0] = chamber_pressure(state, 0);
   if (p[0] < *tank_ && chambers_.size() > 1) {
@@ -220,8 +217,6 @@ void Cylinder::add_start_values(const LocalState& state, Eigen::Ref<VectorX> cha
 void Cylinder::begin_motion(const LocalState& state, bool /*known*/, Eigen::Ref<VectorX> memory) const {
   memory[memory_length] = length(state).value;
 }
-
-void Cylinder::accept(const LocalState& /*state*/, Eigen::Ref<VectorX> memory) const { memory[memory_begun] = 1; }
 
 // -- stops
 

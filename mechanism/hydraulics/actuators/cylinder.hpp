@@ -43,7 +43,6 @@ class Cylinder final : public Component {
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   void add_energy(const LocalState& state, Energy& energy) const override;
   void add_start_values(const LocalState& state, Eigen::Ref<VectorX> change) const override;
-  void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
   void begin_motion(const LocalState& state, bool known, Eigen::Ref<VectorX> memory) const override;
   void begin_branch(const LocalState& state, std::span<const int> crossed, Eigen::Ref<VectorX> memory) const override;
   bool leaves_branch(const LocalState& state) const override;
@@ -61,7 +60,7 @@ class Cylinder final : public Component {
 
  private:
   friend class CylinderMeasure;
-  enum { memory_side, memory_begun, memory_length };
+  enum { memory_side, memory_length };  ///< of a stop; of the length at which it begins
   struct Chamber {
     ChamberSpace space;
   };

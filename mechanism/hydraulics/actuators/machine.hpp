@@ -13,6 +13,8 @@
 #include "mechanism/hydraulics/circuit/ports.hpp"
 #include "mechanism/joints/actions/coordinate_action.hpp"
 #include "mechanism/measures/state_formula.hpp"
+#include "mechanism/model/model.hpp"
+#include "reduce/common/yaml_file.hpp"
 
 namespace bielle::mechanism {
 

@@ -15,15 +15,13 @@ Accumulator::Accumulator(std::string name, Volume& volume, double gas_volume, do
       precharge_(precharge),
       exponent_(exponent) {
   references_.add(volume);
-  volume.add_room(gas_volume);
+  volume.add_room([this](double p) { return space(p).V; });
 }
 
 void Accumulator::declare(Declaration& declaration) const {
   references_.declare(declaration);
   declaration.stiffness = true;
   declaration.kinks = true;  // at the precharge
-  declaration.starts_by_state = true;
-  declaration.memory = {0};  // whether it has begun
 }
 
 Accumulator::Space Accumulator::space(double p) const {
@@ -46,13 +44,6 @@ void Accumulator::add_pattern(const Slots& slots, LocalPattern& pattern) const {
   const int row = slots.reference_row(0);
   pattern.add_block(row + Volume::space_row, row + Volume::pressure_row, 1, 1);
 }
-
-void Accumulator::add_start_values(const LocalState& state, Eigen::Ref<VectorX> change) const {
-  if (state.memory()[0] != 0) return;
-  change[state.slots().reference_row(0) + Volume::space_row] += space(volume_.pressure(state.of(0))).V;
-}
-
-void Accumulator::accept(const LocalState& /*state*/, Eigen::Ref<VectorX> memory) const { memory[0] = 1; }
 
 // The work of the gas from its precharge on, less that of the atmosphere.
 void Accumulator::add_energy(const LocalState& state, Energy& energy) const {

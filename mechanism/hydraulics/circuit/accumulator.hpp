@@ -19,8 +19,6 @@ class Accumulator final : public Component {
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   void add_pattern(const Slots& slots, LocalPattern& pattern) const override;
-  void add_start_values(const LocalState& state, Eigen::Ref<VectorX> change) const override;
-  void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
   void add_energy(const LocalState& state, Energy& energy) const override;
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;

@@ -56,6 +56,7 @@ class Fluid {
     const Ratio r = ratio(p);
     return -r.v / r.v_p;
   }
+  double vacuum() const { return ambient == 0 ? -atmosphere : 0; }  ///< the user's pressure of an absolute zero [Pa]
   std::string describe() const;
 
  private:

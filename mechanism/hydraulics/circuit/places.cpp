@@ -49,8 +49,6 @@ void PressureSource::declare(Declaration& declaration) const {
   declaration.stiffness = true;
   declaration.damping = formula_.reads_state();
   declaration.reads_reactions = formula_.reads_reactions();
-  declaration.starts_by_state = true;
-  declaration.memory = {0};  // whether it has begun
 }
 
 double PressureSource::given(const LocalState& state) const {
@@ -75,12 +73,6 @@ void PressureSource::add_tangent(const LocalState& state, LocalTangent& tangent)
   if (tangent.wants_K) tangent.K.dense().row(0) -= gradient.by_state.position().transpose();
   if (tangent.wants_C) tangent.C.dense().row(0) -= gradient.by_state.rate().transpose();
 }
-
-void PressureSource::add_start_values(const LocalState& state, Eigen::Ref<VectorX> change) const {
-  if (state.memory()[0] == 0) change[0] += given(state) - pressure(state);
-}
-
-void PressureSource::accept(const LocalState& /*state*/, Eigen::Ref<VectorX> memory) const { memory[0] = 1; }
 
 double PressureSource::power(const LocalState& state) const {
   return -state.first_order()[1] * fluid().head(pressure(state)).e;

@@ -3,7 +3,9 @@
 
 #include "mechanism/hydraulics/circuit/pressure_node.hpp"
 #include "mechanism/measures/state_formula.hpp"
+#include "mechanism/model/model.hpp"
 #include "mechanism/model/references.hpp"
+#include "reduce/common/yaml_file.hpp"
 
 namespace bielle::mechanism {
 
@@ -38,8 +40,6 @@ class PressureSource final : public PressureNode {
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   void add_energy(const LocalState& state, Energy& energy) const override;
-  void add_start_values(const LocalState& state, Eigen::Ref<VectorX> change) const override;
-  void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
   void add_break_points(std::vector<double>& times) const override { formula_.add_break_points(0, times); }
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;

@@ -12,23 +12,32 @@ constexpr double typical_pressure = 1e5;  // [Pa]: what is much smaller does not
 
 }  // namespace
 
-Volume::Volume(std::string name, const Fluid& fluid, double volume, std::optional<double> pressure, double compliance)
-    : PressureNode("volume", std::move(name), fluid, {pressure_row, fluid_row, space_row}),
+Volume::Volume(std::string name, const Fluid& fluid, double volume, std::optional<double> pressure, double compliance,
+               std::string type)
+    : PressureNode(std::move(type), std::move(name), fluid, {pressure_row, fluid_row, space_row}),
       volume_(volume),
       start_(pressure),
       compliance_(compliance),
       drawn_(volume) {}
 
+double Volume::room_at(double pressure) const {
+  double space = compliance_ * (pressure - fluid().ambient);
+  for (const auto& room : rooms_) space += room(pressure);
+  return space;
+}
+
+double Volume::drawn() const { return drawn_ + room_at(start_.value_or(fluid().ambient)); }
+
 void Volume::declare(Declaration& declaration) const {
   // Where the pressure follows from the load a negative value says that the fluid is not known yet.
-  const double begin = start_ ? fluid_at(*start_, drawn_) : -drawn_;
+  const double drawn = this->drawn(), begin = start_ ? fluid_at(*start_, drawn) : -drawn;
   Declaration::Scalar fluid_content{"fluid", "m^3", begin};
-  fluid_content.scale = drawn_ * typical_pressure / fluid().bulk_modulus;
+  fluid_content.scale = drawn * typical_pressure / fluid().bulk_modulus;
   fluid_content.equation_units = "m^3/s";
   Declaration::Scalar pressure{"pressure", "Pa", start_.value_or(-1)};
   pressure.scale = typical_pressure;
   pressure.algebraic = true;
-  Declaration::Scalar space{"space", "m^3", drawn_};
+  Declaration::Scalar space{"space", "m^3", drawn};
   space.scale = fluid_content.scale;
   space.algebraic = true;
   declaration.first_order = {fluid_content, pressure, space};
@@ -84,13 +93,12 @@ void Volume::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   K(space_row, pressure_row) -= compliance_;
 }
 
+// The space is that of the present pressure, or will be once the equations are solved: what depends on it is exchanged
+// for what it is at the given one. Pressure and space follow then by their equations.
 void Volume::add_start_values(const LocalState& state, Eigen::Ref<VectorX> change) const {
-  if (state.memory()[0] != 0) return;
-  const double p = start_.value_or(pressure(state));
-  change[space_row] += volume_ + compliance_ * (p - fluid().ambient) - space(state);
-  if (!start_) return;
-  change[pressure_row] += p - pressure(state);
-  change[fluid_row] += fluid_at(p, space(state)) - state.first_order()[fluid_row];
+  if (!start_ || state.memory()[0] != 0) return;
+  const double at_start = space(state) - room_at(pressure(state)) + room_at(*start_);
+  change[fluid_row] += fluid_at(*start_, at_start) - state.first_order()[fluid_row];
 }
 
 void Volume::accept(const LocalState& /*state*/, Eigen::Ref<VectorX> memory) const { memory[0] = 1; }

@@ -10,11 +10,17 @@
 // zero: V pdot/B_eff = Q - Vdot follows.
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "mechanism/hydraulics/circuit/pressure_node.hpp"
 
 namespace bielle::mechanism {
+
+/// The type of a volume that is nothing but an end of pipes, and is made of halves of their cells.
+inline constexpr const char* pipe_junction = "junction of pipes";
 
 class Volume final : public PressureNode {
  public:
@@ -22,11 +28,22 @@ class Volume final : public PressureNode {
   /// @param volume      V_0 [m^3]; 0 where chambers alone make it
   /// @param pressure    at the start [Pa]; none: it follows from the load of the actuator whose chamber it is
   /// @param compliance  [m^3/Pa]
-  Volume(std::string name, const Fluid& fluid, double volume, std::optional<double> pressure, double compliance);
+  /// @param type        what the user calls it
+  Volume(std::string name, const Fluid& fluid, double volume, std::optional<double> pressure, double compliance,
+         std::string type = "volume");
 
-  /// While the model is read: a chamber or accumulator that opens into it, with its space as drawn [m^3].
+  /// While the model is read: a chamber that opens into it, with its space as drawn [m^3].
   void add_room(double space) { drawn_ += space; }
-  double drawn() const { return drawn_; }                 ///< V as drawn [m^3]
+  /// The same of what has a space that depends on the pressure alone [m^3]: an accumulator.
+  void add_room(std::function<double(double)> space) { rooms_.push_back(std::move(space)); }
+  /// Likewise: fluid that belongs to it, and by how much its walls give [m^3/Pa] (half a cell of a pipe that ends
+  /// there).
+  void add_volume(double volume, double compliance) {
+    volume_ += volume;
+    drawn_ += volume;
+    compliance_ += compliance;
+  }
+  double drawn() const;                                   ///< V as drawn [m^3], at the pressure of the start
   std::optional<double> start() const { return start_; }  ///< its pressure at the start, if it is given [Pa]
 
   /// Whether its fluid is not known yet: a motion begins, and its pressure follows from the load.
@@ -51,12 +68,15 @@ class Volume final : public PressureNode {
   void describe(const LocalState& state, Description& description) const override;
 
  private:
+  /// What of the space depends on the pressure alone.
+  double room_at(double pressure) const;
   /// p(W/V). @throws ComputationError  nothing is left of the space or of the fluid
   double pressure_by_state(const LocalState& own) const;
   double volume_;
   std::optional<double> start_;
   double compliance_;
-  double drawn_;
+  double drawn_;  ///< without what depends on the pressure
+  std::vector<std::function<double(double)>> rooms_;
 };
 
 }  // namespace bielle::mechanism

@@ -4,10 +4,13 @@
 // with more than two ports has several paths.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "mechanism/hydraulics/circuit/ports.hpp"
+#include "mechanism/model/model.hpp"
+#include "reduce/common/yaml_file.hpp"
 
 namespace bielle::mechanism {
 

@@ -284,7 +284,7 @@ class ActuatorReader {
       const Eigen::VectorXd list = pressures->vector();
       if (list.size() != 2 && list.size() != static_cast<Eigen::Index>(chambers_))
         pressures->fail("expected a pressure [Pa] for each chamber");
-      const double vacuum = fluid_.ambient == 0 ? -Fluid::atmosphere : 0;
+      const double vacuum = fluid_.vacuum();
       for (std::size_t k = 0; k < chambers_; ++k) {
         start[k] = list[static_cast<Eigen::Index>(k)];
         if (!(*start[k] > vacuum))

@@ -34,6 +34,7 @@ class CircuitReader {
 
   void read() {
     note_given_pressures();
+    note_ends_of_pipes();
     each("volumes", [&](const std::string& name, const YamlValue& entry) { read_volume(name, entry); });
     if (const auto junctions = section_.find("junctions"))
       for (const YamlValue& item : junctions->items()) read_junction(item);
@@ -78,6 +79,18 @@ class CircuitReader {
         if (entry.has("pressure") && entry.has("to")) given_.emplace(entry.at("to").text(), name);
   }
 
+  /// Junctions that pipes lead to hold the ends of their fluid, whose inertia a junction without volume could not stop.
+  void note_ends_of_pipes() {
+    const auto lines = section_.find("lines");
+    if (!lines) return;
+    for (const auto& [name, entry] : lines->entries()) {
+      const auto pipe = entry.find("pipe");
+      if (!pipe || !pipe->is_map() || !pipe->has("pressure")) continue;
+      for (const char* end : {"from", "to"})
+        if (const auto place = entry.find(end)) ends_of_pipes_.emplace(place->text(), pipe->at("pressure").number());
+    }
+  }
+
   void read_volume(const std::string& name, const YamlValue& entry) {
     entry.check_keys({"volume", "pressure", "compliance"}, "a volume");
     const auto pressure = entry.find("pressure"), compliance = entry.find("compliance"), volume = entry.find("volume");
@@ -99,7 +112,7 @@ class CircuitReader {
   }
 
   void check_pressure(const YamlValue& place, double p) const {
-    const double least = fluid_.ambient == 0 ? -Fluid::atmosphere : 0;
+    const double least = fluid_.vacuum();
     if (!(p > least)) place.fail(fmt::format("expected a pressure above {:.6g} Pa, which is vacuum", least));
   }
 
@@ -107,7 +120,10 @@ class CircuitReader {
     const std::string name = item.text();
     check_name(name, item);
     take(name, item);
-    model_.add(std::make_unique<Junction>(name, fluid_, fluid_.ambient), own(name));
+    if (const auto pipe = ends_of_pipes_.find(name); pipe != ends_of_pipes_.end())
+      model_.add(std::make_unique<Volume>(name, fluid_, 0, pipe->second, 0, pipe_junction), own(name));
+    else
+      model_.add(std::make_unique<Junction>(name, fluid_, fluid_.ambient), own(name));
   }
 
   void read_supply(const std::string& name, const YamlValue& entry) {
@@ -167,6 +183,7 @@ class CircuitReader {
   std::map<std::string, std::string> taken_;     ///< path of each name
   std::map<std::string, std::string> given_;     ///< places of given pressure, and the supply of each
   std::map<std::string, std::string> supplied_;  ///< those that are made
+  std::map<std::string, double> ends_of_pipes_;  ///< by name, with the pressure of a pipe at the start
 };
 
 }  // namespace

@@ -147,7 +147,16 @@ void read_valve(const LineEntry& line) {
                   line.data, line.own(), line.model);
 }
 
-// Volumes of fluid along the pipe, and segments between them; the first and the last are half as long.
+/// The volume of that name, if the place is one.
+Volume* volume_of(const PressureNode& place, Model& model) {
+  for (Component* component : model.components_of({Section::hydraulics, place.name()}))
+    if (component == &place) return dynamic_cast<Volume*>(component);
+  return nullptr;
+}
+
+// Volumes of fluid along the pipe, and segments between them. A place of its own pressure stands at the end of the
+// first cell, half a segment from its middle; one that is nothing but an end of pipes (a junction) holds half a cell
+// itself.
 void read_pipe(const LineEntry& line) {
   const YamlValue& data = line.data;
   data.check_keys({"length", "diameter", "roughness", "cells", "pressure", "wall"}, "a pipe");
@@ -157,25 +166,34 @@ void read_pipe(const LineEntry& line) {
   if (k >= 0.1 * diameter) roughness->fail("expected a roughness well below the diameter");
   const int n = cells ? cells->integer() : 10;
   if (n < 1 || n > 10000) cells->fail("expected 1 to 10000 volumes along the pipe");
-  const double space = 0.25 * M_PI * diameter * diameter * length / n;
+  const double pressure = data.at("pressure").number(), vacuum = line.fluid.vacuum();
+  if (!(pressure > vacuum))
+    data.at("pressure").fail(fmt::format("expected a pressure above {:.6g} Pa, which is vacuum", vacuum));
+  const std::array<const PressureNode*, 2> ends{&line.from, &line.to};
+  std::array<bool, 2> holds{};
+  for (std::size_t end : {0, 1}) holds[end] = ends[end]->type() == pipe_junction;
+  const double cell = length / (n + 0.5 * holds[0] + 0.5 * holds[1]);
+  const double space = 0.25 * M_PI * diameter * diameter * cell;
   double compliance = 0;
   if (wall) {  // a thin tube that is free to lengthen: dV/V = dp d/(E s)
     wall->check_keys({"thickness", "young"}, "the wall of a pipe");
     compliance = space * diameter / (wall->at("young").positive_number() * wall->at("thickness").positive_number());
   }
-  const double pressure = data.at("pressure").number();
-  const PressureNode* before = &line.from;
+  for (std::size_t end : {0, 1})
+    if (holds[end]) volume_of(*ends[end], line.model)->add_volume(0.5 * space, 0.5 * compliance);
+  const PressureNode* before = ends[0];
   const Entry segments{Section::hydraulics, line.name + ".segments"};
   for (int i = 0; i <= n; ++i) {
-    const PressureNode* after = &line.to;
+    const PressureNode* after = ends[1];
     if (i < n) {
-      auto cell = std::make_unique<Volume>(line.name, line.fluid, space, pressure, compliance);
-      after = cell.get();
-      line.model.add(std::move(cell), line.own(), Recorded::stacked);
+      auto volume = std::make_unique<Volume>(line.name, line.fluid, space, pressure, compliance);
+      after = volume.get();
+      line.model.add(std::move(volume), line.own(), Recorded::stacked);
     }
-    const double part = (i == 0 || i == n ? 0.5 : 1) * length / n;
-    line.model.add(std::make_unique<PipeSegment>(line.name, *before, *after, PipeData{part, diameter, k}), segments,
-                   Recorded::stacked);
+    const bool half = (i == 0 && !holds[0]) || (i == n && !holds[1]);
+    line.model.add(
+        std::make_unique<PipeSegment>(line.name, *before, *after, PipeData{half ? 0.5 * cell : cell, diameter, k}),
+        segments, Recorded::stacked);
     before = after;
   }
 }

@@ -86,6 +86,34 @@ TEST_CASE("a double-acting cylinder moves steadily at the speed of its valve and
   CHECK(found[3] == Approx(6205833.641).epsilon(1e-6));
 }
 
+TEST_CASE("a moving mass is stopped by its closing valve: peak and swing") {
+  // The valve opens within 10 ms and closes from 0.2 to 0.26 s against a tank of 5 MPa, below which p_1 stays positive.
+  // By scipy's DOP853 (1e-12) and Radau (1e-10) of the same equations, edges of the valve and laminar flow below 10 kPa
+  // included; they agree to 1e-11. Peak of p_2 after 0.2 s, then length, rate and pressures at 0.3 s.
+  const std::string stopped =
+      lift(double_acting_cylinder +
+           ", pressures: [6e6, 10e6], leakage: 1e-12, friction: {viscous: 1500}, supply: {pressure: 21e6, tank: 5e6}, "
+           "valve: "
+           "{coefficient: 0.62, density: 850, area: 5e-6, command: \"step(t, 0, 0.01) - step(t, 0.2, 0.26)\", "
+           "transition_pressure: 1e4}");
+  Eigen::VectorXd exact(5);
+  exact << 12151105.026012, 1.0654665995999, -0.039599045554, 4593076.60084, 11083057.86485;
+  check_second_order(
+      [&](double h) {
+        double peak = 0;
+        Eigen::VectorXd found(5);
+        run_hydraulics(stopped, {.h = h, .end = 0.3}, [&](const Session& session) {
+          const std::vector<double> p = session.read("elements/jack/pressure");
+          if (session.time() >= 0.2) peak = std::max(peak, p[1]);
+          found << peak, session.read("elements/jack/length")[0], session.read("elements/jack/rate")[0], p[0], p[1];
+        });
+        Eigen::VectorXd error = found - exact;
+        error.array() /= Eigen::Array<double, 5, 1>(1e7, 0.01, 0.1, 1e7, 1e7);
+        return error;
+      },
+      1e-3, 3, 0.2);
+}
+
 TEST_CASE("trapped oil is a spring: period and turning points of a blocked cylinder") {
   // p = p_0 - B ln(V/V_0) gives a potential, hence the turning points; the period by DOP853.
   const std::string blocked = lift(double_acting_cylinder + ", pressures: [6e6, 10e6]", ", velocity: [0, 0, 0.1]");
