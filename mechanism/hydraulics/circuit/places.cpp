@@ -25,7 +25,19 @@ void Junction::declare(Declaration& declaration) const {
   Declaration::Scalar pressure = pressure_unknown(start_);
   pressure.equation_units = "m^3/s";
   declaration.first_order = {pressure};
+  declaration.stiffness = true;
+  declaration.memory = {start_};
 }
+
+void Junction::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
+  r[0] += holding * (pressure(state) - state.memory()[0]);
+}
+
+void Junction::add_tangent(const LocalState& /*state*/, LocalTangent& tangent) const {
+  if (tangent.wants_K) tangent.K.dense()(0, 0) += holding;
+}
+
+void Junction::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const { memory[0] = pressure(state); }
 
 void Junction::add_pattern(const Slots& /*slots*/, LocalPattern& pattern) const { pattern.add_diagonal(0, 0, 1); }
 

@@ -72,13 +72,13 @@ double Volume::net_flow(const LocalState& own) const {
 
 void Volume::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
   const double p = pressure(state);
-  if (balances(state)) r[fluid_row] += state.first_order_rate()[fluid_row];
+  r[fluid_row] += state.first_order_rate()[fluid_row];
   if (!waits(state)) r[pressure_row] += p - pressure_by_state(state);
   r[space_row] += space(state) - volume_ - compliance_ * (p - fluid().ambient);
 }
 
 void Volume::add_tangent(const LocalState& state, LocalTangent& tangent) const {
-  if (tangent.wants_C && balances(state)) tangent.C.dense()(fluid_row, fluid_row) += 1;
+  if (tangent.wants_C) tangent.C.dense()(fluid_row, fluid_row) += 1;
   if (!tangent.wants_K) return;
   auto K = tangent.K.dense();
   if (!balances(state)) K(fluid_row, fluid_row) += 1;  // it stays as it is

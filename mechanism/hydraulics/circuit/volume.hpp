@@ -43,7 +43,15 @@ class Volume final : public PressureNode {
     drawn_ += volume;
     compliance_ += compliance;
   }
-  double drawn() const;                                   ///< V as drawn [m^3], at the pressure of the start
+  double drawn() const;  ///< V as drawn [m^3], at the pressure of the start
+  /// Likewise: nobody gives its pressure at the start. Where it is the chamber of one cylinder alone, the load decides.
+  void let_load_decide() { load_decides_ = true; }
+  bool load_decides() const { return load_decides_; }
+  /// A cylinder decides.
+  void start_by_load() {
+    start_.reset();
+    load_decides_ = false;
+  }
   std::optional<double> start() const { return start_; }  ///< its pressure at the start, if it is given [Pa]
 
   /// Whether its fluid is not known yet: a motion begins, and its pressure follows from the load.
@@ -75,6 +83,7 @@ class Volume final : public PressureNode {
   double volume_;
   std::optional<double> start_;
   double compliance_;
+  bool load_decides_ = false;
   double drawn_;  ///< without what depends on the pressure
   std::vector<std::function<double(double)>> rooms_;
 };

@@ -66,20 +66,21 @@ void PipeSegment::calc_flow(const LocalState& state, std::size_t /*path*/, FlowJ
 // In a static analysis time stands: the flow stays what it is.
 void PipeSegment::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
   Line::add_residual(state, r);
-  if (state.environment().statics) return;
-  r[state.slots().first_order_row()] += inertia() * state.first_order_rate()[0] - ports().head(state, 0) +
-                                        ports().head(state, 1) + loss(state.first_order()[0]).R;
+  const int row = state.slots().first_order_row();
+  r[row] += inertia() * state.first_order_rate()[0];
+  if (!state.environment().statics)
+    r[row] += ports().head(state, 1) - ports().head(state, 0) + loss(state.first_order()[0]).R;
 }
 
 void PipeSegment::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   Line::add_tangent(state, tangent);
   const int row = state.slots().first_order_row();
-  if (state.environment().statics) {
-    if (tangent.wants_K) tangent.K.dense()(row, row) += 1;
-    return;
-  }
   if (tangent.wants_C) tangent.C.dense()(row, row) += inertia();
   if (!tangent.wants_K) return;
+  if (state.environment().statics) {
+    tangent.K.dense()(row, row) += 1;
+    return;
+  }
   auto K = tangent.K.dense();
   K(row, row) += loss(state.first_order()[0]).R_q;
   for (const int port : {0, 1})

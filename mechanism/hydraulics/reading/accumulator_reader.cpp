@@ -6,6 +6,7 @@
 
 #include "mechanism/hydraulics/circuit/accumulator.hpp"
 #include "mechanism/hydraulics/lines/line.hpp"
+#include "mechanism/hydraulics/reading/line_reader.hpp"
 
 namespace bielle::mechanism {
 
@@ -26,9 +27,9 @@ void read_accumulator(const std::string& name, const YamlValue& entry, const Ent
   entry.check_keys({"at", "gas_volume", "precharge", "exponent"}, "an accumulator");
   const YamlValue at = entry.at("at");
   const PressureNode& place = place_named_by(at, model);
-  for (Component* component : model.components_of({Section::hydraulics, place.name()}))
-    if (auto* volume = dynamic_cast<Volume*>(component)) return add_accumulator(name, entry, *volume, own, model);
-  at.fail(fmt::format("'{}' is no volume: an accumulator needs one to store in", place.name()));
+  Volume* volume = volume_of(place, model);
+  if (!volume) at.fail(fmt::format("'{}' is no volume: an accumulator needs one to store in", place.name()));
+  add_accumulator(name, entry, *volume, own, model);
 }
 
 }  // namespace bielle::mechanism

@@ -256,23 +256,27 @@ class ActuatorReader {
                      ? "expected a list of one place of the hydraulics: the cylinder is single-acting"
                      : "expected two places of the hydraulics: of the chamber that extends, and of the other");
     std::array<const PressureNode*, 2> places{};
+    std::array<Volume*, 2> volumes{};
     for (std::size_t k = 0; k < chambers_; ++k) {
       const YamlValue item = ports.at(k);
       places[k] = &place_named_by(item, model_);
       fluid_ = places[k]->fluid();
-      if (places[k]->rows().space >= 0) {
-        for (Component* component : model_.components_of(circuit(places[k]->name())))
-          if (auto* volume = dynamic_cast<Volume*>(component)) {
-            check_space(k, item);
-            volume->add_room(space(k).at(drawn_).V);
-          }
+      volumes[k] = volume_of(*places[k], model_);
+      if (volumes[k]) {
+        check_space(k, item);
+        volumes[k]->add_room(space(k).at(drawn_).V);
       } else if (!places[k]->is_given()) {
         item.fail(
             fmt::format("'{}' is a junction, and has no room for a chamber: list it under `volumes`", item.text()));
       }
     }
     if (chambers_ == 2 && places[0] == places[1]) ports.fail("both chambers open into the same place");
-    add_cylinder(places);
+    Cylinder& cylinder = add_cylinder(places);
+    bool free = true;
+    for (std::size_t k = 0; k < chambers_; ++k) free = free && volumes[k] && volumes[k]->load_decides();
+    if (!free) return;
+    for (std::size_t k = 0; k < chambers_; ++k) volumes[k]->start_by_load();
+    cylinder.balance(fluid_.ambient);
   }
 
   // -- with a circuit of its own

@@ -108,6 +108,7 @@ class CircuitReader {
       if (!(place->drawn() > 0))
         entry.fail("has no volume, and no chamber opens into it: give `volume` [m^3], or list it under `junctions`");
     });
+    if (!pressure) place->let_load_decide();
     model_.add(std::move(place), own(name));
   }
 

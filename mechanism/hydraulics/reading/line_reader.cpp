@@ -147,13 +147,6 @@ void read_valve(const LineEntry& line) {
                   line.data, line.own(), line.model);
 }
 
-/// The volume of that name, if the place is one.
-Volume* volume_of(const PressureNode& place, Model& model) {
-  for (Component* component : model.components_of({Section::hydraulics, place.name()}))
-    if (component == &place) return dynamic_cast<Volume*>(component);
-  return nullptr;
-}
-
 // Volumes of fluid along the pipe, and segments between them. A place of its own pressure stands at the end of the
 // first cell, half a segment from its middle; one that is nothing but an end of pipes (a junction) holds half a cell
 // itself.
@@ -228,6 +221,12 @@ void read_four_ports(const std::string& name, const YamlValue& entry, const Flui
 }
 
 }  // namespace
+
+Volume* volume_of(const PressureNode& place, const Model& model) {
+  for (Component* component : model.components_of({Section::hydraulics, place.name()}))
+    if (component == &place) return dynamic_cast<Volume*>(component);
+  return nullptr;
+}
 
 std::vector<std::string> line_types() {
   std::vector<std::string> keys;

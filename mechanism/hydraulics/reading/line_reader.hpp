@@ -17,8 +17,13 @@ std::vector<std::string> line_types();
 /// Reads one line. Its places are looked up when all entries are there. @throws InputError
 void read_line(const std::string& name, const YamlValue& entry, const Fluid& fluid, Model& model);
 
-class SpoolValve;
 class PressureNode;
+class SpoolValve;
+class Volume;
+
+/// The place as a volume that a chamber or accumulator may be joined to; nullptr: it is none.
+Volume* volume_of(const PressureNode& place, const Model& model);
+
 /// The four-port valve of `servo_valve` or of an actuator: coefficient, area or areas, overlap, command, its dynamics.
 /// @param places  P, T, A, B
 SpoolValve& add_servo_valve(const std::string& name, const YamlValue& entry,
