@@ -1,40 +1,13 @@
 #include "mechanism/measures/state_formula.hpp"
 
 #include <algorithm>
-#include <deque>
 
 #include <fmt/format.h>
 
+#include "mechanism/measures/nested.hpp"
 #include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
-namespace {
-
-/// Gradients of measures under way: a measure may be a formula of measures itself, and each level needs its own.
-struct Gradients {
-  std::deque<MeasureGradient> of_level;
-  std::size_t level = 0;
-};
-thread_local Gradients gradients;
-
-/// The gradient of a level, while it lives.
-class GradientLevel {
- public:
-  GradientLevel() {
-    if (gradients.of_level.size() == gradients.level) gradients.of_level.emplace_back();
-    mine_ = &gradients.of_level[gradients.level++];
-  }
-  ~GradientLevel() { --gradients.level; }
-  GradientLevel(const GradientLevel&) = delete;
-  GradientLevel& operator=(const GradientLevel&) = delete;
-  MeasureGradient& gradient() { return *mine_; }
-
- private:
-  MeasureGradient* mine_;
-};
-
-}  // namespace
-
 StateFormula::StateFormula(Expression expression, std::size_t own, std::vector<Argument> measures)
     : expression_(std::move(expression)), own_(own), measures_(std::move(measures)) {
   if (own_ > FormulaGradient::most_variables || own_ + measures_.size() > most_arguments)
@@ -70,8 +43,8 @@ void StateFormula::calc(const LocalState& state, std::span<const double> variabl
   gradient.value = expression_.value_and_gradient({values.data(), count}, {derivatives.data(), count});
   std::copy_n(derivatives.begin(), own_, gradient.by_variable.begin());
   gradient.by_state.prepare(state.slots().size());
-  GradientLevel level;
-  MeasureGradient& of_measure = level.gradient();
+  Nested<MeasureGradient> nested;
+  MeasureGradient& of_measure = *nested;
   for (std::size_t k = 0; k < measures_.size(); ++k) {
     const double factor = derivatives[own_ + k];
     if (factor == 0) continue;

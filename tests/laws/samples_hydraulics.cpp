@@ -24,7 +24,7 @@ joints:
   axle: {type: hinge, nodes: [a, b], position: [0.5, 0.2, 0.1], axis: [1, 2, 3]}
 hydraulics:
 )yaml" + fluid +
-         "  volumes:\n    p: {volume: 5, pressure: 1}\n    t: {volume: 6, pressure: 0}\n"
+         "  volumes:\n    p: {volume: 5, pressure: 1}\n    t: {volume: 6, pressure: 0.2}\n"
          "    x: {volume: 7, pressure: -1}\n" +
          text;
 }
@@ -57,12 +57,23 @@ std::vector<BadValue> within(const std::string& type, const std::vector<BadValue
 
 const std::string law = "coefficient: 0.7, density: 1.5";
 const std::string conserving =
-    "  ambient_pressure: 0\n  fluid: {bulk_modulus: 1e5, density: 1, conserves: mass, vapour_pressure: 5000}\n";
+    "  ambient_pressure: 0\n  fluid: {bulk_modulus: 1e5, density: 1, conserves: mass, vapour_pressure: 3000}\n";
 
 /// One whose opening follows rests closed at the reference, on the kink of what cannot be less than closed.
 Sample following(Sample sample) {
   sample.scales.kinks_unloaded = true;
   return sample;
+}
+
+/// A line whose formula reads another one, which has a formula itself.
+Sample reader(const std::string& type, const std::string& variant, const std::string& it, const std::string& other,
+              std::vector<BadValue> bad) {
+  bad.push_back({"from", "other", "no place of the hydraulics"});
+  bad.push_back({"to", "p", "from one place to another"});
+  bad.push_back({type, "", "a line is one of"});
+  return part("lines", type, variant,
+              circuit("  lines:\n    other: {from: x, to: t, " + other + "}\n    it: {from: p, to: t, " + it + "}\n"),
+              std::move(bad));
 }
 
 std::vector<Sample> lines() {
@@ -108,6 +119,14 @@ std::vector<Sample> lines() {
                                                {"transition_pressure", "0", "greater than 0"}}))),
       line("flow_valve", "", "flow: \"0.3 + 0.1*axle.angle.rate^2 + 0.1*t\", pressure: 3",
            {{"flow_valve.flow", "", "flow"}, {"flow_valve.pressure", "0", "greater than 0"}}),
+      reader("flow_valve", "that reads another line", "flow_valve: {flow: \"0.2 + 0.3*other.flow\", pressure: 3}",
+             "flow_valve: {flow: \"0.3 + 0.1*axle.angle\", pressure: 2}",
+             {{"flow_valve.flow", "other.flaw", "did you mean"}, {"flow_valve.pressure", "0", "greater than 0"}}),
+      reader("orifice", "of the opening of another line",
+             "orifice: {" + law + ", area: \"0.3 + 0.2*other.opening\", transition_pressure: 2}",
+             "valve: {" + law + ", area: 0.5, command: \"0.4 + 0.1*axle.angle\", transition_pressure: 1}",
+             within("orifice",
+                    {{"area", "other.openin", "did you mean"}, {"transition_pressure", "0", "greater than 0"}})),
       line("valve", "second order",
            law + ", area: 0.5, overlap: -0.3, command: \"0.3*axle.angle + 0.01*t\", frequency: 0.4, damping: 0.6, "
                  "transition_pressure: 1",
@@ -171,6 +190,18 @@ std::vector<Sample> places() {
             {"setting", "axle.angel", "did you mean"},
             {"leakage", "-1", "at least 0"},
             {"drag", "-1", "at least 0"}}),
+      part(
+          "machines", "machine", "that reads another machine and an accumulator",
+          circuit("  accumulators:\n    store: {at: x, gas_volume: 3, precharge: -5}\n  machines:\n"
+                  "    other: {joint: axle, from: x, to: t, displacement: 0.2, setting: \"0.5 + 0.1*sin(axle.angle)\", "
+                  "drag: 0.1}\n"
+                  "    it: {joint: axle, from: p, to: t, displacement: 0.3, setting: \"0.7 + 0.1*other.torque + "
+                  "0.1*other.flow + 0.05*other.power + 0.1*store.fluid_volume\"}\n"),
+          {{"joint", "axel", "did you mean"},
+           {"from", "nowhere", "no place"},
+           {"to", "p", "from one place to another"},
+           {"displacement", "0", "greater than 0"},
+           {"setting", "other.torqe", "did you mean"}}),
   };
   return list;
 }
@@ -213,7 +244,7 @@ std::vector<Sample> cylinders() {
            {"viscosity", "0", "greater than 0"},
            {"air_fraction", "1", "less than 1"},
            {"air_exponent", "3", "isothermal"},
-           {"vapour_pressure", "1e5", "well below"},
+           {"vapour_pressure", "1e5", "up to 3500"},
            {"conserves", "energy", "what flows conserve"},
            {"piston_areas", "[0, 1]", "greater than 0"},
            {"dead_volumes", "[-1, 0]", "below 0"},
@@ -245,6 +276,17 @@ std::vector<Sample> cylinders() {
            {"cushions.lengths", "[3, 1]", "longer than the stroke"},
            {"cushions.areas", "[1, 1]", "smaller than"},
            {"cushions.port_area", "0", "greater than 0"}}),
+      cylinder("with cushions, in a circuit",
+               "piston_areas: [1.2, 0.7], dead_volumes: [3, 4], ports: [p, t], pressures: [1.1, 0.9], compliances: "
+               "[1e-5, 0], cushions: {lengths: [0.1, 0.1], areas: [0.01, 0.02], port_area: 0.1}",
+               {{"piston_areas", "[0, 1]", "greater than 0"},
+                {"dead_volumes", "[-1, 0]", "below 0"},
+                {"ports", "[p, p]", "the same place"},
+                {"pressures", "[-2e5, 0]", "vacuum"},
+                {"compliances", "[-1, 0]", "below 0"},
+                {"cushions.lengths", "[3, 1]", "longer than the stroke"},
+                {"cushions.areas", "[1, 1]", "smaller than"},
+                {"cushions.port_area", "0", "greater than 0"}}),
       cylinder("telescopic, in a circuit",
                "stages: [{piston_areas: [1.5, 0.4], length: 0.8}, {piston_areas: [0.9, 0.2], length: 1.2}], "
                "dead_volumes: [2, "
@@ -268,16 +310,17 @@ std::vector<Sample> cylinders() {
 std::vector<Sample> hydraulic_samples() {
   std::vector<Sample> list = lines();
   for (const Sample& sample :
-       {servo_valve("first order",
-                    law +
-                        ", areas: [0.3, 0.4, 0.5, 0.6], overlap: 0.17, command: \"0.3*axle.angle\", time_constant: 0.3, "
-                        "transition_pressure: 1",
-                    within("servo_valve", {{"areas", "[1, 2, 3]", "P-A"},
-                                           {"overlap", "1", "between -1 and 1"},
-                                           {"command", "", "command"},
-                                           {"time_constant", "0", "greater than 0"},
-                                           {"transition_pressure", "0", "greater than 0"}})),
-        servo_valve("without dynamics", "area: 0.4, command: \"0.5 + 0.4*sin(axle.angle.rate)\", transition_pressure: 1",
+       {servo_valve(
+            "first order",
+            law + ", areas: [0.3, 0.4, 0.5, 0.6], overlap: 0.17, command: \"0.3*axle.angle\", time_constant: 0.3, "
+                  "transition_pressure: 1",
+            within("servo_valve", {{"areas", "[1, 2, 3]", "P-A"},
+                                   {"overlap", "1", "between -1 and 1"},
+                                   {"command", "", "command"},
+                                   {"time_constant", "0", "greater than 0"},
+                                   {"transition_pressure", "0", "greater than 0"}})),
+        servo_valve("without dynamics",
+                    "area: 0.4, command: \"0.5 + 0.4*sin(axle.angle.rate)\", transition_pressure: 1",
                     {{"servo_valve.area", "", "needs an `area`"},
                      {"servo_valve.command", "2", "from -1 to 1"},
                      {"servo_valve.transition_pressure", "0", "greater than 0"}})})

@@ -2,21 +2,12 @@
 
 #include <algorithm>
 
+#include "mechanism/math/smooth_step.hpp"
+
 namespace bielle::mechanism {
 namespace {
 
-constexpr double transition = 0.02;  // of the shorter stage on either side
-
-/// Of a step of the height 1 over -1 < x < 1: its integral from -1 on, itself, its slope by x.
-struct SmoothStep {
-  double integral, value, slope;
-};
-SmoothStep smooth_step(double x) {
-  if (x <= -1) return {0, 0, 0};
-  if (x >= 1) return {x, 1, 0};
-  const double u = 0.5 * (x + 1), u3 = u * u * u;
-  return {2 * u3 * u * (2.5 - u * (3 - u)), u3 * (10 - u * (15 - 6 * u)), 15 * u * u * (1 - u) * (1 - u)};
-}
+constexpr double transition = 0.02;  // of the shorter stage on either side, half before its end
 
 }  // namespace
 
@@ -27,8 +18,8 @@ ChamberSpace::ChamberSpace(double begin, double dead, double grows, std::vector<
     largest_ = std::max(largest_, stages[k].area);
     end += stages[k].length;
     if (k + 1 == stages.size()) break;
-    borders_.push_back({end, 0.5 * transition * std::min(stages[k].length, stages[k + 1].length),
-                        stages[k + 1].area - stages[k].area});
+    const double width = transition * std::min(stages[k].length, stages[k + 1].length);
+    borders_.push_back({end - 0.5 * width, width, stages[k + 1].area - stages[k].area});
   }
   at_begin_ = dead;
   if (grows < 0) at_begin_ += dead - at(end).V;
@@ -37,10 +28,10 @@ ChamberSpace::ChamberSpace(double begin, double dead, double grows, std::vector<
 ChamberSpace::Value ChamberSpace::at(double l) const {
   Value value{first_area_ * (l - begin_), first_area_, 0};
   for (const Border& border : borders_) {
-    const SmoothStep step = smooth_step((l - border.middle) / border.half_width);
-    value.V += border.rise * border.half_width * step.integral;
+    const SmoothStep step = smooth_step((l - border.begin) / border.width);
+    value.V += border.rise * border.width * step.integral;
     value.V_l += border.rise * step.value;
-    value.V_ll += border.rise * step.slope / border.half_width;
+    value.V_ll += border.rise * step.slope / border.width;
   }
   return {at_begin_ + grows_ * value.V, grows_ * value.V_l, grows_ * value.V_ll};
 }

@@ -29,7 +29,7 @@ class ChamberSpace {
 
  private:
   struct Border {
-    double middle, half_width, rise;  ///< of the area
+    double begin, width, rise;  ///< of the length [m], [m]; of the area [m^2]
   };
   double begin_, first_area_, at_begin_ = 0, grows_;
   std::vector<Border> borders_;

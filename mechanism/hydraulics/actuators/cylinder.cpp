@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/hydraulics/actuators/stroke_watch.hpp"
+#include "mechanism/measures/nested.hpp"
 #include "mechanism/model/description.hpp"
 #include "reduce/common/error.hpp"
 
@@ -19,8 +21,8 @@ class CylinderMeasure final : public Measure {
     return quantity_ == "length" ? "m" : quantity_ == "length.rate" ? "m/s" : quantity_ == "force" ? "N" : "Pa";
   }
   double value(const LocalState& state) const override {
-    thread_local MeasureGradient unused;
-    return calc(state, unused);
+    Nested<MeasureGradient> unused;
+    return calc(state, *unused);
   }
   double calc(const LocalState& state, MeasureGradient& gradient) const override {
     gradient.prepare(state.slots().size());
@@ -142,10 +144,11 @@ void Cylinder::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) cons
   for (std::size_t k = 0; k < chambers_.size(); ++k)
     if (const int row = space_row(state, k); row >= 0) r[row] -= chambers_[k].space.at(l.value).V;
   if (!waits(state)) return;
-  // The first chamber's pressure is the one for which the length has no acceleration, or does not change.
-  r[ports_.pressure_row(state, 0)] += state.environment().statics
-                                          ? l.value - state.memory()[memory_length]
-                                          : l.acceleration(v, pair_acceleration(state.node(0), state.node(1)));
+  // The first chamber's pressure is the one for which the length has no acceleration; in statics, where all are zero,
+  // the one for which it stays.
+  double& row = r[ports_.pressure_row(state, 0)];
+  row += l.acceleration(v, pair_acceleration(state.node(0), state.node(1)));
+  if (state.environment().statics) row += l.value - state.memory()[memory_length];
   if (chambers_.size() > 1) r[ports_.pressure_row(state, 1)] += chamber_pressure(state, 1) - *tank_;
 }
 
@@ -154,9 +157,8 @@ void Cylinder::add_tangent(const LocalState& state, LocalTangent& tangent) const
   const Vector12 v = pair_rate(state.node(0), state.node(1)), &g = l.gradient;
   const Push F = push(state, l.value, l.rate(v));
   if (tangent.wants_C && F.by_rate != 0) tangent.C.dense().topLeftCorner<12, 12>() -= F.by_rate * g * g.transpose();
-  const bool waiting = waits(state), statics = state.environment().statics;
-  if (tangent.wants_M && waiting && !statics)
-    tangent.M.dense().block<1, 12>(ports_.pressure_row(state, 0), 0) += g.transpose();
+  const bool waiting = waits(state);
+  if (tangent.wants_M && waiting) tangent.M.dense().block<1, 12>(ports_.pressure_row(state, 0), 0) += g.transpose();
   if (!tangent.wants_K) return;
   auto K = tangent.K.dense();
   K.topLeftCorner<12, 12>() -= F.total() * l.second + F.by_length * g * g.transpose();
@@ -167,7 +169,7 @@ void Cylinder::add_tangent(const LocalState& state, LocalTangent& tangent) const
     if (const int row = space_row(state, k); row >= 0) K.block<1, 12>(row, 0) -= V_l * g.transpose();
   }
   if (!waiting) return;
-  if (statics) K.block<1, 12>(ports_.pressure_row(state, 0), 0) += g.transpose();
+  if (state.environment().statics) K.block<1, 12>(ports_.pressure_row(state, 0), 0) += g.transpose();
   if (chambers_.size() > 1) K(ports_.pressure_row(state, 1), ports_.pressure_row(state, 1)) += 1;
 }
 
@@ -200,7 +202,7 @@ void Cylinder::add_start_values(const LocalState& state, Eigen::Ref<VectorX> cha
     p[1] += (*tank_ - p[0]) * ratio;
     p[0] = *tank_;
   }
-  if (p[0] < *tank_ - Fluid::atmosphere)
+  if (p[0] <= volumes_[0]->fluid().vacuum())
     throw ComputationError(
         fmt::format("t = {:.6g} s: the load pulls hydraulic_actuator '{}', whose only chamber can but push (its "
                     "pressure would be {:.4g} Pa): give it a second one, or `pressures` to start from",
@@ -282,6 +284,11 @@ void Cylinder::describe(const LocalState& state, Description& description) const
   if (geometry_.stop_stiffness > 0)
     description.add_line(fmt::format("stops of stiffness {:.6g} N/m, damping {:.6g} N s/m", geometry_.stop_stiffness,
                                      geometry_.stop_damping));
+}
+
+std::unique_ptr<Gatherer> Cylinder::make_gatherer() const {
+  if (geometry_.stop_stiffness > 0) return nullptr;
+  return std::make_unique<StrokeWatch>(*this);
 }
 
 std::vector<std::string> Cylinder::measure_names() const {

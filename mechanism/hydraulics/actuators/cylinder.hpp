@@ -51,6 +51,8 @@ class Cylinder final : public Component {
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
   void describe(const LocalState& state, Description& description) const override;
+  std::unique_ptr<Gatherer> make_gatherer() const override;
+  const Geometry& geometry() const { return geometry_; }
   /// length, length.rate, force, pressure_1, pressure_2
   std::vector<std::string> measure_names() const override;
   std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const override;

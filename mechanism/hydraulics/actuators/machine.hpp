@@ -37,8 +37,21 @@ class Machine final : public CoordinateAction {
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
   void describe(const LocalState& state, Description& description) const override;
+  /// flow, torque, power
+  std::vector<std::string> measure_names() const override { return {"flow", "torque", "power"}; }
+  std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const override;
 
  private:
+  friend class MachineMeasure;
+  /// What the derivatives of flow and torque are made of.
+  struct Turn {
+    CoordinateJet& jet;    ///< of the shaft
+    const VectorX& slope;  ///< derivatives of its rate by positions
+    FormulaGradient& setting;
+  };
+  Turn turn(const LocalState& state, FormulaGradient& setting) const;
+  void calc_flow(const LocalState& state, const Turn& turn, FlowJet& flow) const;
+  void calc_torque(const LocalState& state, const Turn& turn, FlowJet& torque) const;
   double setting(const LocalState& state) const;
   double flow(const LocalState& state, double x, double rate) const;
   double torque(const LocalState& state, double x, double rate) const;

@@ -4,9 +4,26 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/measures/own_measure.hpp"
 #include "mechanism/model/description.hpp"
 
 namespace bielle::mechanism {
+
+/// "store.fluid_volume"
+class AccumulatorMeasure final : public OwnMeasure {
+ public:
+  AccumulatorMeasure(std::string name, const Accumulator& accumulator)
+      : OwnMeasure(std::move(name), accumulator), accumulator_(accumulator) {}
+  std::string units() const override { return "m^3"; }
+
+ private:
+  double calc_own(const LocalState& own, MeasureGradient& gradient) const override {
+    const Accumulator::Space space = accumulator_.space(accumulator_.volume_.pressure(own.of(0)));
+    gradient.position()[own.slots().reference_row(0) + Volume::pressure_row] = space.V_p;
+    return space.V;
+  }
+  const Accumulator& accumulator_;
+};
 
 Accumulator::Accumulator(std::string name, Volume& volume, double gas_volume, double precharge, double exponent)
     : Component("accumulator", std::move(name)),
@@ -68,6 +85,10 @@ void Accumulator::write_output(const LocalState& state, double* values) const {
 void Accumulator::describe(const LocalState& /*state*/, Description& description) const {
   description.add(fmt::format("at '{}', {:.6g} m^3 of gas at {:.6g} Pa, exponent {:.6g}", volume_.name(), gas_volume_,
                               precharge_, exponent_));
+}
+
+std::unique_ptr<Measure> Accumulator::make_measure(const std::string& name, const std::string& /*measure*/) const {
+  return std::make_unique<AccumulatorMeasure>(name, *this);
 }
 
 }  // namespace bielle::mechanism

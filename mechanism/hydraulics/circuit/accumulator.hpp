@@ -7,6 +7,7 @@
 #pragma once
 
 #include "mechanism/hydraulics/circuit/volume.hpp"
+#include "mechanism/model/measure.hpp"
 #include "mechanism/model/references.hpp"
 
 namespace bielle::mechanism {
@@ -23,8 +24,11 @@ class Accumulator final : public Component {
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
   void describe(const LocalState& state, Description& description) const override;
+  std::vector<std::string> measure_names() const override { return {"fluid_volume"}; }
+  std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const override;
 
  private:
+  friend class AccumulatorMeasure;
   struct Space {
     double V, V_p;
   };

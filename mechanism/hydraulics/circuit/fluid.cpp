@@ -6,11 +6,13 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/math/smooth_step.hpp"
 #include "reduce/common/plausible.hpp"
 
 namespace bielle::mechanism {
 namespace {
 
+constexpr double least = 1e-6;  // absolute pressure [Pa] down to which the work is computed
 constexpr PlausibleRange plausible_bulk_modulus{1e8, 1e10, "Oils have 1.2e9 to 2e9 Pa, water 2.2e9"};
 constexpr PlausibleRange plausible_viscosity{1e-4, 10, "Dynamic, in Pa s: water has 0.001, hydraulic oil 0.01 to 0.1"};
 constexpr PlausibleRange plausible_fluid_density{500, 2000, "Oils have 850 kg/m^3, water 1000"};
@@ -55,25 +57,34 @@ double Fluid::pressure_of(double v, double guess) const {
 }
 
 double Fluid::work(double p) const {
-  // A trial pressure may be negative; the work is finite down to 0.
-  const double P = std::max(absolute(p), 1e-6), P_a = absolute(ambient), B = bulk_modulus;
-  double h = -(1 - air_fraction) * B * std::exp(-(P_a - atmosphere) / B) * std::expm1(-(P - P_a) / B);
+  // Pressures of trial states and of junctions may be negative: no fluid is there that could do more work.
+  const double P_a = absolute(ambient), away = std::max(p - ambient, least - P_a), B = bulk_modulus;
+  double h = -(1 - air_fraction) * B * std::exp(-(P_a - atmosphere) / B) * std::expm1(-away / B);
   if (air_fraction > 0) {
-    const double n = 1 - 1 / air_exponent;
+    const double n = 1 - 1 / air_exponent, log_ratio = std::log1p(away / P_a);
     h += air_fraction * atmosphere *
-         (n == 0 ? std::log(P / P_a) : (std::pow(P / atmosphere, n) - std::pow(P_a / atmosphere, n)) / n);
+         (n == 0 ? log_ratio : std::pow(P_a / atmosphere, n) * std::expm1(n * log_ratio) / n);
   } else {
     h += vapour_pressure * std::sqrt(M_PI) *
-         (std::erfc(std::sqrt(P_a / vapour_pressure)) - std::erfc(std::sqrt(P / vapour_pressure)));
+         (std::erfc(std::sqrt(P_a / vapour_pressure)) - std::erfc(std::sqrt((P_a + away) / vapour_pressure)));
   }
   return h;
 }
 
+Fluid::Content Fluid::content(double p) const {
+  constexpr double cavity = 0.1 * atmosphere, whole = 0.5 * atmosphere;
+  const double P = absolute(p);
+  if (conserves == Conserves::mass || P <= cavity) return {1, 0};
+  const SmoothStep step = smooth_step((P - cavity) / (whole - cavity));
+  const Ratio r = ratio(p);
+  return {1 + step.value * (1 / r.v - 1),
+          step.slope / (whole - cavity) * (1 / r.v - 1) - step.value * r.v_p / (r.v * r.v)};
+}
+
 Fluid::Head Fluid::head(double p) const {
-  const double inside = absolute(p) > 1e-6 ? p : p - absolute(p) + 1e-6, h = work(inside);
-  const Ratio r = ratio(inside);
-  if (conserves == Conserves::mass) return {h, r.v};
-  return {h / r.v, 1 - h * r.v_p / (r.v * r.v)};
+  const double h = work(p), h_p = absolute(p) > least ? ratio(p).v : 0;
+  const Content c = content(p);
+  return {h * c.f, h_p * c.f + h * c.f_p};
 }
 
 std::string Fluid::describe() const {
@@ -112,7 +123,9 @@ void read_fluid(const YamlValue& entry, Fluid& fluid) {
   }
   if (const auto vapour = entry.find("vapour_pressure")) {
     fluid.vapour_pressure = vapour->positive_number();
-    if (fluid.vapour_pressure > 2e4) vapour->fail("expected an absolute pressure well below the atmosphere's");
+    constexpr double most = 3500;  // beyond, vapour would be felt at the atmosphere's pressure
+    if (fluid.vapour_pressure > most)
+      vapour->fail("expected an absolute pressure up to 3500 Pa; oils have less than 100, water at 20 degrees 2340");
   }
   if (const auto conserves = entry.find("conserves"))
     fluid.conserves = conserves->word({"volume", "mass"}, "what flows conserve") == "mass" ? Fluid::Conserves::mass

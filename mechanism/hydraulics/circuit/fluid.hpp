@@ -47,7 +47,14 @@ class Fluid {
   double pressure_of(double v, double guess) const;
   double work(double p) const;                                                    ///< h [Pa]
   double stored(double p) const { return work(p) - (p - ambient) * ratio(p).v; }  ///< u [Pa]
-  /// Work per volume that flows at a pressure, [Pa], and its derivative: h, or h/v where volume is conserved.
+  /// How much fluid a volume that flows at a pressure is, and the derivative: 1/v where volume is conserved, 1 where
+  /// mass is. Towards a vacuum (from 0.5 to 0.1 atmospheres) it becomes 1 as well: what flows into a cavity is no
+  /// vapour.
+  struct Content {
+    double f, f_p;
+  };
+  Content content(double p) const;
+  /// Work per volume that flows at a pressure, [Pa], and its derivative: h f.
   struct Head {
     double e, e_p;
   };

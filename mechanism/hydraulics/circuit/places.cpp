@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/measures/nested.hpp"
 #include "mechanism/measures/read_measure.hpp"
 #include "mechanism/model/description.hpp"
+#include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -37,7 +39,16 @@ void Junction::add_tangent(const LocalState& /*state*/, LocalTangent& tangent) c
   if (tangent.wants_K) tangent.K.dense()(0, 0) += holding;
 }
 
-void Junction::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const { memory[0] = pressure(state); }
+void Junction::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {
+  constexpr double little = 1e3;  // [Pa]
+  const double p = pressure(state);
+  if (p < fluid().vacuum() - little)
+    throw ComputationError(fmt::format(
+        "t = {:.6g} s: the junction '{}' would have {:.4g} Pa, which is below vacuum: what is drawn from it does "
+        "not come in; list it under `volumes`, where fluid may cavitate, or open its lines",
+        state.time(), name(), p));
+  memory[0] = p;
+}
 
 void Junction::add_pattern(const Slots& /*slots*/, LocalPattern& pattern) const { pattern.add_diagonal(0, 0, 1); }
 
@@ -65,7 +76,13 @@ void PressureSource::declare(Declaration& declaration) const {
 
 double PressureSource::given(const LocalState& state) const {
   const double t = state.time();
-  return formula_.value(state, {&t, 1});
+  const double p = formula_.value(state, {&t, 1});
+  if (p <= fluid().vacuum())
+    throw ComputationError(
+        fmt::format("t = {:.6g} s: the pressure of '{}' is given as {:.6g} Pa: expected more than {:.6g} Pa, "
+                    "which is vacuum",
+                    t, name(), p, fluid().vacuum()));
+  return p;
 }
 
 void PressureSource::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
@@ -79,11 +96,11 @@ void PressureSource::add_tangent(const LocalState& state, LocalTangent& tangent)
     tangent.K.dense()(1, 1) += 1;
   }
   if (!formula_.reads_state()) return;
-  thread_local FormulaGradient gradient;
+  Nested<FormulaGradient> gradient;
   const double t = state.time();
-  formula_.calc(state, {&t, 1}, gradient);
-  if (tangent.wants_K) tangent.K.dense().row(0) -= gradient.by_state.position().transpose();
-  if (tangent.wants_C) tangent.C.dense().row(0) -= gradient.by_state.rate().transpose();
+  formula_.calc(state, {&t, 1}, *gradient);
+  if (tangent.wants_K) tangent.K.dense().row(0) -= gradient->by_state.position().transpose();
+  if (tangent.wants_C) tangent.C.dense().row(0) -= gradient->by_state.rate().transpose();
 }
 
 double PressureSource::power(const LocalState& state) const {

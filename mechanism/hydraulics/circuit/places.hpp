@@ -10,8 +10,8 @@
 namespace bielle::mechanism {
 
 /// Lines meet, nothing is stored: the sum of flows is zero. Its pressure is an algebraic unknown. While all lines are
-/// closed it keeps its pressure p_0 of the last step: the sum of flows is g (p - p_0) in fact, with g too small to matter
-/// (1e-22 m^3/(s Pa): a drop in a year under 100 bar).
+/// closed it keeps its pressure p_0 of the last step: the sum of flows is g (p - p_0) in fact, with g too small to
+/// matter (1e-22 m^3/(s Pa): a drop in a year under 100 bar).
 class Junction final : public PressureNode {
  public:
   Junction(std::string name, const Fluid& fluid, double pressure)

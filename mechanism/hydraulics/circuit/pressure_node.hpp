@@ -29,10 +29,12 @@ class PressureNode : public Component {
   double pressure(const LocalState& own) const { return own.first_order()[rows_.pressure]; }
   /// Whether its pressure is given, whatever flows: what flows in or out is then work of a source.
   virtual bool is_given() const { return false; }
+  /// Whether it is a part of something, and no place that the user can name.
+  virtual bool is_part() const { return false; }
   /// Whether flows have a part in its balance. A static analysis holds the fluid of volumes: time stands.
   virtual bool balances(const LocalState& /*own*/) const { return true; }
-  /// The factor by which a flow counts in its balance, and its derivatives by its own first-order unknowns. (It is W/V
-  /// where volume is conserved.)
+  /// The factor by which a flow counts in its balance, and its derivatives by its own first-order unknowns. (See
+  /// Fluid::content.)
   struct Exchange {
     double factor = 1;
     double by[3] = {0, 0, 0};

@@ -48,6 +48,9 @@ void Volume::declare(Declaration& declaration) const {
 
 double Volume::pressure_by_state(const LocalState& own) const {
   const double W = own.first_order()[fluid_row], V = own.first_order()[space_row];
+  if (!(W > 0))
+    throw ComputationError(
+        fmt::format("t = {:.6g} s: the volume '{}' is empty: more is drawn from it than it holds", own.time(), name()));
   if (!(V > 0))
     throw ComputationError(fmt::format(
         "t = {:.6g} s: the volume '{}' has {:.3g} m^3 left: what opens into it leaves it no space (a piston "
@@ -57,12 +60,10 @@ double Volume::pressure_by_state(const LocalState& own) const {
 }
 
 PressureNode::Exchange Volume::exchange(const LocalState& own) const {
+  const Fluid::Content content = fluid().content(pressure(own));
   Exchange exchange;
-  if (fluid().conserves == Fluid::Conserves::mass || waits(own)) return exchange;
-  const double W = own.first_order()[fluid_row], V = own.first_order()[space_row];
-  exchange.factor = W / V;
-  exchange.by[fluid_row] = 1 / V;
-  exchange.by[space_row] = -W / (V * V);
+  exchange.factor = content.f;
+  exchange.by[pressure_row] = content.f_p;
   return exchange;
 }
 

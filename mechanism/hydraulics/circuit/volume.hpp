@@ -2,9 +2,10 @@
 //
 // Unknowns: W, the fluid that it holds, counted by its volume at the reference pressure (fluid.hpp); its pressure p;
 // the space V that it has.
-//     Wdot = sum of f Q,        f = W/V where flows conserve volume, 1 where they conserve mass
-//     p = p(v = W/V),           by the equation of state
-//     V = V_0 + c (p - p_a) + chambers + accumulators,    c the compliance of its walls [m^3/Pa]
+//     Wdot = sum of f Q        f = 1/v where flows conserve volume, 1 where they conserve mass (Fluid::content)
+//     p = p(v = W/V)           by the equation of state
+//     V = V_0 + c (p - p_a) + chambers + accumulators        c: the compliance of its walls [m^3/Pa]
+//
 // Flows, chambers and accumulators add to these equations themselves. With W in place of p as what is integrated, oil
 // that is trapped is a spring in the stiffness matrix, mass is conserved to rounding, and a pressure never falls to
 // zero: V pdot/B_eff = Q - Vdot follows.
@@ -19,6 +20,8 @@
 
 namespace bielle::mechanism {
 
+/// The type of a volume that is a part of a pipe.
+inline constexpr const char* pipe_cell = "pipe";
 /// The type of a volume that is nothing but an end of pipes, and is made of halves of their cells.
 inline constexpr const char* pipe_junction = "junction of pipes";
 
@@ -55,13 +58,16 @@ class Volume final : public PressureNode {
   std::optional<double> start() const { return start_; }  ///< its pressure at the start, if it is given [Pa]
 
   /// Whether its fluid is not known yet: a motion begins, and its pressure follows from the load.
-  bool waits(const LocalState& own) const { return own.first_order()[fluid_row] < 0; }
+  bool waits(const LocalState& own) const {
+    return !start_ && own.memory()[0] == 0 && own.first_order()[fluid_row] < 0;
+  }
   double space(const LocalState& own) const { return own.first_order()[space_row]; }
   /// The fluid that fills it at a pressure: W.
   double fluid_at(double pressure, double space) const { return space / fluid().ratio(pressure).v; }
   /// The flow that changes its fluid [m^3/s], at its pressure or the reference pressure, as flows are counted.
   double net_flow(const LocalState& own) const;
 
+  bool is_part() const override { return type() == pipe_cell; }
   bool balances(const LocalState& own) const override { return !own.environment().statics; }
   Exchange exchange(const LocalState& own) const override;
 

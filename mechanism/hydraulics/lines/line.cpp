@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/measures/own_measure.hpp"
 #include "mechanism/model/description.hpp"
 #include "mechanism/model/model.hpp"
 #include "reduce/common/error.hpp"
@@ -11,40 +12,22 @@
 namespace bielle::mechanism {
 
 /// "brake.flow", "main.opening"
-class LineMeasure final : public Measure {
+class LineMeasure final : public OwnMeasure {
  public:
   LineMeasure(std::string name, const Line& line, std::string quantity)
-      : Measure(std::move(name)), line_(line), quantity_(std::move(quantity)) {}
+      : OwnMeasure(std::move(name), line), line_(line), quantity_(std::move(quantity)) {}
   std::string units() const override { return quantity_ == "flow" ? "m^3/s" : "-"; }
   bool reads_reactions() const override { return line_.reads_reactions(); }
-  double value(const LocalState& state) const override {
-    thread_local MeasureGradient unused;
-    return calc_in(state.of(0), unused);
-  }
-  double calc(const LocalState& state, MeasureGradient& gradient) const override {
-    thread_local MeasureGradient own;
-    const LocalState of_line = state.of(0);
-    const double value = calc_in(of_line, own);
-    gradient.prepare(state.slots().size());
-    const int row = state.slots().reference_row(0), size = of_line.slots().size();
-    gradient.position().segment(row, size) = own.position();
-    gradient.rate().segment(row, size) = own.rate();
-    return value;
-  }
 
  private:
-  double calc_in(const LocalState& of_line, MeasureGradient& gradient) const {
-    if (quantity_ != "flow") {
-      gradient.prepare(of_line.slots().size());
-      return line_.calc_own_measure(of_line, quantity_, gradient);
-    }
-    FlowJet jet;
-    jet.prepare(of_line.slots().size());
-    line_.calc_flow(of_line, 0, jet);
-    gradient = jet.by;
-    return jet.Q;
+  double calc_own(const LocalState& own, MeasureGradient& gradient) const override {
+    if (quantity_ != "flow") return line_.calc_own_measure(own, quantity_, gradient);
+    Nested<FlowJet> jet;
+    jet->prepare(own.slots().size());
+    line_.calc_flow(own, 0, *jet);
+    gradient = jet->by;
+    return jet->Q;
   }
-  void declare_subjects(Declaration& declaration) const override { declaration.references = {&line_}; }
   const Line& line_;
   std::string quantity_;
 };
@@ -57,10 +40,10 @@ void Line::declare(Declaration& declaration) const {
 }
 
 double Line::flow(const LocalState& state, std::size_t path) const {
-  thread_local FlowJet jet;
-  jet.prepare(state.slots().size());
-  calc_flow(state, path, jet);
-  return jet.Q;
+  Nested<FlowJet> jet;
+  jet->prepare(state.slots().size());
+  calc_flow(state, path, *jet);
+  return jet->Q;
 }
 
 void Line::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
@@ -69,11 +52,11 @@ void Line::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
 }
 
 void Line::add_tangent(const LocalState& state, LocalTangent& tangent) const {
-  thread_local FlowJet jet;
+  Nested<FlowJet> jet;
   for (std::size_t k = 0; k < paths_.size(); ++k) {
-    jet.prepare(state.slots().size());
-    calc_flow(state, k, jet);
-    ports_.add_tangent(state, paths_[k].from, paths_[k].to, jet, tangent);
+    jet->prepare(state.slots().size());
+    calc_flow(state, k, *jet);
+    ports_.add_tangent(state, paths_[k].from, paths_[k].to, *jet, tangent);
   }
 }
 
@@ -134,11 +117,11 @@ double Line::calc_own_measure(const LocalState&, const std::string& measure, Mea
 const PressureNode& place_named_by(const YamlValue& value, const Model& model) {
   const std::string wanted = value.text();
   for (const Component* component : model.components_of({Section::hydraulics, wanted}))
-    if (const auto* node = dynamic_cast<const PressureNode*>(component)) return *node;
+    if (const auto* node = dynamic_cast<const PressureNode*>(component); node && !node->is_part()) return *node;
   std::vector<std::string> names;
   for (const std::string& name : model.names_in(Section::hydraulics))
     for (const Component* component : model.components_of({Section::hydraulics, name}))
-      if (dynamic_cast<const PressureNode*>(component)) {
+      if (const auto* node = dynamic_cast<const PressureNode*>(component); node && !node->is_part()) {
         names.push_back(name);
         break;
       }

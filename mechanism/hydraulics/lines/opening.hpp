@@ -1,7 +1,7 @@
 // Smooth transitions of openings, with two continuous derivatives.
 #pragma once
 
-#include "mechanism/math/types.hpp"
+#include "mechanism/math/smooth_step.hpp"
 
 namespace bielle::mechanism {
 
@@ -19,9 +19,8 @@ inline Opening edge_opening(double x, double width) {
 
 /// 0 for x <= 0, 1 for x >= 1, between them 10 x^3 - 15 x^4 + 6 x^5: a poppet from its seat to its end.
 inline Opening poppet_opening(double x) {
-  if (x <= 0) return {0, 0};
-  if (x >= 1) return {1, 0};
-  return {x * x * x * (10 - x * (15 - 6 * x)), 30 * x * x * (1 - x) * (1 - x)};
+  const SmoothStep step = smooth_step(x);
+  return {step.value, step.slope};
 }
 
 }  // namespace bielle::mechanism

@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/measures/nested.hpp"
 #include "mechanism/measures/read_measure.hpp"
 #include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
 namespace {
-
-thread_local FormulaGradient formula_gradient;
 
 /// Adds the derivatives of a formula by the state, times a factor.
 void add_by_formula(double factor, FormulaGradient& gradient, FlowJet& flow) {
@@ -32,8 +31,9 @@ void Orifice::read_area_formula(const YamlValue& formula, Model& model) {
 
 void Orifice::calc_flow(const LocalState& state, std::size_t /*path*/, FlowJet& flow) const {
   const double t = state.time();
-  area_.calc(state, {&t, 1}, formula_gradient);
-  const double area = formula_gradient.value;
+  Nested<FormulaGradient> gradient;
+  area_.calc(state, {&t, 1}, *gradient);
+  const double area = gradient->value;
   if (area < 0)
     throw ComputationError(
         fmt::format("t = {:.6g} s: the area of orifice '{}' is {:.4g} m^2: expected none below 0", t, name(), area));
@@ -41,7 +41,7 @@ void Orifice::calc_flow(const LocalState& state, std::size_t /*path*/, FlowJet& 
   flow.Q = law.Q;
   add_by_pressure(state, 0, law.Q_D, flow);
   add_by_pressure(state, 1, -law.Q_D, flow);
-  if (area_.reads_state()) add_by_formula(law.Q_A, formula_gradient, flow);
+  if (area_.reads_state()) add_by_formula(law.Q_A, *gradient, flow);
 }
 
 std::string Orifice::describe_law() const { return fmt::format("area {} [m^2], {}", area_.text(), law_.describe()); }
@@ -78,9 +78,10 @@ void FlowSource::read(const YamlValue& formula, Model& model) {
 
 void FlowSource::calc_flow(const LocalState& state, std::size_t /*path*/, FlowJet& flow) const {
   const double t = state.time();
-  formula_.calc(state, {&t, 1}, formula_gradient);
-  flow.Q = formula_gradient.value;
-  if (formula_.reads_state()) add_by_formula(1, formula_gradient, flow);
+  Nested<FormulaGradient> gradient;
+  formula_.calc(state, {&t, 1}, *gradient);
+  flow.Q = gradient->value;
+  if (formula_.reads_state()) add_by_formula(1, *gradient, flow);
 }
 
 void FlowSource::add_energy(const LocalState& state, Energy& energy) const {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/hydraulics/lines/opening.hpp"
+#include "mechanism/measures/nested.hpp"
 #include "mechanism/measures/read_measure.hpp"
 #include "reduce/common/error.hpp"
 
@@ -33,8 +34,10 @@ void PoppetValve::declare(Declaration& declaration) const {
 }
 
 double PoppetValve::wanted(const LocalState& state, MeasureGradient& gradient) const {
-  double x = ports().pressure(state, 0) - setting_.back * ports().pressure(state, 1) - setting_.pressure;
-  if (setting_.pilot_ratio > 0) x += setting_.pilot_ratio * ports().pressure(state, 2);
+  const double ambient = ports().node(0).fluid().ambient;
+  const auto over = [&](int port) { return ports().pressure(state, port) - ambient; };
+  double x = over(0) - setting_.back * over(1) - setting_.pressure;
+  if (setting_.pilot_ratio > 0) x += setting_.pilot_ratio * over(2);
   const Opening open = poppet_opening(x / setting_.range);
   auto by = gradient.position();
   const double slope = open.slope / setting_.range;
@@ -101,9 +104,9 @@ void PoppetValve::add_pattern(const Slots& slots, LocalPattern& pattern) const {
 
 void PoppetValve::add_start_values(const LocalState& state, Eigen::Ref<VectorX> change) const {
   if (!follows() || state.memory()[0] != 0) return;
-  MeasureGradient unused;
-  unused.prepare(state.slots().size());
-  change[state.slots().first_order_row()] += wanted(state, unused) - state.first_order()[0];
+  Nested<MeasureGradient> unused;
+  unused->prepare(state.slots().size());
+  change[state.slots().first_order_row()] += wanted(state, *unused) - state.first_order()[0];
 }
 
 void PoppetValve::accept(const LocalState& /*state*/, Eigen::Ref<VectorX> memory) const { memory[0] = 1; }
@@ -111,9 +114,9 @@ void PoppetValve::accept(const LocalState& /*state*/, Eigen::Ref<VectorX> memory
 std::vector<OutputField> PoppetValve::own_fields() const { return {{"opening", {}, "-", "share of the full opening"}}; }
 
 void PoppetValve::write_own(const LocalState& state, double* values) const {
-  MeasureGradient unused;
-  unused.prepare(state.slots().size());
-  values[0] = opening(state, unused);
+  Nested<MeasureGradient> unused;
+  unused->prepare(state.slots().size());
+  values[0] = opening(state, *unused);
 }
 
 double PoppetValve::calc_own_measure(const LocalState& state, const std::string& /*measure*/,
@@ -144,13 +147,13 @@ void FlowValve::read(const YamlValue& formula, Model& model) {
 
 void FlowValve::calc_flow(const LocalState& state, std::size_t /*path*/, FlowJet& flow) const {
   const double t = state.time();
-  thread_local FormulaGradient set;
-  formula_.calc(state, {&t, 1}, set);
-  if (set.value < 0)
+  Nested<FormulaGradient> set;
+  formula_.calc(state, {&t, 1}, *set);
+  if (set->value < 0)
     throw ComputationError(
         fmt::format("t = {:.6g} s: flow valve '{}' is set to {:.4g} m^3/s: expected no flow below 0; "
                     "exchange `from` and `to`",
-                    t, name(), set.value));
+                    t, name(), set->value));
   const double x = (ports().pressure(state, 0) - ports().pressure(state, 1)) / pressure_;
   // The orifice g = x/(x^2 + e^2)^(1/4) with a narrow laminar range, its pressure limited for x > 0.
   constexpr double e = 0.01;
@@ -162,12 +165,12 @@ void FlowValve::calc_flow(const LocalState& state, std::size_t /*path*/, FlowJet
   }
   const double s = limited * limited + e * e, quarter = std::sqrt(std::sqrt(s));
   const double g = limited / quarter, g_x = (0.5 * limited * limited + e * e) / (s * quarter) * slope;
-  flow.Q = set.value * g;
-  add_by_pressure(state, 0, set.value * g_x / pressure_, flow);
-  add_by_pressure(state, 1, -set.value * g_x / pressure_, flow);
+  flow.Q = set->value * g;
+  add_by_pressure(state, 0, set->value * g_x / pressure_, flow);
+  add_by_pressure(state, 1, -set->value * g_x / pressure_, flow);
   if (!formula_.reads_state()) return;
-  flow.by.position() += g * set.by_state.position();
-  flow.by.rate() += g * set.by_state.rate();
+  flow.by.position() += g * set->by_state.position();
+  flow.by.rate() += g * set->by_state.rate();
 }
 
 std::string FlowValve::describe_law() const {

@@ -1,7 +1,8 @@
 // Valves that pressures open: check, relief and counterbalance valves; and the flow valve that pressures hold constant.
 //
 // A poppet opens over a range of pressures above its setting:
-//     x = (p_a - s p_b + r p_x - p_set)/range,    A = A_full (10 x^3 - 15 x^4 + 6 x^5), 0 <= x <= 1
+//     x = (p_a - s p_b + r p_x - p_set)/range,    A = A_full (10 x^3 - 15 x^4 + 6 x^5), 0 <= x <= 1,
+// pressures relative to the ambient one, which acts on springs' rooms.
 // check valve:           s = 1; r = 0; only from a to b
 // relief valve:          s = 1 (or 0, where its spring room is vented), r = 0
 // counterbalance valve:  a the load, x the pilot, r its ratio; and a check valve lets the fluid back from b to a

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/measures/nested.hpp"
 #include "mechanism/measures/read_measure.hpp"
 #include "reduce/common/error.hpp"
 #include "reduce/common/plausible.hpp"
@@ -12,7 +13,6 @@ namespace bielle::mechanism {
 namespace {
 
 constexpr double most_opening = 1;
-thread_local FormulaGradient command_gradient;
 
 }  // namespace
 
@@ -74,10 +74,11 @@ double Spool::opening(const LocalState& state, MeasureGradient& gradient) const 
   }
   if (!command_.reads_state()) return command(state);
   const double t = state.time();
-  command_.calc(state, {&t, 1}, command_gradient);
-  gradient.position() = command_gradient.by_state.position();
-  gradient.rate() = command_gradient.by_state.rate();
-  return command_gradient.value;
+  Nested<FormulaGradient> command;
+  command_.calc(state, {&t, 1}, *command);
+  gradient.position() = command->by_state.position();
+  gradient.rate() = command->by_state.rate();
+  return command->value;
 }
 
 void Spool::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
@@ -109,9 +110,10 @@ void Spool::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   }
   if (!command_.reads_state()) return;
   const double t = state.time();
-  command_.calc(state, {&t, 1}, command_gradient);
-  if (tangent.wants_K) tangent.K.dense().row(driven) -= gain * command_gradient.by_state.position().transpose();
-  if (tangent.wants_C) tangent.C.dense().row(driven) -= gain * command_gradient.by_state.rate().transpose();
+  Nested<FormulaGradient> command;
+  command_.calc(state, {&t, 1}, *command);
+  if (tangent.wants_K) tangent.K.dense().row(driven) -= gain * command->by_state.position().transpose();
+  if (tangent.wants_C) tangent.C.dense().row(driven) -= gain * command->by_state.rate().transpose();
 }
 
 void Spool::add_pattern(const Slots& slots, LocalPattern& pattern) const {

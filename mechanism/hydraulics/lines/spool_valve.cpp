@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/hydraulics/lines/opening.hpp"
+#include "mechanism/measures/nested.hpp"
 #include "mechanism/model/description.hpp"
 
 namespace bielle::mechanism {
@@ -54,10 +55,13 @@ void SpoolValve::add_pattern(const Slots& slots, LocalPattern& pattern) const {
 
 void SpoolValve::calc_flow(const LocalState& state, std::size_t path, FlowJet& flow) const {
   const Edge& edge = edges_[path];
-  thread_local MeasureGradient of_opening;
-  of_opening.prepare(state.slots().size());
-  const double y = edge.direction * spool_.opening(state, of_opening), range = 1 - overlap_;
-  const Opening open = edge_opening((y - overlap_) / range, smoothing);
+  Nested<MeasureGradient> of_opening;
+  of_opening->prepare(state.slots().size());
+  const double y = edge.direction * spool_.opening(state, *of_opening), range = 1 - overlap_;
+  Opening open = edge_opening((y - overlap_) / range, smoothing);
+  // A spool that swings beyond its full opening opens no more.
+  const Opening beyond = edge_opening((y - overlap_) / range - 1, smoothing);
+  open = {open.value - beyond.value, open.slope - beyond.slope};
   if (open.value == 0) return;
   const double D = ports().pressure(state, edge.from) - ports().pressure(state, edge.to);
   const OrificeLaw::Flow law = law_.calc(edge.area * open.value, D);
@@ -65,8 +69,8 @@ void SpoolValve::calc_flow(const LocalState& state, std::size_t path, FlowJet& f
   add_by_pressure(state, edge.from, law.Q_D, flow);
   add_by_pressure(state, edge.to, -law.Q_D, flow);
   const double by_opening = law.Q_A * edge.area * open.slope * edge.direction / range;
-  flow.by.position() += by_opening * of_opening.position();
-  flow.by.rate() += by_opening * of_opening.rate();
+  flow.by.position() += by_opening * of_opening->position();
+  flow.by.rate() += by_opening * of_opening->rate();
 }
 
 void SpoolValve::add_start_values(const LocalState& state, Eigen::Ref<VectorX> change) const {

@@ -59,12 +59,15 @@ class ActuatorReader {
     keys.insert(keys.end(), fluid_keys().begin(), fluid_keys().end());
     entry_.check_keys(keys, "a hydraulic_actuator");
     if (!entry_.has("ports")) return;
-    std::vector<std::string> own = {"pressures",   "compliances", "supply",   "valve",
-                                    "accumulator", "relief",      "cushions", "ambient_pressure"};
+    std::vector<std::string> own = {"supply", "valve", "accumulator", "relief", "ambient_pressure"};
     own.insert(own.end(), fluid_keys().begin(), fluid_keys().end());
     for (const std::string& key : own)
       if (const auto value = entry_.find(key))
         value->fail("belongs to an actuator with a circuit of its own; this one has `ports`: give it in `hydraulics`");
+    if (entry_.has("cushions")) return;
+    for (const char* key : {"pressures", "compliances"})
+      if (const auto value = entry_.find(key))
+        value->fail("belongs to chambers that are volumes of their own, and these open into `ports`: give it there");
   }
 
   Cylinder::Geometry read_geometry() {
@@ -221,7 +224,9 @@ class ActuatorReader {
   // -- cushions
 
   /// Where chambers open into the rest: through their cushions, or at once. A cushion's port is a junction of its own.
-  std::array<const PressureNode*, 2> add_cushions(const Cylinder& cylinder, const std::array<Volume*, 2>& chambers) {
+  /// @param ports  of the circuit; nullptr: none
+  std::array<const PressureNode*, 2> add_cushions(const Cylinder& cylinder, const std::array<Volume*, 2>& chambers,
+                                                  const std::array<const PressureNode*, 2>& ports = {}) {
     std::array<const PressureNode*, 2> ends{chambers[0], chambers[1]};
     const auto cushions = entry_.find("cushions");
     if (!cushions) return ends;
@@ -238,7 +243,9 @@ class ActuatorReader {
       if (areas[i] >= port_area) cushions->at("areas").fail("expected areas smaller than the port_area");
       if (lengths[i] > geometry_.longest - geometry_.shortest) cushions->at("lengths").fail("longer than the stroke");
       const std::string port = part(fmt::format("port_{}", k + 1)), name = part(fmt::format("cushion_{}", k + 1));
-      ends[k] = &add(std::make_unique<Junction>(port, fluid_, chambers[k]->start().value_or(fluid_.ambient)), port);
+      ends[k] = ports[k];
+      if (!ends[k])
+        ends[k] = &add(std::make_unique<Junction>(port, fluid_, chambers[k]->start().value_or(fluid_.ambient)), port);
       const Cushion::Data data{port_area, areas[i], lengths[i], k == 0 ? geometry_.shortest : geometry_.longest,
                                k == 0 ? 1.0 : -1.0};
       add(std::make_unique<Cushion>(name, cylinder, *chambers[k], *ends[k], read_orifice_law(*cushions, fluid_), data),
@@ -258,9 +265,13 @@ class ActuatorReader {
     std::array<const PressureNode*, 2> places{};
     std::array<Volume*, 2> volumes{};
     for (std::size_t k = 0; k < chambers_; ++k) {
-      const YamlValue item = ports.at(k);
-      places[k] = &place_named_by(item, model_);
+      places[k] = &place_named_by(ports.at(k), model_);
       fluid_ = places[k]->fluid();
+    }
+    if (chambers_ == 2 && places[0] == places[1]) ports.fail("both chambers open into the same place");
+    if (entry_.has("cushions")) return read_cushioned(places);
+    for (std::size_t k = 0; k < chambers_; ++k) {
+      const YamlValue item = ports.at(k);
       volumes[k] = volume_of(*places[k], model_);
       if (volumes[k]) {
         check_space(k, item);
@@ -270,7 +281,6 @@ class ActuatorReader {
             fmt::format("'{}' is a junction, and has no room for a chamber: list it under `volumes`", item.text()));
       }
     }
-    if (chambers_ == 2 && places[0] == places[1]) ports.fail("both chambers open into the same place");
     Cylinder& cylinder = add_cylinder(places);
     bool free = true;
     for (std::size_t k = 0; k < chambers_; ++k) free = free && volumes[k] && volumes[k]->load_decides();
@@ -279,9 +289,25 @@ class ActuatorReader {
     cylinder.balance(fluid_.ambient);
   }
 
+  /// Between its chambers and the places of the circuit lie its cushions.
+  void read_cushioned(const std::array<const PressureNode*, 2>& places) {
+    const std::array<Volume*, 2> volumes = add_chambers();
+    Cylinder& cylinder = add_cylinder({volumes[0], volumes[1]});
+    add_cushions(cylinder, volumes, places);
+    if (!entry_.has("pressures")) cylinder.balance(fluid_.ambient);
+  }
+
   // -- with a circuit of its own
 
   void read_lone() {
+    const std::array<Volume*, 2> volumes = add_chambers();
+    Cylinder& cylinder = add_cylinder({volumes[0], volumes[1]});
+    const double tank = add_supply(volumes, add_cushions(cylinder, volumes));
+    if (!entry_.has("pressures")) cylinder.balance(tank);
+  }
+
+  /// Its chambers as volumes of their own, with the pressures of the start.
+  std::array<Volume*, 2> add_chambers() {
     const auto pressures = entry_.find("pressures");
     std::array<std::optional<double>, 2> start;
     if (pressures) {
@@ -297,16 +323,12 @@ class ActuatorReader {
     }
     const std::array<double, 2> compliances = read_two("compliances");
     std::array<Volume*, 2> volumes{};
-    std::array<const PressureNode*, 2> places{};
     for (std::size_t k = 0; k < chambers_; ++k) {
       check_space(k, place_of_space());
       volumes[k] = &add_volume(part(fmt::format("chamber_{}", k + 1)), start[k], compliances[k]);
       volumes[k]->add_room(space(k).at(drawn_).V);
-      places[k] = volumes[k];
     }
-    Cylinder& cylinder = add_cylinder(places);
-    const double tank = add_supply(volumes, add_cushions(cylinder, volumes));
-    if (!pressures) cylinder.balance(tank);
+    return volumes;
   }
 
   /// Supply, tank, valve, accumulator and relief valves. @returns the pressure of the tank

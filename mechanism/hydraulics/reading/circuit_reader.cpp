@@ -87,7 +87,11 @@ class CircuitReader {
       const auto pipe = entry.find("pipe");
       if (!pipe || !pipe->is_map() || !pipe->has("pressure")) continue;
       for (const char* end : {"from", "to"})
-        if (const auto place = entry.find(end)) ends_of_pipes_.emplace(place->text(), pipe->at("pressure").number());
+        if (const auto place = entry.find(end)) {
+          const double p = pipe->at("pressure").number();
+          const auto [first, is_new] = ends_of_pipes_.try_emplace(place->text(), EndOfPipes{name, p, {}, p});
+          if (!is_new && p != first->second.pressure) first->second.other = name, first->second.other_pressure = p;
+        }
     }
   }
 
@@ -121,9 +125,15 @@ class CircuitReader {
     const std::string name = item.text();
     check_name(name, item);
     take(name, item);
-    if (const auto pipe = ends_of_pipes_.find(name); pipe != ends_of_pipes_.end())
-      model_.add(std::make_unique<Volume>(name, fluid_, 0, pipe->second, 0, pipe_junction), own(name));
-    else
+    if (const auto found = ends_of_pipes_.find(name); found != ends_of_pipes_.end()) {
+      const EndOfPipes& end = found->second;
+      if (!end.other.empty())
+        item.doubt(
+            fmt::format("the pipe '{}' that leads here begins with {:.6g} Pa, '{}' with {:.6g} Pa: the junction "
+                        "begins with the first of them",
+                        end.pipe, end.pressure, end.other, end.other_pressure));
+      model_.add(std::make_unique<Volume>(name, fluid_, 0, end.pressure, 0, pipe_junction), own(name));
+    } else
       model_.add(std::make_unique<Junction>(name, fluid_, fluid_.ambient), own(name));
   }
 
@@ -145,6 +155,7 @@ class CircuitReader {
     if (const auto to = entry.find("to")) {
       place = to->text();
       check_name(place, *to);
+      if (place != name) take(place, *to);
       if (const auto other = supplied_.find(place); other != supplied_.end())
         to->fail(fmt::format("the supply '{}' gives it a pressure already", other->second));
       supplied_.emplace(place, name);
@@ -184,7 +195,14 @@ class CircuitReader {
   std::map<std::string, std::string> taken_;     ///< path of each name
   std::map<std::string, std::string> given_;     ///< places of given pressure, and the supply of each
   std::map<std::string, std::string> supplied_;  ///< those that are made
-  std::map<std::string, double> ends_of_pipes_;  ///< by name, with the pressure of a pipe at the start
+  /// A place that pipes lead to.
+  struct EndOfPipes {
+    std::string pipe;   ///< the first of them
+    double pressure;    ///< of its fluid at the start [Pa]
+    std::string other;  ///< one of another pressure; empty: there is none
+    double other_pressure;
+  };
+  std::map<std::string, EndOfPipes> ends_of_pipes_;  ///< by name
 };
 
 }  // namespace

@@ -179,7 +179,7 @@ void read_pipe(const LineEntry& line) {
   for (int i = 0; i <= n; ++i) {
     const PressureNode* after = ends[1];
     if (i < n) {
-      auto volume = std::make_unique<Volume>(line.name, line.fluid, space, pressure, compliance);
+      auto volume = std::make_unique<Volume>(line.name, line.fluid, space, pressure, compliance, pipe_cell);
       after = volume.get();
       line.model.add(std::move(volume), line.own(), Recorded::stacked);
     }

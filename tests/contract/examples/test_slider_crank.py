@@ -17,7 +17,7 @@ sys.path.insert(0, os.path.join(REPOSITORY, "tools"))
 from bielle_tools.results_file import Results  # noqa: E402
 
 PROGRAM = os.path.join(os.environ["BIELLE_PROGRAMS"], "bielle-mechanism")
-SUPERELEMENT = os.environ["BIELLE_CONROD"]
+SUPERELEMENT = os.environ["BIELLE_SUPERELEMENT"]
 R, L, SPEED, RUN_UP = 0.05, 0.2, 2 * np.pi * 50, 0.06
 
 

@@ -28,5 +28,5 @@ TEST_CASE("every body of meshes/ is read and meshed with its groups") {
     CHECK(mesh_volume(mesh) == Approx(geometry_volume(body.mesh.path, body.mesh.length_unit)).epsilon(1e-3));
     names.insert(entry.path().stem().string());
   }
-  CHECK(names == std::set<std::string>{"arc", "bar", "bar_in_pieces", "conrod", "conrod_step", "plate"});
+  CHECK(names == std::set<std::string>{"arc", "bar", "bar_in_pieces", "boom", "conrod", "conrod_step", "plate"});
 }

@@ -1,0 +1,28 @@
+// Says when a cylinder without stops has left its stroke.
+#pragma once
+
+#include "mechanism/hydraulics/actuators/cylinder.hpp"
+#include "mechanism/model/gatherer.hpp"
+
+namespace bielle::mechanism {
+
+class StrokeWatch final : public Gatherer {
+ public:
+  explicit StrokeWatch(const Cylinder& cylinder) : cylinder_(cylinder) {}
+  void begin() override { most_ = {}; }
+  void add(const LocalState& state) override;
+  void exchange(Archive& archive) override;
+  std::vector<ResultArray> results() override { return {}; }
+  std::string summary() override;
+  std::string what() const override;
+
+ private:
+  /// Where it was farthest beyond an end.
+  struct Beyond {
+    double way = 0, length = 0, time = 0;  ///< [m], [m], [s]
+  };
+  const Cylinder& cylinder_;
+  Beyond most_;
+};
+
+}  // namespace bielle::mechanism
