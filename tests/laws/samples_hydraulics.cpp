@@ -168,7 +168,7 @@ std::vector<Sample> places() {
       part("volumes", "volume", "", circuit("    it: {volume: 5, pressure: 1, compliance: 3e-5}\n"),
            {{"volume", "-1", "at least 0"}, {"pressure", "-2e5", "vacuum"}, {"compliance", "-1", "at least 0"}}),
       part("volumes", "volume", "without air", circuit("    it: {volume: 5, pressure: 3e4}\n", conserving),
-           {{"volume", "0", "has no volume"}, {"pressure", "-2e5", "vacuum"}}),
+           {{"volume", "0", "has no space as drawn"}, {"pressure", "-2e5", "vacuum"}}),
       part("supplies", "supply", "pressure", circuit("  supplies:\n    it: {pressure: \"1 + axle.angle + t\"}\n"),
            {{"pressure", "", "one of the two"}}),
       part("supplies", "supply", "flow",

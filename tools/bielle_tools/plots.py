@@ -33,6 +33,7 @@ def draw_all(results, folder, extension="png", nodes=None, joints=None, superele
             written += node_paths(results, at, nodes)
             written += bodies(results, at, superelements or {})
             written += beams(results, at)
+            written += circuit(results, at)
             written += signals(results, at)
             written += solver(results, at)
     written += eigenvalues(results, at)
@@ -231,14 +232,48 @@ def beams(results, at):
     return written
 
 
+def circuit(results, at):
+    """A hydraulic circuit as a whole: pressures of places, flows of lines, openings of valves, powers.
+
+    Of what has many columns (cells of pipes) the first and the last are drawn; of too many curves those that vary most.
+    """
+    panels = []
+    for quantity in ("pressure", "flow", "opening", "power"):
+        curves, units = [], ""
+        for name in results.names("hydraulics"):
+            place = f"hydraulics/{name}/{quantity}"
+            columns = _columns(results, place)
+            if not columns or (quantity == "flow" and results.has(f"hydraulics/{name}/pressure")):
+                continue  # net flows of places say what their pressures do
+            units = results.units(place)
+            names = column_names(results, place) if len(columns) > 1 else [""]
+            shown = range(len(columns)) if len(columns) <= 6 else (0, len(columns) - 1)
+            curves += [(f"{name} {names[k]}".strip(), columns[k]) for k in shown]
+        if len(curves) > MOST_CURVES:
+            most = sorted(curves, key=lambda curve: -np.ptp(curve[1]))[:MOST_CURVES]
+            curves = [curve for curve in curves if any(curve is other for other in most)]
+        if curves:
+            panels.append((style.label(quantity, units), curves))
+    if not panels:
+        return []
+    fig, axes = style.figure(len(panels), f"{results.title}: hydraulics", height=3.2)
+    for panel, (label, curves) in zip(axes[:, 0], panels):
+        for k, (name, values) in enumerate(curves):
+            panel.plot(results.time, values, label=name, linestyle="-" if k < len(style.COLOURS) else "--")
+        panel.set_ylabel(label)
+        style.legend(panel)
+    axes[-1, 0].set_xlabel(results.axis)
+    return [style.save(fig, at("hydraulics"))]
+
+
 def signals(results, at):
-    """What is left: actuators, springs, contacts, hydraulics, points; a panel per dataset of few columns over time.
+    """What is left: actuators, springs, contacts, points; a panel per dataset of few columns over time.
 
     Rigid bodies are not: their nodes' paths say the same.
     """
     written = []
     drawn = set(results.elements_with("frame") + results.elements_with("rotation") + results.elements_with("angular_momentum"))
-    for section in ("elements", "contacts", "hydraulics", "points"):
+    for section in ("elements", "contacts", "points"):
         for name in results.names(section):
             if section == "elements" and name in drawn:
                 continue
@@ -341,9 +376,10 @@ def _reach(values):
 
 
 def column_names(results, place):
-    """Names of a dataset's columns: its description where it lists as many (`displacement, angle`), or 1, 2, ..."""
+    """Names of a dataset's columns: its description where it lists as many (`displacement, angle`, also after a colon), or
+    1, 2, ..."""
     count = len(_columns(results, place))
-    names = [name.strip() for name in results.text(place, "description").split(",")]
+    names = [name.strip() for name in results.text(place, "description").split(": ")[-1].split(",")]
     return names if len(names) == count else [str(k + 1) for k in range(count)]
 
 

@@ -102,7 +102,9 @@ void Volume::add_start_values(const LocalState& state, Eigen::Ref<VectorX> chang
   change[fluid_row] += fluid_at(*start_, at_start) - state.first_order()[fluid_row];
 }
 
-void Volume::accept(const LocalState& /*state*/, Eigen::Ref<VectorX> memory) const { memory[0] = 1; }
+void Volume::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {
+  if (!waits(state)) memory[0] = 1;
+}
 
 void Volume::add_energy(const LocalState& state, Energy& energy) const {
   if (waits(state)) return;

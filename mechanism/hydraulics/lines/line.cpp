@@ -79,7 +79,7 @@ std::vector<OutputField> Line::output_fields() const {
       paths_.size() == 1 ? std::vector<std::size_t>{} : std::vector<std::size_t>{paths_.size()};
   std::vector<OutputField> fields = {
       {"flow", shape, "m^3/s", paths_.size() == 1 ? ports_.describe(paths_[0].from, paths_[0].to) : "of paths" + which},
-      {"power", shape, "W", "lost on the way"}};
+      {"power", shape, "W", paths_.size() == 1 ? "lost on the way" : "lost on the paths" + which}};
   for (OutputField& field : own_fields()) fields.push_back(std::move(field));
   return fields;
 }

@@ -274,7 +274,6 @@ class ActuatorReader {
       const YamlValue item = ports.at(k);
       volumes[k] = volume_of(*places[k], model_);
       if (volumes[k]) {
-        check_space(k, item);
         volumes[k]->add_room(space(k).at(drawn_).V);
       } else if (!places[k]->is_given()) {
         item.fail(

@@ -110,7 +110,9 @@ class CircuitReader {
     auto place = std::make_unique<Volume>(name, fluid_, V, p, c);
     model_.when_read(Model::Stage::connections, [place = place.get(), entry] {
       if (!(place->drawn() > 0))
-        entry.fail("has no volume, and no chamber opens into it: give `volume` [m^3], or list it under `junctions`");
+        entry.fail(
+            "has no space as drawn, neither a `volume` [m^3] nor one of a chamber: give one, or list it under "
+            "`junctions`");
     });
     if (!pressure) place->let_load_decide();
     model_.add(std::move(place), own(name));

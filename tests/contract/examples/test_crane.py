@@ -1,0 +1,112 @@
+"""mechanism/examples/crane.yaml: holds its load, lifts and lowers it as its valves say, and keeps its books."""
+
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+
+REPOSITORY = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", ".."))
+sys.path.insert(0, os.path.join(REPOSITORY, "tools"))
+from bielle_tools.results_file import Results  # noqa: E402
+
+PROGRAM = os.path.join(os.environ["BIELLE_PROGRAMS"], "bielle-mechanism")
+SUPERELEMENT = os.environ["BIELLE_SUPERELEMENT"]
+AREAS, DEAD, AMBIENT = np.array([3.1e-3, 1.9e-3]), 1e-4, 101325
+STROKES = {"lift": (1.1, 1.8), "fold": (0.65, 1.05)}
+
+
+def run(folder, name, text):
+    path = os.path.join(folder, name)
+    with open(path + ".yaml", "w") as file:
+        file.write(text)
+    done = subprocess.run([PROGRAM, path + ".yaml", "-o", path + ".h5", "--quiet"], capture_output=True, text=True, timeout=600)
+    if done.returncode:
+        raise AssertionError(done.stderr)
+    return Results(path + ".h5")
+
+
+class Crane(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        os.symlink(SUPERELEMENT, os.path.join(cls.folder.name, "boom.h5"))
+        with open(os.path.join(REPOSITORY, "mechanism", "examples", "crane.yaml")) as file:
+            cls.text = file.read()
+        cls.results = run(cls.folder.name, "crane", cls.text)
+        cls.time = cls.results.rows("time")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.results.file.close()
+        cls.folder.cleanup()
+
+    def rows(self, name):
+        return np.squeeze(self.results.rows(name))
+
+    def test_it_is_what_the_valves_are_told(self):
+        """At rest before the first command; the load goes up, then down while the boom is lowered."""
+        height = self.rows("measures/load_height")
+        before = self.time < 0.2
+        np.testing.assert_allclose(height[before], height[0], atol=1e-3)
+        raised, lowered = height[np.searchsorted(self.time, 3.9)], height[-1]
+        self.assertGreater(raised, height[0] + 0.5)
+        self.assertLess(lowered, raised - 0.2)
+
+    def test_pressures_hold_the_load_at_the_start(self):
+        """Moments about the foot and about the tip, with all hinges free: the cylinders' forces from their pressures."""
+        for jack in STROKES:
+            pressure = self.rows(f"elements/{jack}/pressure")[0]
+            force = self.rows(f"elements/{jack}/force")[0]
+            self.assertAlmostEqual(force, AREAS @ ((pressure - AMBIENT) * [1, -1]), delta=1e-6 * abs(force) + 1)
+        # The jib: its weight at 0.7 m and the load at 1.4 m of the hinge; the cylinder's line of action from the drawing.
+        lug, end, tip = np.array([2.2, 0]), np.array([3.7 - 0.85, -0.3]), np.array([3, 0])
+        along = (end - lug) / np.linalg.norm(end - lug)
+        arm = (end - tip)[0] * along[1] - (end - tip)[1] * along[0]
+        wanted = 9.81 * (60 * 0.7 + 300 * 1.4) / arm
+        self.assertAlmostEqual(self.rows("elements/fold/force")[0] / wanted, 1, delta=0.02)  # the boom bends a little
+
+    def test_mass_of_the_fluid_is_that_of_its_space_and_pressure(self):
+        for jack, (shortest, longest) in STROKES.items():
+            length = self.rows(f"elements/{jack}/length")
+            self.assertGreater(length.min(), shortest)
+            self.assertLess(length.max(), longest)
+            hose, give = (2e-4, 2e-14) if jack == "lift" else (3e-4, 3e-14)
+            for side, way in (("a", length - shortest), ("b", longest - length)):
+                pressure = self.rows(f"hydraulics/{jack}_{side}/pressure")
+                space = hose + give * (pressure - AMBIENT) + DEAD + AREAS["ab".index(side)] * way
+                np.testing.assert_allclose(self.rows(f"hydraulics/{jack}_{side}/volume"), space, rtol=1e-9)
+                self.assertGreater(pressure.min(), 0)
+
+    def test_the_relief_valve_limits_the_line(self):
+        line = self.rows("hydraulics/line/pressure")
+        self.assertLess(line.max(), 19.1e6)
+        self.assertGreater(line.min(), 12e6)
+
+    def test_valves_that_close_stop_the_load(self):
+        rate = np.abs(self.rows("elements/lift/rate"))
+        self.assertGreater(rate.max(), 0.1)
+        self.assertLess(rate[self.time > 5.6].max(), 0.05 * rate.max())
+
+    def test_its_circuit_is_drawn(self):
+        folder = os.path.join(self.folder.name, "figures")
+        done = subprocess.run([os.path.join(REPOSITORY, "tools", "bielle-plot"), os.path.join(self.folder.name, "crane.h5"), "-o",
+                               folder], capture_output=True, text=True, timeout=300)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertLessEqual({"hydraulics.png", "element_lift.png", "element_fold.png"}, set(os.listdir(folder)))
+
+    def test_energy_balance_closes(self):
+        balance, put_in = self.rows("energy/balance"), self.rows("energy/input")
+        self.assertLess(np.abs(balance).max(), 1e-5 * np.abs(put_in).max())
+
+    def test_half_the_step_moves_the_load_alike(self):
+        fine = run(self.folder.name, "fine", self.text.replace("step: 2.0e-3", "step: 1.0e-3"))
+        height, time = np.squeeze(fine.rows("measures/load_height")), fine.rows("time")
+        self.assertLess(np.abs(np.interp(self.time, time, height) - self.rows("measures/load_height")).max(), 2e-3)
+        fine.file.close()
+
+
+if __name__ == "__main__":
+    unittest.main()
