@@ -56,9 +56,7 @@ void Session::set_state(State state) {
   started_ = true;
 }
 
-StartConditions Session::start_conditions() const {
-  return started_ ? StartConditions() : conditions_of_file(system_);
-}
+StartConditions Session::start_conditions() const { return started_ ? StartConditions() : conditions_of_file(system_); }
 
 // -- computing
 
@@ -144,11 +142,12 @@ StaticsReport Session::statics(const StaticsOptions& options) {
                               point(state, at.load_factor, at.iterations, at.done);
                             });
     } else {
-      solve_statics(system_, statics, LoadSteps(options.steps, begin), options.newton, state_,
-                    [&](const State& state, double factor, int iterations) {
-                      point(state, factor, iterations,
-                            begin.factor == 1 ? 1 : (factor - begin.factor) / (1 - begin.factor));
-                    });
+      LoadSteps steps(options.steps, begin);
+      steps.branch = options.branch;
+      report.log = solve_statics(
+          system_, statics, steps, options.newton, state_, [&](const State& state, double factor, int iterations) {
+            point(state, factor, iterations, begin.factor == 1 ? 1 : (factor - begin.factor) / (1 - begin.factor));
+          });
       loaded_ = {1, 1};
     }
   } catch (const Stopped&) {
