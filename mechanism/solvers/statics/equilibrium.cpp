@@ -234,6 +234,7 @@ void Equilibrium::move(State& state, const State& base, double part) const {
 void Equilibrium::evaluate(State& state) {
   reactions_.balance(environment_, state);
   residual_at_rest(system_, environment_, state, r_, &scale_);
+  if (push_.size() > 0) r_.head(push_.size()) -= push_;
 }
 
 }  // namespace bielle::mechanism

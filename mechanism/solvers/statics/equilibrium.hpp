@@ -25,6 +25,8 @@ class Equilibrium {
   /// pseudo-transient continuation, (K + M/tau^2) dq = -r with tau growing as the residual falls, from steps of a tenth
   /// of the mechanism's size on (C. T. Kelley, D. E. Keyes, SIAM J. Numer. Anal. 35 (1998) 508). Returns as `find`.
   int relax(double factor, State& state);
+  /// Forces (dofs) that are added to the loads until others are given, or none (size 0).
+  void push(const VectorX& forces) { push_ = forces; }
   /// Linear solves so far, those of attempts that failed included.
   long solves() const { return solves_; }
   /// Why the last attempt failed: what a component refused, what is singular, or where Newton's method stalled.
@@ -62,6 +64,7 @@ class Equilibrium {
   State before_;             ///< the last step led from it to the state in hand
   bool stepped_ = false;     ///< there was such a step
   bool searching_ = false;
+  VectorX push_;
   long solves_ = 0;
   VectorX r_, delta_;
   ResidualScale scale_;

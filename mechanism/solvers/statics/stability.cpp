@@ -92,6 +92,7 @@ std::optional<Stability::Mode> Stability::softest(const State& state, const Envi
     mode.largest = i;
   }
   mode.shape /= largest;
+  mode.force = weight.cwiseProduct(mode.shape);
   return mode;
 }
 

@@ -30,6 +30,7 @@ class Stability {
   /// The motion of the smallest stiffness, whatever its sign.
   struct Mode {
     VectorX shape;         ///< (dofs), the largest displacement relative to the mechanism's size, or turn, is 1
+    VectorX force;         ///< (dofs), of unit stiffness along the shape: K shape = stiffness force
     double stiffness = 0;  ///< its sign says whether the equilibrium is stable along it
     int largest = -1;      ///< the unknown that moves most
   };

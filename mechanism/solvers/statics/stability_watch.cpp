@@ -14,6 +14,12 @@ StabilityWatch::StabilityWatch(const LoadRamp& ramp, Equilibrium& equilibrium, d
 
 void StabilityWatch::look(double factor, State& state, StaticsLog& log) {
   std::optional<int> count = stability_.count(state, ramp_.environment(factor));
+  // A large increment may jump onto an unstable equilibrium where small ones stay on a stable path.
+  if (last_ && last_count_ && count && *count > *last_count_)
+    if (State trial = *last_; lead(factor, trial)) {
+      state = trial;
+      count = stability_.count(state, ramp_.environment(factor));
+    }
   if (last_ && last_count_ && count && *count != *last_count_) {
     CriticalPoint point = locate(factor, state, *count);
     if (branch_ > 0 && *count > *last_count_ && mode_) {
@@ -48,6 +54,8 @@ CriticalPoint StabilityWatch::locate(double factor, const State& state, int coun
   };
   State low_state = *last_;
   double low = last_factor_, high = factor, k_low = stiffness(low_state, low), k_high = stiffness(state, high);
+  k_before_ = k_low;
+  k_after_ = k_high;
   const double whole = std::abs(high - low);
   for (int i = 0, side = 0; i < most && std::abs(high - low) > accurate * whole; ++i) {
     const bool signs = k_low * k_high < 0;
@@ -56,9 +64,13 @@ CriticalPoint StabilityWatch::locate(double factor, const State& state, int coun
     const double margin = 0.25 * accurate * (high - low < 0 ? -whole : whole);
     middle = std::clamp(middle, std::min(low + margin, high - margin), std::max(low + margin, high - margin));
     State trial = low_state;
-    if (equilibrium_.find(middle, trial) < 0) break;
-    const std::optional<int> here = stability_.count(trial, ramp_.environment(middle));
-    if (!here) break;
+    // Where the equations are singular, or nearly, this is the place.
+    std::optional<int> here;
+    if (equilibrium_.find(middle, trial) >= 0) here = stability_.count(trial, ramp_.environment(middle));
+    if (!here) {
+      low = middle;
+      break;
+    }
     const double k = stiffness(trial, middle);
     const bool before = *here == point.before;
     if (before) {
@@ -78,22 +90,45 @@ CriticalPoint StabilityWatch::locate(double factor, const State& state, int coun
   return point;
 }
 
-/// Newton's method from states that are pushed along the critical motion, farther and farther, until it leads to an
-/// equilibrium with fewer motions of negative stiffness.
+/// From the last equilibrium with a force along the critical motion that deflects it by `branch`, in steps that keep it
+/// stable; then without the force.
 bool StabilityWatch::follow(double factor, const Stability::Mode& mode, State& state) {
-  constexpr double farthest = 0.5;  // of the mechanism's size
-  const System& system = ramp_.system();
-  const std::optional<int> unstable = stability_.count(state, ramp_.environment(factor));
-  for (double push = branch_; push <= std::max(farthest, branch_); push *= 2) {
-    State trial = state;
-    system.displace(trial, state, push * mode.shape);
-    if (equilibrium_.find(factor, trial) < 0) continue;
-    const std::optional<int> count = stability_.count(trial, ramp_.environment(factor));
-    if (!count || *count >= *unstable) continue;
-    state = trial;
-    return true;
+  constexpr int weakest_first = 4;  // forces that are tried, each four times the one before
+  const double stiffness = std::max(std::abs(k_before_), std::abs(k_after_));
+  bool found = false;
+  for (double part = branch_; part <= branch_ * std::pow(4, weakest_first) && !found; part *= 4) {
+    State trial = *last_;
+    equilibrium_.push(part * stiffness * mode.force);
+    found = lead(factor, trial);
+    equilibrium_.push({});
+    found = found && equilibrium_.find(factor, trial) >= 0 && is_stable(trial, factor);
+    if (found) state = trial;
   }
-  return false;
+  return found;
+}
+
+bool StabilityWatch::is_stable(const State& state, double factor) {
+  const std::optional<int> count = stability_.count(state, ramp_.environment(factor));
+  return count && *count <= *last_count_;
+}
+
+bool StabilityWatch::lead(double factor, State& state) {
+  double at = last_factor_, step = (factor - at) / 4;
+  const double least = std::abs(step) / 1024;
+  if (equilibrium_.find(at, state) < 0) return false;
+  while (at != factor) {
+    const double next = std::abs(factor - at) <= std::abs(step) * 1.001 ? factor : at + step;
+    State trial = state;
+    if (equilibrium_.find(next, trial) < 0 || !is_stable(trial, next)) {
+      step /= 2;
+      if (std::abs(step) < least) return false;
+      continue;
+    }
+    state = trial;
+    at = next;
+    step *= 1.5;
+  }
+  return true;
 }
 
 }  // namespace bielle::mechanism

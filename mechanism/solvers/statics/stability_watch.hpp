@@ -21,6 +21,8 @@ class StabilityWatch {
  private:
   CriticalPoint locate(double factor, const State& state, int count);
   bool follow(double factor, const Stability::Mode& mode, State& state);
+  bool lead(double factor, State& state);
+  bool is_stable(const State& state, double factor);  ///< as the last equilibrium was
 
   const LoadRamp& ramp_;
   Equilibrium& equilibrium_;
@@ -30,6 +32,7 @@ class StabilityWatch {
   double last_factor_ = 0;
   std::optional<int> last_count_;
   std::optional<Stability::Mode> mode_;  ///< the critical one that was found last
+  double k_before_ = 0, k_after_ = 0;    ///< smallest stiffness on either side of it
 };
 
 }  // namespace bielle::mechanism

@@ -18,8 +18,9 @@ struct LoadSteps {
   /// 0: a tenth of the way is tried first, and increments grow as long as Newton's method converges fast.
   int count = 1;
   Loaded start{};  ///< what acts already
-  /// Where the stiffness becomes negative the branch is followed that leaves there: this much of the mechanism's size,
-  /// or in radians, it is pushed along the critical motion first. 0: the path goes on, unstable.
+  /// Where the stiffness becomes negative the branch is followed that leaves there: with a force on the way that
+  /// deflects it along the critical motion by this much of the mechanism's size, or in radians. 0: the path goes on,
+  /// unstable.
   double branch = 0;
   LoadSteps(int steps, const Loaded& begin = {}) : count(steps), start(begin) {}
 };
