@@ -82,11 +82,16 @@ KinematicsReport Session::kinematics(const KinematicsOptions& options) {
   MassSaddle saddle(system_);
   for (long k = 1; k <= steps && !stopping_; ++k) {
     State next = predicted(system_, state_, begin + static_cast<double>(k) * h);
-    StartReport unused;
-    assemble_positions(system_, environment_, next, unused);
-    make_velocities_consistent(system_, environment_, next, unused, saddle);
-    make_accelerations_consistent(system_, environment_, next, saddle);
-    system_.accept(next, environment_);
+    try {
+      StartReport unused;
+      assemble_positions(system_, environment_, next, unused);
+      make_velocities_consistent(system_, environment_, next, unused, saddle);
+      make_accelerations_consistent(system_, environment_, next, saddle);
+      system_.accept(next, environment_);
+    } catch (const ComputationError& error) {
+      const std::string time = fmt::format("t = {:.6g} s: ", next.time), why = error.what();
+      throw ComputationError(why.starts_with("t = ") ? why : time + why);
+    }
     state_ = std::move(next);
     books.advance(state_.time, system_.energy(state_, environment_));
     point(k);
