@@ -53,18 +53,20 @@ PathOptions read_path(const YamlValue& entry, int steps, const Model& model) {
 }
 
 /// Where stability changed, and what is left of it.
-std::string format_stability(const StaticsLog& log) {
+std::string format_stability(const StaticsLog& log, bool path) {
   std::string text;
   for (const CriticalPoint& point : log.critical)
     text += fmt::format("  {} at load factor {:.9g}: the stiffness {} along {}, most at {}{}\n",
-                        point.after > point.before ? "instability" : "stability again", point.factor,
-                        point.after > point.before ? "becomes negative" : "is positive again",
+                        path                         ? "bifurcation"
+                        : point.after > point.before ? "instability"
+                                                     : "stability again",
+                        point.factor, point.after > point.before ? "becomes negative" : "is positive again",
                         counted(std::abs(point.after - point.before), "motion"), point.motion,
                         point.left ? "; the branch that leaves there was followed" : "");
   if (log.unstable.value_or(0) > 0)
     text += fmt::format("  the equilibrium at the end is unstable: its stiffness is negative along {}{}\n",
                         counted(*log.unstable, "motion"),
-                        log.critical.empty() ? "" : "; `branch: 1e-3` follows the branch that leaves there");
+                        log.critical.empty() || path ? "" : "; `branch: 1e-3` follows the branch that leaves there");
   return text;
 }
 
@@ -105,7 +107,7 @@ void StaticAnalysis::solve(Session& session, AnalysisSummary& summary) const {
     summary.text += fmt::format("  {} refused ({} in all); the last, to load factor {:.6g}: {}\n",
                                 counted(report.log.refused, "increment"), counted(report.log.solves, "iteration"),
                                 report.log.refused_at, report.log.why_refused);
-  summary.text += format_stability(report.log);
+  summary.text += format_stability(report.log, options_.path.has_value());
   for (const CriticalPoint& point : report.log.critical) summary.numbers["critical_points"].push_back(point.factor);
   for (const double factor : report.limit_points)
     summary.text += fmt::format("  limit point at load factor {:.9g}\n", factor);

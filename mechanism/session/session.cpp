@@ -139,6 +139,8 @@ StaticsReport Session::statics(const StaticsOptions& options) {
       loaded_ = follow_path(system_, statics, begin, *options.path, options.newton, state_,
                             [&](const State& state, const PathPoint& at) {
                               if (at.limit) report.limit_points.push_back(at.load_factor);
+                              if (at.bifurcation) report.log.critical.push_back(*at.bifurcation);
+                              report.log.unstable = at.unstable;
                               point(state, at.load_factor, at.iterations, at.done);
                             });
     } else {

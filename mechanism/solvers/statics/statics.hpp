@@ -9,6 +9,7 @@
 
 #include "mechanism/solvers/newton/convergence.hpp"
 #include "mechanism/solvers/start/start_report.hpp"
+#include "mechanism/solvers/statics/critical_point.hpp"
 #include "mechanism/solvers/statics/load_ramp.hpp"
 
 namespace bielle::mechanism {
@@ -23,14 +24,6 @@ struct LoadSteps {
   /// unstable.
   double branch = 0;
   LoadSteps(int steps, const Loaded& begin = {}) : count(steps), start(begin) {}
-};
-
-/// Where the number of motions of negative stiffness changes along a path of equilibria: a limit point or bifurcation.
-struct CriticalPoint {
-  double factor = 0;          ///< load factor, found to 1e-6 of the way
-  int before = 0, after = 0;  ///< motions of negative stiffness
-  std::string motion;         ///< what moves most in the critical motion: "x at node 'tip'"
-  bool left = false;          ///< a branch was followed from there
 };
 
 /// What increments of the load factor cost, and what stability was found.

@@ -112,6 +112,36 @@ TEST_CASE("a right-angle frame's critical loads are found by counting") {
     });
 }
 
+TEST_CASE("a path of a shallow arch meets its bifurcation before its limit point, and says so") {
+  // As in test_paths.cpp: to its side at 75.00 +- 0.02 (shooting), limit point at 85.507018218.
+  const std::string section =
+      ", elements: 32, orientation: [0, 1, 0], section: {EA: 1e6, GAy: 1e9, GAz: 1e9, GJ: 1e9, EIy: 1e9, EIz: "
+      "1e6/12}}\n";
+  const MechanismFile file = read_mechanism_text(
+      "nodes:\n  left: {position: [-50, 0, 0], fixed: [x, y, z, rx, ry]}\n  load: {position: [0, 5, 0]}\n"
+      "  right: {position: [50, 0, 0], fixed: [x, y, z, rx, ry]}\nelements:\n"
+      "  a: {type: beam, nodes: [left, load], arc_through: ['-252.5*sin(0.1)', '252.5*cos(0.1) - 247.5', 0]" +
+          section +
+          "  b: {type: beam, nodes: [load, right], arc_through: ['252.5*sin(0.1)', '252.5*cos(0.1) - 247.5', 0]" +
+          section + "loads: {p: {node: load, force: [0, -1, 0]}}\n",
+      "arch.yaml");
+  Session session(file.model);
+  StaticsOptions options;
+  PathOptions path;
+  path.end.node = *file.model.find_node("load");
+  path.end.direction = Vector3::UnitY();
+  path.end.displacement = -3;
+  options.steps = 0;
+  options.path = path;
+  const StaticsReport report = session.statics(options);
+  REQUIRE(report.limit_points.size() == 1);
+  REQUIRE(report.log.critical.size() == 1);
+  CHECK(report.log.critical[0].before == 0);
+  CHECK(report.log.critical[0].after == 1);
+  CHECK(report.log.critical[0].factor == Approx(75.00).margin(0.05));
+  CHECK(report.log.unstable == 2);  // to its side, and down
+}
+
 TEST_CASE("an inverted pendulum on a spring is unstable where its weight outweighs the spring") {
   // c against m g l: two rigid bodies joined by constraints, so that the count is on their null space.
   for (const double spring : {15.0, 30.0}) {
