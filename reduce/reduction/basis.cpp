@@ -59,6 +59,7 @@ Eigenpairs fixed_boundary_modes(const NodeMatrix& mass, const HeldBody& held, co
       [&](const Eigen::MatrixXd& z) { return held.restrict(mass.multiply(held.expand(z), 3, threads)); }};
   EigenpairOptions options;
   const double expected = 2.0 * modes.count.value_or(20) + 10;
+  options.threads = threads;
   options.on_solve = [&](int solves) {
     progress.update(std::min(0.99, solves / (1.5 * expected)), counted(solves, "solution"));
   };
