@@ -56,7 +56,7 @@ Eigenpairs fixed_boundary_modes(const NodeMatrix& mass, const HeldBody& held, co
   }
   const ShiftInvertProblem problem{
       held.size(), 0, [&](const Eigen::MatrixXd& b) { return held.solve(b); },
-      [&](const Eigen::MatrixXd& z) { return held.restrict(mass.multiply(held.expand(z), 3, threads)); }};
+      [&](const Eigen::MatrixXd& z) { return held.inertia(mass, z, threads); }};
   EigenpairOptions options;
   const double expected = 2.0 * modes.count.value_or(20) + 10;
   options.threads = threads;

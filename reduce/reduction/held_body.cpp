@@ -88,6 +88,19 @@ Eigen::MatrixXd HeldBody::restrict(const RowMatrix& forces) const {
   return f;
 }
 
+Eigen::MatrixXd HeldBody::inertia(const NodeMatrix& mass, const Eigen::MatrixXd& z, int threads) const {
+  constexpr Eigen::Index few = 4;
+  const Eigen::Index groups = (z.cols() + few - 1) / few;
+  if (groups < threads) return restrict(mass.multiply(expand(z), 3, threads));
+  Eigen::MatrixXd forces(size_, z.cols());
+#pragma omp parallel for num_threads(threads) schedule(dynamic)
+  for (Eigen::Index group = 0; group < groups; ++group) {
+    const Eigen::Index first = few * group, width = std::min(few, z.cols() - first);
+    forces.middleCols(first, width) = restrict(mass.multiply(expand(z.middleCols(first, width)), 3, 1));
+  }
+  return forces;
+}
+
 void HeldBody::find_rigid_motions(const Solid& solid, const Ties& ties) {
   const std::vector<bool> inside = points_of_solid(solid);
   Eigen::AlignedBox3d box;

@@ -5,6 +5,10 @@
 #include <numeric>
 #include <vector>
 
+#include <sys/mman.h>
+#include <SuiteSparse_config.h>
+#include <cstdlib>
+#include <cstdio>
 #include <cholmod.h>
 #include <fmt/format.h>
 #include <omp.h>
@@ -36,6 +40,21 @@ class Common {
     common_.method[0].ordering = CHOLMOD_GIVEN;
     common_.postorder = 1;
     common_.quick_return_if_not_posdef = 1;
+    if (const char* e = std::getenv("RELAX")) {
+      long n[3];
+      double z[3];
+      if (std::sscanf(e, "%ld,%ld,%ld,%lf,%lf,%lf", n, n + 1, n + 2, z, z + 1, z + 2) == 6)
+        for (int k = 0; k < 3; ++k) common_.nrelax[k] = n[k], common_.zrelax[k] = z[k];
+    }
+    if (std::getenv("HUGE")) {
+      SuiteSparse_config.malloc_func = [](std::size_t n) -> void* {
+        constexpr std::size_t page = std::size_t{2} << 20;
+        if (n < 4 * page) return std::malloc(n);
+        void* p = std::aligned_alloc(page, (n + page - 1) / page * page);
+        if (p) madvise(p, n, MADV_HUGEPAGE);
+        return p;
+      };
+    }
   }
   ~Common() { cholmod_l_finish(&common_); }
   Common(const Common&) = delete;
