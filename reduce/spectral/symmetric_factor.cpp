@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <numeric>
 #include <vector>
 
-#include <sys/mman.h>
 #include <SuiteSparse_config.h>
-#include <cstdlib>
-#include <cstdio>
 #include <cholmod.h>
 #include <fmt/format.h>
 #include <omp.h>
+#include <sys/mman.h>
 
 #include "reduce/spectral/blas.hpp"
 
@@ -29,10 +28,23 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+/// CHOLMOD takes what is large from pages of 2 MB: factors are read from end to end, again and again.
+void* allocate_in_huge_pages(std::size_t bytes) {
+  constexpr std::size_t page = std::size_t{2} << 20, large = 8 * page;
+  if (bytes < large) return std::malloc(bytes);
+  void* memory = std::aligned_alloc(page, (bytes + page - 1) / page * page);
+  if (memory != nullptr) madvise(memory, bytes, MADV_HUGEPAGE);  // no more than advice
+  return memory;
+}
+
 /// CHOLMOD's settings and workspace; one per thread.
 class Common {
  public:
   Common() {
+    [[maybe_unused]] static const bool once = [] {
+      SuiteSparse_config.malloc_func = allocate_in_huge_pages;
+      return true;
+    }();
     cholmod_l_start(&common_);
     common_.print = 0;
     common_.supernodal = CHOLMOD_SUPERNODAL;
@@ -40,21 +52,6 @@ class Common {
     common_.method[0].ordering = CHOLMOD_GIVEN;
     common_.postorder = 1;
     common_.quick_return_if_not_posdef = 1;
-    if (const char* e = std::getenv("RELAX")) {
-      long n[3];
-      double z[3];
-      if (std::sscanf(e, "%ld,%ld,%ld,%lf,%lf,%lf", n, n + 1, n + 2, z, z + 1, z + 2) == 6)
-        for (int k = 0; k < 3; ++k) common_.nrelax[k] = n[k], common_.zrelax[k] = z[k];
-    }
-    if (std::getenv("HUGE")) {
-      SuiteSparse_config.malloc_func = [](std::size_t n) -> void* {
-        constexpr std::size_t page = std::size_t{2} << 20;
-        if (n < 4 * page) return std::malloc(n);
-        void* p = std::aligned_alloc(page, (n + page - 1) / page * page);
-        if (p) madvise(p, n, MADV_HUGEPAGE);
-        return p;
-      };
-    }
   }
   ~Common() { cholmod_l_finish(&common_); }
   Common(const Common&) = delete;
