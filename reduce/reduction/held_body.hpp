@@ -48,6 +48,9 @@ class HeldBody {
   Eigen::MatrixXd solve(const Eigen::MatrixXd& f, const Eigen::MatrixXd& averages = {}) const;
 
  private:
+  /// @param u  (3 points, k), zero outside
+  void expand_into(const Eigen::Ref<const Eigen::MatrixXd>& z, RowMatrix& u) const;
+  void restrict_into(const RowMatrix& forces, Eigen::Ref<Eigen::MatrixXd> f) const;
   void find_rigid_motions(const Solid& solid, const Ties& ties);
   void choose_supports();
   void factorise(const SymmetricMatrix& stiffness, const Ties& ties, int threads);

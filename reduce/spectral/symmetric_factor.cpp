@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <numeric>
+#include <optional>
 #include <vector>
 
 #include <SuiteSparse_config.h>
@@ -13,6 +14,7 @@
 #include <sys/mman.h>
 
 #include "reduce/spectral/blas.hpp"
+#include "reduce/spectral/supernodal_solver.hpp"
 
 namespace bielle {
 
@@ -186,6 +188,7 @@ struct SymmetricFactor::Implementation {
   Common common;
   cholmod_factor* factor = nullptr;
   FactorStatistics statistics;
+  std::optional<SupernodalSolver> solver;
   int threads = 1;
 
   ~Implementation() { cholmod_l_free_factor(&factor, common); }
@@ -235,6 +238,12 @@ SymmetricFactor::SymmetricFactor(const SymmetricMatrix& a, std::span<const std::
     throw NotPositiveDefinite(unknown);
   }
   statistics.reciprocal_condition = cholmod_l_rcond(factor, common);
+  const auto integers = [](const void* array) { return static_cast<const std::int64_t*>(array); };
+  implementation_->solver.emplace(
+      SupernodalFactor{a.size, static_cast<std::int64_t>(factor->nsuper), integers(factor->super), integers(factor->pi),
+                       integers(factor->px), integers(factor->s), integers(factor->Perm),
+                       static_cast<const double*>(factor->x)},
+      implementation_->threads);
 }
 
 SymmetricFactor::SymmetricFactor(SymmetricFactor&&) noexcept = default;
@@ -252,6 +261,8 @@ Eigen::MatrixXd SymmetricFactor::solve(const Eigen::MatrixXd& b) const {
     return x;
   }
   const BlasThreads blas(1);
+  constexpr Eigen::Index few = 4;  // columns
+  if (columns >= few && !std::getenv("OLDSOLVE")) return implementation_->solver->solve(b);
   const int threads = static_cast<int>(std::min<Eigen::Index>(implementation_->threads, columns));
   bool failed = false;
 #pragma omp parallel num_threads(threads) reduction(|| : failed)
