@@ -262,7 +262,7 @@ Eigen::MatrixXd SymmetricFactor::solve(const Eigen::MatrixXd& b) const {
   }
   const BlasThreads blas(1);
   constexpr Eigen::Index few = 4;  // columns
-  if (columns >= few && !std::getenv("OLDSOLVE")) return implementation_->solver->solve(b);
+  if (columns >= few) return implementation_->solver->solve(b);
   const int threads = static_cast<int>(std::min<Eigen::Index>(implementation_->threads, columns));
   bool failed = false;
 #pragma omp parallel num_threads(threads) reduction(|| : failed)
