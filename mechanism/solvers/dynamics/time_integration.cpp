@@ -10,6 +10,7 @@
 #include "mechanism/solvers/start/consistent_start.hpp"
 #include "mechanism/solvers/start/consistent_velocities.hpp"
 #include "mechanism/solvers/start/massless_balance.hpp"
+#include "mechanism/solvers/start/refused_holds.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -99,8 +100,12 @@ Jump TimeIntegration::begin_branch(double h, const std::vector<int>& crossed) {
   jump.crossed = crossed;
   jump.before = system_.energy(state, environment_);
   state.time += just_off(jump.time, h);
+  const std::vector<char> before = state.idle;
   system_.begin_branch(state, environment_, crossed);
   set_redundant_aside(system_, environment_, state);
+  std::vector<int> new_holds = active_holds(system_, state);
+  std::erase_if(new_holds, [&](int k) { return before[static_cast<std::size_t>(k)] == Idle::active; });
+  refuse_holds(system_, environment_, state, std::move(new_holds), Overloaded::refused, correction_.saddle());
   StartReport report;
   start_anew(h, report);
   newton_.forget_factors();
