@@ -71,6 +71,14 @@ Sample bushing_of_matrices() {
            {"maxwell.1.stiffness", "[1, 1]", "six numbers"}}};
 }
 
+Sample plain_bushing() {
+  return {Section::joints,
+          "bushing",
+          "numbers",
+          flexible_joint("type: bushing, stiffness: [1, 2, 1, 0.5, 0, 1]"),
+          {{"stiffness", "[0, 0, 0, 0, 0, 0]", "does nothing"}, {"stiffness", "[1]", "six numbers"}}};
+}
+
 Sample bushing_of_curves() {
   Sample sample{
       Section::joints,
@@ -264,6 +272,7 @@ Sample field() {
            {"stiffness", "", "stiffness"},
            {"stiffness", "[[1]]", ""},
            {"stiffness", by_rows(to_ground), "resists rigid motions"},
+           {"stiffness", by_rows(Matrix12::Zero()), "does nothing"},
            {"stiffness", by_rows(-between(some_matrix(0.2), way)), "not positive semidefinite"},
            {"damping", "-1", "at least 0"}}};
 }
@@ -303,7 +312,7 @@ Sample field_of_files() {
 }  // namespace
 
 std::vector<Sample> flexible_samples() {
-  std::vector<Sample> list = {bushing_of_matrices(), bushing_of_curves(), bearing_of_all(), plain_bearing(), field(),
+  std::vector<Sample> list = {bushing_of_matrices(), plain_bushing(), bushing_of_curves(), bearing_of_all(), plain_bearing(), field(),
                               field_of_files()};
   for (Sample& sample : clearances()) list.push_back(std::move(sample));
   return list;

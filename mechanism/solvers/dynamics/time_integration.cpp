@@ -3,6 +3,9 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "mechanism/solvers/constraints/redundancy.hpp"
 #include "mechanism/solvers/dynamics/stabilised_equations.hpp"
 #include "mechanism/solvers/dynamics/start_values.hpp"
@@ -105,9 +108,16 @@ Jump TimeIntegration::begin_branch(double h, const std::vector<int>& crossed) {
   set_redundant_aside(system_, environment_, state);
   std::vector<int> new_holds = active_holds(system_, state);
   std::erase_if(new_holds, [&](int k) { return before[static_cast<std::size_t>(k)] == Idle::active; });
-  refuse_holds(system_, environment_, state, std::move(new_holds), Overloaded::refused, correction_.saddle());
   StartReport report;
-  start_anew(h, report);
+  try {
+    refuse_holds(system_, environment_, state, std::move(new_holds), Overloaded::refused, correction_.saddle());
+    start_anew(h, report);
+  } catch (const ComputationError& error) {
+    std::vector<std::string> events;
+    for (const int k : crossed) events.push_back(system_.crossings()[static_cast<std::size_t>(k)].name);
+    if (events.empty()) throw;
+    throw ComputationError(fmt::format("{}; this is where {}", error.what(), fmt::join(events, ", ")));
+  }
   newton_.forget_factors();
   jump.after = system_.energy(state, environment_);
   jump.work = report.impulse_work;
