@@ -153,7 +153,10 @@ std::vector<CurveFormula> read_elastic_law(const YamlValue& entry, ElasticLaw& l
   const bool branched = std::any_of(law.branches().begin(), law.branches().end(),
                                     [](const MaxwellBranch& branch) { return !branch.K.isZero(0); });
   if (law.K.isZero(0) && law.D.isZero(0) && !curved && !branched)
-    (stiffness ? *stiffness : damping ? *damping : entry).fail("does nothing: all of its stiffness and damping is zero");
+    (stiffness ? *stiffness
+     : damping ? *damping
+               : entry)
+        .fail("does nothing: all of its stiffness and damping is zero");
   return formulas;
 }
 

@@ -76,7 +76,9 @@ Sample plain_bushing() {
           "bushing",
           "numbers",
           flexible_joint("type: bushing, stiffness: [1, 2, 1, 0.5, 0, 1]"),
-          {{"stiffness", "[0, 0, 0, 0, 0, 0]", "does nothing"}, {"stiffness", "[1]", "six numbers"}}};
+          {{"nodes", "[a, a]", "two different nodes"},
+           {"stiffness", "[0, 0, 0, 0, 0, 0]", "does nothing"},
+           {"stiffness", "[1]", "six numbers"}}};
 }
 
 Sample bushing_of_curves() {
@@ -312,8 +314,8 @@ Sample field_of_files() {
 }  // namespace
 
 std::vector<Sample> flexible_samples() {
-  std::vector<Sample> list = {bushing_of_matrices(), plain_bushing(), bushing_of_curves(), bearing_of_all(), plain_bearing(), field(),
-                              field_of_files()};
+  std::vector<Sample> list = {bushing_of_matrices(), plain_bushing(), bushing_of_curves(), bearing_of_all(),
+                              plain_bearing(),       field(),         field_of_files()};
   for (Sample& sample : clearances()) list.push_back(std::move(sample));
   return list;
 }

@@ -283,8 +283,6 @@ void find_touches(const PlacedShape<T>& first, const PlacedShape<T>& second, con
     const Spring<T> spring(law, touch.depth);
     touch.force = touch.load = spring.force;
     touch.id = static_cast<int>(32 * side + corner);
-    for (const Touch<T>& other : result.touches)
-      if (other.id == touch.id) touch.id += 64;
     result.potential += spring.potential;
     if (corner < corner_touch[side].size()) corner_touch[side][corner] = static_cast<int>(result.touches.size());
     result.touches.push_back(touch);

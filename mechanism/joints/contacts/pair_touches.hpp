@@ -31,7 +31,7 @@ struct Touch {
   Triple<T> place;   ///< halfway between the two surfaces
   T force{};         ///< elastic, along the normal on the second [N]; may be negative where edges share with corners
   T load{};          ///< what damping and friction follow: >= 0 [N]
-  int id = 0;        ///< the same from step to step: which corner, which crossing, where a corner touches several times
+  int id = 0;  ///< the same from step to step: which corner, which crossing; a corner may touch a surface several times
 };
 
 template <class T>
