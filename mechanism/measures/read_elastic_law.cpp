@@ -148,6 +148,15 @@ std::vector<CurveFormula> read_elastic_law(const YamlValue& entry, ElasticLaw& l
   }
   if (!stiffness && !damping && !curves && !maxwell)
     entry.fail("expected `stiffness`, `damping`, `curves` or `maxwell`: nothing else joins the nodes");
+  const bool curved = !formulas.empty() || std::any_of(law.curves.begin(), law.curves.end(),
+                                                       [](const auto& curve) { return curve.has_value(); });
+  const bool branched = std::any_of(law.branches().begin(), law.branches().end(),
+                                    [](const MaxwellBranch& branch) { return !branch.K.isZero(0); });
+  if (law.K.isZero(0) && law.D.isZero(0) && !curved && !branched)
+    (stiffness ? *stiffness
+     : damping ? *damping
+               : entry)
+        .fail("does nothing: all of its stiffness and damping is zero");
   return formulas;
 }
 

@@ -117,12 +117,17 @@ void multiply_nodes(const NodeMatrix& m, const double* x, double* y, Eigen::Inde
 }  // namespace
 
 RowMatrix NodeMatrix::multiply(const RowMatrix& x, int rows_per_node, int threads) const {
-  const Eigen::Index width = rows_per_node * x.cols();  // numbers that a node owns, consecutive in memory
   RowMatrix y(x.rows(), x.cols());
-  // One field of displacements is what eigen-solvers ask for again and again.
-  width == 3 ? multiply_nodes<3>(*this, x.data(), y.data(), width, threads)
-             : multiply_nodes<Eigen::Dynamic>(*this, x.data(), y.data(), width, threads);
+  multiply_into(x, rows_per_node, y, threads);
   return y;
+}
+
+void NodeMatrix::multiply_into(const RowMatrix& x, int rows_per_node, RowMatrix& y, int threads) const {
+  const Eigen::Index width = rows_per_node * x.cols();  // numbers that a node owns, consecutive in memory
+  // One and four fields of displacements are what eigen-solvers ask for again and again.
+  width == 3    ? multiply_nodes<3>(*this, x.data(), y.data(), width, threads)
+  : width == 12 ? multiply_nodes<12>(*this, x.data(), y.data(), width, threads)
+                : multiply_nodes<Eigen::Dynamic>(*this, x.data(), y.data(), width, threads);
 }
 
 }  // namespace bielle::reduce

@@ -37,6 +37,8 @@ struct NodeMatrix {
 
   /// (m (x) I_k) x: node a owns k consecutive rows of x. @param x  (k points, any)
   RowMatrix multiply(const RowMatrix& x, int rows_per_node, int threads = 1) const;
+  /// The same into y, which has the size of x.
+  void multiply_into(const RowMatrix& x, int rows_per_node, RowMatrix& y, int threads = 1) const;
 };
 
 }  // namespace bielle::reduce

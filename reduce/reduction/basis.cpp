@@ -56,11 +56,12 @@ Eigenpairs fixed_boundary_modes(const NodeMatrix& mass, const HeldBody& held, co
   }
   const ShiftInvertProblem problem{
       held.size(), 0, [&](const Eigen::MatrixXd& b) { return held.solve(b); },
-      [&](const Eigen::MatrixXd& z) { return held.restrict(mass.multiply(held.expand(z), 3, threads)); }};
+      [&](const Eigen::MatrixXd& z) { return held.inertia(mass, z, threads); }};
   EigenpairOptions options;
-  const double expected = 2.0 * modes.count.value_or(20) + 10;
+  const double expected = 2.0 * modes.count.value_or(20) + 150;
+  options.threads = threads;
   options.on_solve = [&](int solves) {
-    progress.update(std::min(0.99, solves / (1.5 * expected)), counted(solves, "solution"));
+    progress.update(std::min(0.99, solves / expected), counted(solves, "solution"));
   };
   const auto one_more = [&] {
     return shift_invert_eigenpairs(problem, static_cast<int>(std::min<Eigen::Index>(*modes.count + 1, held.size())),
@@ -141,6 +142,7 @@ Basis make_basis(const Solid& solid, const SymmetricMatrix& stiffness, const Nod
   basis.eigenvalues = pairs.values;
   basis.residuals = pairs.residuals;
   basis.solves = pairs.solves;
+  basis.sweeps = pairs.sweeps;
   basis.next = pairs.next;
   Eigen::MatrixXd inside(held.size(), kept + pairs.values.size());
   inside.leftCols(kept) = solutions.leftCols(kept);

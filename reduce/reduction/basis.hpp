@@ -32,7 +32,8 @@ struct Basis {
   Eigen::Index residual_vectors = 0;  ///< so many of the modes, the last ones
   std::optional<double> next;         ///< omega^2 of the first mode left out [rad^2/s^2]; absent: not sought, or none
   LinearFields linear;
-  int solves = 0;  ///< single solutions of the eigenvalue iteration
+  int solves = 0;  ///< columns that the eigenvalue iteration solved for
+  int sweeps = 0;  ///< calls that it took: each reads the factor once
 
   Eigen::Index modes() const { return eigenvalues.size(); }
   Eigen::Index kept() const { return shapes.cols() - modes(); }

@@ -70,22 +70,48 @@ HeldBody::HeldBody(const Solid& solid, const SymmetricMatrix& stiffness, const T
 }
 
 RowMatrix HeldBody::expand(const Eigen::MatrixXd& z) const {
-  const auto count = static_cast<Eigen::Index>(free_.size());
-  RowMatrix u = carry_released_ * z.bottomRows(carry_released_.cols());
-  for (Eigen::Index k = 0; k < count; ++k) {
-    u.row(free_[k]) = z.row(k);
-  }
+  RowMatrix u = RowMatrix::Zero(carry_released_.rows(), z.cols());
+  expand_into(z, u);
   return u;
 }
 
 Eigen::MatrixXd HeldBody::restrict(const RowMatrix& forces) const {
-  const auto count = static_cast<Eigen::Index>(free_.size());
   Eigen::MatrixXd f(size_, forces.cols());
-  for (Eigen::Index k = 0; k < count; ++k) {
-    f.row(k) = forces.row(free_[k]);
-  }
-  f.bottomRows(carry_released_.cols()) = carry_released_.transpose() * forces;
+  restrict_into(forces, f);
   return f;
+}
+
+void HeldBody::expand_into(const Eigen::Ref<const Eigen::MatrixXd>& z, RowMatrix& u) const {
+  if (carry_released_.cols() > 0) u = carry_released_ * z.bottomRows(carry_released_.cols());
+  for (std::size_t k = 0; k < free_.size(); ++k) u.row(free_[k]) = z.row(static_cast<Eigen::Index>(k));
+}
+
+void HeldBody::restrict_into(const RowMatrix& forces, Eigen::Ref<Eigen::MatrixXd> f) const {
+  for (std::size_t k = 0; k < free_.size(); ++k) f.row(static_cast<Eigen::Index>(k)) = forces.row(free_[k]);
+  f.bottomRows(carry_released_.cols()) = carry_released_.transpose() * forces;
+}
+
+Eigen::MatrixXd HeldBody::inertia(const NodeMatrix& mass, const Eigen::MatrixXd& z, int threads) const {
+  constexpr Eigen::Index few = 4;
+  const Eigen::Index groups = (z.cols() + few - 1) / few;
+  if (groups < threads) return restrict(mass.multiply(expand(z), 3, threads));
+  Eigen::MatrixXd forces(size_, z.cols());
+#pragma omp parallel num_threads(threads)
+  {
+    RowMatrix u, of_points;
+#pragma omp for schedule(dynamic)
+    for (Eigen::Index group = 0; group < groups; ++group) {
+      const Eigen::Index first = few * group, width = std::min(few, z.cols() - first);
+      if (u.cols() != width) {
+        u.setZero(carry_released_.rows(), width);
+        of_points.resize(u.rows(), width);
+      }
+      expand_into(z.middleCols(first, width), u);
+      mass.multiply_into(u, 3, of_points);
+      restrict_into(of_points, forces.middleCols(first, width));
+    }
+  }
+  return forces;
 }
 
 void HeldBody::find_rigid_motions(const Solid& solid, const Ties& ties) {

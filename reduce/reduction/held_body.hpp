@@ -15,6 +15,7 @@
 #include <memory>
 #include <optional>
 
+#include "reduce/fe/node_graph.hpp"
 #include "reduce/reduction/ties.hpp"
 #include "reduce/spectral/symmetric_factor.hpp"
 
@@ -39,10 +40,17 @@ class HeldBody {
   /// The transposed: forces on points become forces on z.
   Eigen::MatrixXd restrict(const RowMatrix& forces) const;
 
+  /// Forces on z of the inertia of accelerations z, a few columns at a time: what they need fits in the caches.
+  /// @param mass  of all points
+  Eigen::MatrixXd inertia(const NodeMatrix& mass, const Eigen::MatrixXd& z, int threads) const;
+
   /// z under the loads f (size,k), the averages at q_a (averages,k); none: at zero.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& f, const Eigen::MatrixXd& averages = {}) const;
 
  private:
+  /// @param u  (3 points, k), zero outside
+  void expand_into(const Eigen::Ref<const Eigen::MatrixXd>& z, RowMatrix& u) const;
+  void restrict_into(const RowMatrix& forces, Eigen::Ref<Eigen::MatrixXd> f) const;
   void find_rigid_motions(const Solid& solid, const Ties& ties);
   void choose_supports();
   void factorise(const SymmetricMatrix& stiffness, const Ties& ties, int threads);

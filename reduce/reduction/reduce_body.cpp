@@ -212,7 +212,7 @@ Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Prog
   progress.finish();
   fail_when_a_check_does(checks, "the reduced body");
   if (report) {
-    *report = {mesh.point_count(), solid.cells(), held.statistics(), basis.solves, checks};
+    *report = {mesh.point_count(), solid.cells(), held.statistics(), basis.solves, basis.sweeps, checks};
   }
   return body;
 }

@@ -16,7 +16,8 @@ namespace bielle::reduce {
 struct ReductionReport {
   Eigen::Index points = 0, cells = 0;
   FactorStatistics factor;
-  int solves = 0;             ///< single solutions of the eigenvalue iteration
+  int solves = 0;             ///< columns that the eigenvalue iteration solved for
+  int sweeps = 0;             ///< calls that it took: each reads the factor once
   std::vector<Check> checks;  ///< those of the superelement and those that only the mesh could answer
 };
 

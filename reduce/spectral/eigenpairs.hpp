@@ -1,8 +1,8 @@
-// Eigenpairs of K phi = lambda M phi nearest to a shift, by ARPACK's implicitly restarted Lanczos method (mode 3).
+// Eigenpairs of K phi = lambda M phi nearest to a shift: by a block Lanczos method of our own (block_lanczos.hpp), by
+// ARPACK with single vectors (arpack_eigenpairs.hpp), or densely where the problem is small.
 //
 // The caller gives the solution with K - shift M and the product with M, so that one factorisation serves here and
-// elsewhere, and constraints may be worked into the solution. Reference: R. B. Lehoucq, D. C. Sorensen, C. Yang, ARPACK
-// Users' Guide, SIAM 1998.
+// elsewhere, and constraints may be worked into the solution.
 #pragma once
 
 #include <functional>
@@ -23,11 +23,17 @@ struct ShiftInvertProblem {
   std::function<Eigen::MatrixXd(const Eigen::MatrixXd& x)> multiply_mass;
 };
 
+enum class EigenMethod { block_lanczos, arpack };
+
 struct EigenpairOptions {
-  /// Accuracy asked of ARPACK, relative to the eigenvalues of the inverted operator.
+  EigenMethod method = EigenMethod::block_lanczos;
+  /// Residuals of the eigenpairs of the inverted operator, relative to their eigenvalues.
   double tolerance = 1e-10;
   int restarts = 300;  ///< before giving up
-  /// Called after every solution with their number so far; may show progress.
+  int block = 0;       ///< columns of a block; 0: as many as have proved best
+  int basis = 0;       ///< columns that the block method holds before it restarts; 0: as many as have proved best
+  int threads = 1;     ///< of the block method's own products
+  /// Called after every solution with the number of columns solved for so far; may show progress.
   std::function<void(int solves)> on_solve;
 };
 
@@ -40,13 +46,14 @@ struct Eigenpairs {
   Eigen::VectorXd residuals;
   /// Of a search up to a limit: the least eigenvalue beyond it, where one was found.
   std::optional<double> next;
-  int solves = 0;    ///< single solutions that ARPACK asked for
-  int restarts = 0;  ///< of the Lanczos iteration
+  int solves = 0;    ///< columns that the iteration solved for
+  int sweeps = 0;    ///< calls of `solve` that it took: each reads the factor once
+  int restarts = 0;  ///< of the iteration
 };
 
 /// The `count` eigenpairs nearest to the shift.
 /// @param count  1 <= count; small problems (count > size / 2 or so) are solved densely
-/// @throws ComputationError when ARPACK does not converge: how many pairs did, of how many
+/// @throws ComputationError when the iteration does not converge: how many pairs did, of how many
 Eigenpairs shift_invert_eigenpairs(const ShiftInvertProblem& problem, int count, const EigenpairOptions& options = {});
 
 /// All eigenpairs with eigenvalues in (shift, limit], found by asking for growing counts.

@@ -2,14 +2,19 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <numeric>
+#include <optional>
 #include <vector>
 
+#include <SuiteSparse_config.h>
 #include <cholmod.h>
 #include <fmt/format.h>
 #include <omp.h>
+#include <sys/mman.h>
 
 #include "reduce/spectral/blas.hpp"
+#include "reduce/spectral/supernodal_solver.hpp"
 
 namespace bielle {
 
@@ -25,10 +30,23 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+/// CHOLMOD takes what is large from pages of 2 MB: factors are read from end to end, again and again.
+void* allocate_in_huge_pages(std::size_t bytes) {
+  constexpr std::size_t page = std::size_t{2} << 20, large = 8 * page;
+  if (bytes < large) return std::malloc(bytes);
+  void* memory = std::aligned_alloc(page, (bytes + page - 1) / page * page);
+  if (memory != nullptr) madvise(memory, bytes, MADV_HUGEPAGE);  // no more than advice
+  return memory;
+}
+
 /// CHOLMOD's settings and workspace; one per thread.
 class Common {
  public:
   Common() {
+    [[maybe_unused]] static const bool once = [] {
+      SuiteSparse_config.malloc_func = allocate_in_huge_pages;
+      return true;
+    }();
     cholmod_l_start(&common_);
     common_.print = 0;
     common_.supernodal = CHOLMOD_SUPERNODAL;
@@ -170,6 +188,7 @@ struct SymmetricFactor::Implementation {
   Common common;
   cholmod_factor* factor = nullptr;
   FactorStatistics statistics;
+  std::optional<SupernodalSolver> solver;
   int threads = 1;
 
   ~Implementation() { cholmod_l_free_factor(&factor, common); }
@@ -219,6 +238,12 @@ SymmetricFactor::SymmetricFactor(const SymmetricMatrix& a, std::span<const std::
     throw NotPositiveDefinite(unknown);
   }
   statistics.reciprocal_condition = cholmod_l_rcond(factor, common);
+  const auto integers = [](const void* array) { return static_cast<const std::int64_t*>(array); };
+  implementation_->solver.emplace(
+      SupernodalFactor{a.size, static_cast<std::int64_t>(factor->nsuper), integers(factor->super), integers(factor->pi),
+                       integers(factor->px), integers(factor->s), integers(factor->Perm),
+                       static_cast<const double*>(factor->x)},
+      implementation_->threads);
 }
 
 SymmetricFactor::SymmetricFactor(SymmetricFactor&&) noexcept = default;
@@ -236,6 +261,8 @@ Eigen::MatrixXd SymmetricFactor::solve(const Eigen::MatrixXd& b) const {
     return x;
   }
   const BlasThreads blas(1);
+  constexpr Eigen::Index few = 4;  // columns
+  if (columns >= few) return implementation_->solver->solve(b);
   const int threads = static_cast<int>(std::min<Eigen::Index>(implementation_->threads, columns));
   bool failed = false;
 #pragma omp parallel num_threads(threads) reduction(|| : failed)

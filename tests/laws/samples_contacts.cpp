@@ -94,8 +94,8 @@ std::vector<Sample> contact_samples() {
         {{"shapes.0.cylinder", "[0, 1]", ""},
          {"shapes.0.rounding", "1.3", "less than half"},
          {"shapes.0.rounding", "0", ""},
-         {"shapes", "[{node: a, capsule: [1, 1]}, {node: b, cylinder: [1, 1]}]",
-          "a cylinder can touch: sphere, plane"}}));
+         {"shapes", "[{node: a, cylinder: [1, 1]}, {node: b, cylinder: [1, 1]}]",
+          "a cylinder can touch: sphere, plane, capsule"}}));
   list.push_back(touching(
       "sphere, box", "shapes: [{node: a, box: [1.2, 1.1, 1.3], rounding: 0.3}, {node: b, sphere: 1.2}]",
       {{"shapes.0.box", "[1, 1]", ""}, {"shapes.0.box", "[1, 1, -1]", ""}, {"shapes.0.rounding", "0.55", ""}}));
@@ -131,6 +131,18 @@ std::vector<Sample> contact_samples() {
                "shapes: [{node: a, capsule: [0.9, 2], axes: {x: [0, 0, 1], y: [0, 1, 0]}}, {node: b, capsule: "
                "[0.9, 3], axes: {x: [0, 0, 1], y: [0.1, 1, 0]}}]",
                {{"shapes.1.capsule", "[1, -1]", ""}}));
+  list.push_back(touching("capsule, side of a cylinder",
+                          "shapes: [{node: a, cylinder: [1.2, 5], rounding: 0.4, axes: {x: [0, 0, 1], y: [0, 1, 0]}}, "
+                          "{node: b, capsule: [0.9, 4], axes: {x: [0, 0, 1], y: [1, 0.4, 0]}}]",
+                          {{"shapes.0.rounding", "1.2", ""}, {"shapes.1.capsule", "[0, 1]", ""}}));
+  list.push_back(touching("capsule, rim of a cylinder",
+                          "shapes: [{node: a, capsule: [0.9, 5], axes: {x: [0, 0, 1], y: [0.2, 1, 0]}}, {node: b, "
+                          "cylinder: [1.2, 1.6], rounding: 0.4, axes: {z: [0.5, 0.1, 1], x: [1, 0, 0]}}]",
+                          {{"shapes.1.cylinder", "[1]", ""}}));
+  list.push_back(touching("capsule, nearly parallel to a cylinder",
+                          "shapes: [{node: a, cylinder: [1.1, 4], rounding: 0.4, axes: {x: [0, 0, 1], y: [0, 1, 0]}}, "
+                          "{node: b, capsule: [0.9, 3], axes: {x: [0, 0, 1], y: [0.05, 1, 0]}}]",
+                          {{"shapes.1.capsule", "[1, -1]", ""}}));
   list.push_back(touching("capsule, box",
                           "shapes: [{node: a, box: [3, 2, 1.6], rounding: 0.6}, {node: b, capsule: [0.9, 2.5], "
                           "axes: {x: [0, 0, 1], y: [0.5, 1, 0]}}]",

@@ -71,6 +71,16 @@ Sample bushing_of_matrices() {
            {"maxwell.1.stiffness", "[1, 1]", "six numbers"}}};
 }
 
+Sample plain_bushing() {
+  return {Section::joints,
+          "bushing",
+          "numbers",
+          flexible_joint("type: bushing, stiffness: [1, 2, 1, 0.5, 0, 1]"),
+          {{"nodes", "[a, a]", "two different nodes"},
+           {"stiffness", "[0, 0, 0, 0, 0, 0]", "does nothing"},
+           {"stiffness", "[1]", "six numbers"}}};
+}
+
 Sample bushing_of_curves() {
   Sample sample{
       Section::joints,
@@ -190,7 +200,7 @@ std::vector<Sample> clearances() {
            {"friction.stribeck_velocity", "-1", ""},
            {"friction.viscous", "-1", ""},
            {"friction.velocity", "0", ""},
-           {"friction.model", "lugre", "coulomb"}}),
+           {"friction.model", "stick_slip", "coulomb"}}),
       clearance("clearance_hinge", "one contact",
                 "axis: [1, 2, 3], radial_gap: 0.01, contact: {stiffness: 2, exponent: 1}",
                 {{"axis", "[0, 0, 0]", ""}, {"contact.exponent", "0.5", "at least 1"}}),
@@ -214,6 +224,35 @@ std::vector<Sample> clearances() {
                  {"friction.velocity", "0", "greater than 0"},
                  {"friction.coefficient", "0", "greater than 0"},
                  {"stiffness.x", "-1", ""}}),
+      clearance("clearance_hinge", "bristles",
+                "axis: [1, 2, 3], radial_gap: 0.01, length: 0.6, radius: 0.3, contact: {stiffness: 3, exponent: 2, "
+                "damping: 0.1}, friction: {model: lugre, coefficient: 0.3, static: 0.4, stribeck_velocity: 3, viscous: "
+                "0.1, bristle_stiffness: 1.5, bristle_damping: 0.4}",
+                {{"axis", "", "axis"},
+                 {"length", "0", "greater than 0"},
+                 {"radius", "", "which is missing"},
+                 {"contact.stiffness", "-1", "greater than 0"},
+                 {"contact.exponent", "0", "at least 1"},
+                 {"contact.damping", "-1", "at least 0"},
+                 {"friction.model", "bristles", "lugre"},
+                 {"friction.static", "0.1", "no smaller"},
+                 {"friction.stribeck_velocity", "-1", ""},
+                 {"friction.viscous", "-1", ""},
+                 {"friction.coefficient", "", ""},
+                 {"friction.bristle_stiffness", "0", "greater than 0"},
+                 {"friction.bristle_stiffness", "", "bristle_stiffness"},
+                 {"friction.bristle_damping", "-1", "at least 0"},
+                 {"friction.velocity", "1", "model: coulomb"}}),
+      clearance("clearance_spherical", "bristles",
+                "radial_gap: 0.01, radius: 0.2, contact: {stiffness: 3, exponent: 2}, friction: {model: lugre, "
+                "coefficient: 0.3, bristle_stiffness: 2, bristle_damping: 0.3}",
+                {{"radius", "", "which is missing"},
+                 {"contact.stiffness", "-1", "greater than 0"},
+                 {"contact.exponent", "0", "at least 1"},
+                 {"friction.model", "stick_slip", "lugre"},
+                 {"friction.coefficient", "-1", "greater than 0"},
+                 {"friction.bristle_stiffness", "-1", "greater than 0"},
+                 {"friction.bristle_damping", "-1", "at least 0"}}),
       clearance("clearance_spherical", "materials",
                 "radial_gap: 0.1, radius: 0.2, contact: {young: 2, poisson: [0.3, 0.2]}",
                 {{"radius", "", "which is missing"},
@@ -264,6 +303,7 @@ Sample field() {
            {"stiffness", "", "stiffness"},
            {"stiffness", "[[1]]", ""},
            {"stiffness", by_rows(to_ground), "resists rigid motions"},
+           {"stiffness", by_rows(Matrix12::Zero()), "does nothing"},
            {"stiffness", by_rows(-between(some_matrix(0.2), way)), "not positive semidefinite"},
            {"damping", "-1", "at least 0"}}};
 }
@@ -303,8 +343,8 @@ Sample field_of_files() {
 }  // namespace
 
 std::vector<Sample> flexible_samples() {
-  std::vector<Sample> list = {bushing_of_matrices(), bushing_of_curves(), bearing_of_all(), plain_bearing(), field(),
-                              field_of_files()};
+  std::vector<Sample> list = {bushing_of_matrices(), plain_bushing(), bushing_of_curves(), bearing_of_all(),
+                              plain_bearing(),       field(),         field_of_files()};
   for (Sample& sample : clearances()) list.push_back(std::move(sample));
   return list;
 }

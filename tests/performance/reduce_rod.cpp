@@ -83,7 +83,8 @@ void measure(double size, int threads) {
       "{:.0f} %)\n",
       factor, bare.factor.factorisation_seconds, bare.factor.speed(), dgemm, 100 * bare.factor.speed() / dgemm);
   fmt::print("    the first, in fresh memory {:8.2f} s\n", cold.factor.seconds());
-  fmt::print("  80 single solutions          {:8.2f} s  (the reduction made {})\n", bare.solutions, report.solves);
+  fmt::print("  80 single solutions          {:8.2f} s  (the reduction made {} in {} sweeps)\n", bare.solutions,
+             report.solves, report.sweeps);
   fmt::print("  reduction without meshing    {:8.2f} s\n", reduction);
   fmt::print("    over 2.5 x (factorisation) + 80 solutions    {:6.2f}\n", reduction / (2.5 * factor + bare.solutions));
   fmt::print("    over 2.5 x (factorisation + 80 solutions)    {:6.2f}\n",

@@ -151,6 +151,7 @@ void read_stiffness_field(const std::string& name, const YamlValue& entry, Model
   if (const auto damping = entry.find("damping"))
     D = damping->is_scalar() ? Matrix6(damping->non_negative_number() * K)
                              : read_field(*damping, way, false, "a damper that drives the motion");
+  if (K.isZero(0) && D.isZero(0)) entry.at("stiffness").fail("does nothing: all of its stiffness and damping is zero");
   const auto on = [&](const Frame& node) { return Frame{Vector3::Zero(), node.R.transpose() * axes}; };
   model.add(std::make_unique<StiffnessField>(name, std::array<int, 2>{nodes[0], nodes[1]},
                                              std::array<Frame, 2>{on(a), on(b)}, way, K, D),

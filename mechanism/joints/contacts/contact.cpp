@@ -124,7 +124,8 @@ const Bristles& Contact::bristles(const LocalState& state, int pair) const {
       end = middle;
   }
   for (Eigen::Index k = first; k < count && memory[entry(k)] == pair; ++k)
-    found.before.push_back({static_cast<int>(memory[entry(k) + 1]), memory.segment<3>(entry(k) + 2)});
+    found.before.push_back(
+        {static_cast<int>(memory[entry(k) + 1]), memory.segment<3>(entry(k) + 2), memory.segment<3>(entry(k) + 5)});
   return found;
 }
 
@@ -134,14 +135,13 @@ void Contact::remember_bristles(const LocalState& state, const std::vector<int>&
     memory.segment<3>(bristles_begin() + 12 * k) = state.node(k).x;
     Eigen::Map<Matrix3>(memory.data() + bristles_begin() + 12 * k + 3) = state.node(k).R;
   }
-  if (state.environment().statics) return;  // nothing slides: they stay as they are
   const Eigen::Index begin = bristle_count();
   thread_local std::vector<Bristle> now;
   Eigen::Index count = 0;
   for (const int pair : near) {
     now.clear();
     of_pair(state, pair, [&](const PairForce& force) {
-      force.add_bristles(law_, bristles(state, pair), now);
+      force.add_bristles(law_of(state), bristles(state, pair), now);
       return 0;
     });
     for (const Bristle& each : now) {
@@ -154,6 +154,7 @@ void Contact::remember_bristles(const LocalState& state, const std::vector<int>&
       memory[at] = pair;
       memory[at + 1] = each.id;
       memory.segment<3>(at + 2) = each.z;
+      memory.segment<3>(at + 5) = each.place;
     }
   }
   memory[begin] = static_cast<double>(count);

@@ -13,8 +13,8 @@
 // both does not know the way out any more, nor does what has gone through the other's middle: the run ends.
 //
 // Memory: [time and middles of the shapes at the last accepted step | with a restitution: damping of each pair, -1
-// while apart | with bristles: x and R of the nodes; the number of bristles, and pair, place and deflection of each, by
-// pairs].
+// while apart | with bristles: x and R of the nodes; the number of bristles, and pair,
+// touch, deflection and place of each, by pairs].
 #pragma once
 
 #include <array>
@@ -103,7 +103,7 @@ class Contact final : public Component, public OpenContact {
     return dampings_begin() + (remembers_touches() ? static_cast<Eigen::Index>(pairs_.size()) : 0);
   }
   Eigen::Index bristle_count() const { return bristles_begin() + 12 * static_cast<Eigen::Index>(nodes_.size()); }
-  static constexpr Eigen::Index bristle_entry = 5;  ///< pair, place, z
+  static constexpr Eigen::Index bristle_entry = 8;  ///< pair, Touch::id, z, place
   Vector3 middle(const LocalState& state, int shape) const;
   const std::vector<NearPairs::Bound>& bounds(const LocalState& state) const;
   void find_near(const LocalState& state, std::vector<int>& pairs) const;

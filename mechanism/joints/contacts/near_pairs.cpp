@@ -2,14 +2,31 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace bielle::mechanism {
 
 NearPairs::NearPairs(int shapes, const std::vector<std::pair<int, int>>& pairs)
-    : shapes_(shapes), number_(static_cast<std::size_t>(shapes) * static_cast<std::size_t>(shapes), -1) {
+    : shapes_(shapes), partners_(pairs.size()), begin_(static_cast<std::size_t>(shapes) + 1, 0) {
+  for (const auto& [a, b] : pairs) ++begin_[static_cast<std::size_t>(a) + 1];
+  std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+  std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
   for (std::size_t k = 0; k < pairs.size(); ++k)
-    number_[static_cast<std::size_t>(pairs[k].first) * static_cast<std::size_t>(shapes) +
-            static_cast<std::size_t>(pairs[k].second)] = static_cast<int>(k);
+    partners_[next[static_cast<std::size_t>(pairs[k].first)]++] = {pairs[k].second, static_cast<int>(k)};
+  for (std::size_t a = 0; a + 1 < begin_.size(); ++a)
+    std::sort(partners_.begin() + static_cast<std::ptrdiff_t>(begin_[a]),
+              partners_.begin() + static_cast<std::ptrdiff_t>(begin_[a + 1]),
+              [](const Partner& one, const Partner& other) { return one.shape < other.shape; });
+}
+
+int NearPairs::number(int a, int b) const {
+  const auto first = static_cast<std::size_t>(std::min(a, b));
+  const int second = std::max(a, b);
+  const auto begin = partners_.begin() + static_cast<std::ptrdiff_t>(begin_[first]),
+             end = partners_.begin() + static_cast<std::ptrdiff_t>(begin_[first + 1]);
+  const auto found =
+      std::lower_bound(begin, end, second, [](const Partner& each, int wanted) { return each.shape < wanted; });
+  return found != end && found->shape == second ? found->pair : -1;
 }
 
 double NearPairs::apart(const Bound& a, const Bound& b) {

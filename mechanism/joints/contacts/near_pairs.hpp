@@ -1,9 +1,11 @@
 // Which pairs of many shapes are near to each other: balls around the shapes, swept along one axis.
 //
 // Sorted by their lower ends along x, each ball is compared with those that begin before it ends. Planes are compared
-// with all. The cost is that of sorting, and of the pairs whose ranges along x overlap.
+// with all. The cost is that of sorting, and of the pairs whose ranges along x overlap; the memory
+// that of the pairs that count.
 #pragma once
 
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -29,13 +31,14 @@ class NearPairs {
   static double apart(const Bound& a, const Bound& b);
 
  private:
-  int number(int a, int b) const {
-    return a < b
-               ? number_[static_cast<std::size_t>(a) * static_cast<std::size_t>(shapes_) + static_cast<std::size_t>(b)]
-               : number_[static_cast<std::size_t>(b) * static_cast<std::size_t>(shapes_) + static_cast<std::size_t>(a)];
-  }
+  /// Of the pair of two shapes, -1: does not count.
+  int number(int a, int b) const;
+  struct Partner {
+    int shape, pair;
+  };
   int shapes_ = 0;
-  std::vector<int> number_;  ///< of each pair of shapes, -1: does not count
+  std::vector<Partner> partners_;   ///< by the smaller number of each pair, then ascending
+  std::vector<std::size_t> begin_;  ///< of each shape, and one behind the last: its partners
 };
 
 }  // namespace bielle::mechanism

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <utility>
 
 namespace bielle::mechanism {
 namespace {
@@ -85,16 +87,42 @@ Triple<T> velocity_at(const SeenFromFirst<T>& seen, const Triple<T>& place) {
   return seen.s_rate + cross(seen.turning, place - seen.s);
 }
 
-/// How far the second body's material at a place has moved since the last accepted step, seen from the first body.
+/// The step from the last accepted state to this one, seen from the first body.
 template <class T>
-Triple<T> way_to(const Triple<T>& place, const SeenFromFirst<T>& seen, const Bristles& bristles) {
-  if (!bristles.known) return {};
-  const Triple<T> arm = place - seen.s;
-  Triple<T> was(bristles.s);
-  for (std::size_t k = 0; k < 3; ++k)
-    was += dot(seen.node_axes[k], arm) * Triple<T>(Vector3(bristles.R_12.col(static_cast<Eigen::Index>(k))));
-  return place - was;
-}
+class StepOfPair {
+ public:
+  StepOfPair(const SeenFromFirst<T>& seen, const Bristles& bristles) : seen_(seen), bristles_(bristles) {
+    if (!bristles.known) return;
+    // The second body has turned by R_12 R_12_before^T; of its quaternion [w, q], 4 w^2 and 4 w q.
+    T trace(1);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Triple<T> before(column(k));
+      trace += dot(seen.node_axes[k], before);
+      turn_ += cross(before, seen.node_axes[k]);
+    }
+    constexpr double half_a_turn = 1e-6;
+    if (value_of(trace) > half_a_turn) turn_ = (T(1) / trace) * turn_;
+  }
+  /// How far the second body's material at a place has moved.
+  Triple<T> way_to(const Triple<T>& place) const {
+    if (!bristles_.known) return {};
+    const Triple<T> arm = place - seen_.s;
+    Triple<T> was(bristles_.s);
+    for (std::size_t k = 0; k < 3; ++k) was += dot(seen_.node_axes[k], arm) * Triple<T>(column(k));
+    return place - was;
+  }
+  /// Turns a vector across n by half of what the second body has turned about n.
+  Triple<T> turned_by_half(const Triple<T>& across, const Triple<T>& n) const {
+    const T tangent = dot(n, turn_);  // of the half
+    return (T(1) / root_of(T(1) + tangent * tangent)) * (across + tangent * cross(n, across));
+  }
+
+ private:
+  Vector3 column(std::size_t k) const { return bristles_.R_12.col(static_cast<Eigen::Index>(k)); }
+  const SeenFromFirst<T>& seen_;
+  const Bristles& bristles_;
+  Triple<T> turn_;  ///< q/w
+};
 
 /// |v|. It has no derivative at rest; nothing that depends on it changes there.
 template <class T>
@@ -108,23 +136,22 @@ template <class T>
 struct MovedBristle {
   Triple<T> z, u;
   T speed{};
-  /// @param v  across the normal
-  MovedBristle(const Touch<T>& touch, const SeenFromFirst<T>& seen, const FrictionLaw& law, const Bristles& bristles,
+  /// @param before  z at its beginning @param v  across the normal
+  MovedBristle(const Touch<T>& touch, const StepOfPair<T>& step, const FrictionLaw& law, const Vector3& before,
                const Triple<T>& v)
       : speed(size_of(v)) {
     const Triple<T>& n = touch.normal;
     const auto [mu, slope] = law.level(value_of(speed));
     const T stiffness = T(law.bristle_stiffness) * composed(speed, 1 / mu, -slope * value_of(speed) / (mu * mu));
-    const Triple<T> way = way_to(touch.place, seen, bristles), across = way - dot(n, way) * n,
-                    before(bristles.of(touch.id));
-    z = (T(1) / (T(1) + stiffness * size_of(across))) * (before - dot(n, before) * n + across);
+    const Triple<T> way = step.way_to(touch.place), across = way - dot(n, way) * n, was(before);
+    z = (T(1) / (T(1) + stiffness * size_of(across))) * step.turned_by_half(was - dot(n, was) * n + across, n);
     u = v - stiffness * speed * z;
   }
 };
 
 template <class T>
 void add_touch(const Touch<T>& touch, const SeenFromFirst<T>& seen, const SurfaceLaw& law, double damping,
-               const Bristles& bristles, Wrench<T>& wrench) {
+               const StepOfPair<T>& step, const Vector3& bristle_before, Wrench<T>& wrench) {
   const Triple<T> v = velocity_at(seen, touch.place);
   const T along = dot(touch.normal, v);  // -pdot
   const T push = positive_part(T(1) - T(damping) * along);
@@ -133,7 +160,7 @@ void add_touch(const Touch<T>& touch, const SeenFromFirst<T>& seen, const Surfac
   if (law.friction && law.friction->model == FrictionLaw::Model::lugre && value_of(touch.load) > 0) {
     const FrictionLaw& friction = *law.friction;
     const Triple<T> across = v - along * touch.normal;
-    const MovedBristle<T> bristle(touch, seen, friction, bristles, across);
+    const MovedBristle<T> bristle(touch, step, friction, bristle_before, across);
     const auto [sigma, slope] = friction.bristle_damping_at(value_of(bristle.speed));
     const T damping_now = composed(bristle.speed, sigma, slope * value_of(bristle.speed));
     const T load = touch.load * push, stiffness(friction.bristle_stiffness);
@@ -153,11 +180,19 @@ void add_touch(const Touch<T>& touch, const SeenFromFirst<T>& seen, const Surfac
   wrench.moment += cross(touch.place - seen.s, force);
 }
 
+/// @param before  of each touch, as PairForce::match gives it
+Vector3 bristle_before(const Bristles& bristles, const std::vector<int>& before, std::size_t touch) {
+  const int known = before[touch];
+  return known < 0 ? Vector3(Vector3::Zero()) : bristles.before[static_cast<std::size_t>(known)].z;
+}
+
 template <class T>
 Wrench<T> wrench_of(const PairTouches<T>& found, const SeenFromFirst<T>& seen, const SurfaceLaw& law, double damping,
-                    const Bristles& bristles) {
+                    const Bristles& bristles, const std::vector<int>& before) {
   Wrench<T> wrench;
-  for (const Touch<T>& touch : found.touches) add_touch(touch, seen, law, damping, bristles, wrench);
+  const StepOfPair<T> step(seen, bristles);
+  for (std::size_t k = 0; k < found.touches.size(); ++k)
+    add_touch(found.touches[k], seen, law, damping, step, bristle_before(bristles, before, k), wrench);
   return wrench;
 }
 
@@ -178,7 +213,7 @@ PairForce::Result PairForce::calc(const SurfaceLaw& law, double damping, const B
   find_touches(seen.first, seen.second, law.normal, found);
   Result result;
   if (found.touches.empty()) return result;
-  const Wrench<double> wrench = wrench_of(found, seen, law, damping, bristles);
+  const Wrench<double> wrench = wrench_of(found, seen, law, damping, bristles, match(found.touches, bristles));
   const Vector3 f = value_of(wrench.force), m = value_of(wrench.moment);
   result.force = node_1_.R * f;
   result.r << result.force, s_.cross(f) + m, -result.force, -(R_12_.transpose() * m);
@@ -203,7 +238,7 @@ void PairForce::calc_tangent(const SurfaceLaw& law, double damping, const Bristl
   K.setZero();
   C.setZero();
   if (found.touches.empty()) return;
-  const Wrench<Twelve> wrench = wrench_of(found, seen, law, damping, bristles);
+  const Wrench<Twelve> wrench = wrench_of(found, seen, law, damping, bristles, match(found.touches, bristles));
   const Vector3 f = value_of(wrench.force), m = value_of(wrench.moment);
   Eigen::Matrix<double, 6, 12> G;
   G << wrench.force.x.gradient.transpose(), wrench.force.y.gradient.transpose(), wrench.force.z.gradient.transpose(),
@@ -238,12 +273,64 @@ void PairForce::add_bristles(const SurfaceLaw& law, const Bristles& bristles, st
   const SeenFromFirst<double> seen(first_, second_, s_, R_12_, s_rate_, turning_);
   thread_local PairTouches<double> found;
   find_touches(seen.first, seen.second, law.normal, found);
-  for (const Touch<double>& touch : found.touches) {
+  const std::vector<int>& before = match(found.touches, bristles);
+  const StepOfPair<double> step(seen, bristles);
+  for (std::size_t k = 0; k < found.touches.size(); ++k) {
+    const Touch<double>& touch = found.touches[k];
     if (touch.load <= 0) continue;
-    const Triple<double> v = velocity_at(seen, touch.place);
-    const MovedBristle<double> moved(touch, seen, *law.friction, bristles, v - dot(touch.normal, v) * touch.normal);
-    now.push_back({touch.id, value_of(moved.z)});
+    Vector3 z = bristle_before(bristles, before, k);
+    if (law.friction) {
+      const Triple<double> v = velocity_at(seen, touch.place);
+      z = value_of(MovedBristle<double>(touch, step, *law.friction, z, v - dot(touch.normal, v) * touch.normal).z);
+    }
+    now.push_back({touch.id, z, kept_place(value_of(touch.place))});
   }
+}
+
+/// Where a bristle is remembered to be: where it moves the least.
+Vector3 PairForce::kept_place(const Vector3& place) const {
+  const bool on_second = second_.kind == ContactShape::Kind::surface;
+  return on_second ? Vector3(R_12_.transpose() * (place - s_)) : place;
+}
+
+/// Numbers of the bristles of before that go with touches, -1: none. Valid until it is asked for again in the same
+/// thread.
+template <class T>
+const std::vector<int>& PairForce::match(const std::vector<Touch<T>>& touches, const Bristles& bristles) const {
+  thread_local std::vector<int> result;
+  result.assign(touches.size(), -1);
+  const std::vector<Bristle>& before = bristles.before;
+  if (before.empty()) return result;
+  const bool surface = first_.kind == ContactShape::Kind::surface || second_.kind == ContactShape::Kind::surface;
+  // What is farther away is another place: of a ball's, less than a sixth of the way around it.
+  const double skin = first_.skin() + second_.skin();
+  const double most = surface ? skin * skin : std::numeric_limits<double>::infinity();
+  const auto nearest_before = [&](std::size_t touch) {
+    const Vector3 place = kept_place(value_of(touches[touch].place));
+    int nearest = -1;
+    double least = most;
+    for (std::size_t k = 0; k < before.size(); ++k) {
+      const double distance = (before[k].place - place).squaredNorm();
+      if (before[k].id != touches[touch].id || value_of(touches[touch].load) <= 0 || !(distance < least)) continue;
+      least = distance;
+      nearest = static_cast<int>(k);
+    }
+    return std::pair(nearest, least);
+  };
+  // Of several touches that are nearest to one bristle, the nearest has it.
+  thread_local std::vector<double> distance;
+  thread_local std::vector<int> taken;
+  distance.assign(before.size(), std::numeric_limits<double>::infinity());
+  taken.assign(before.size(), -1);
+  for (std::size_t k = 0; k < touches.size(); ++k) {
+    const auto [nearest, least] = nearest_before(k);
+    if (nearest < 0 || !(least < distance[static_cast<std::size_t>(nearest)])) continue;
+    distance[static_cast<std::size_t>(nearest)] = least;
+    taken[static_cast<std::size_t>(nearest)] = static_cast<int>(k);
+  }
+  for (std::size_t k = 0; k < before.size(); ++k)
+    if (taken[k] >= 0) result[static_cast<std::size_t>(taken[k])] = static_cast<int>(k);
+  return result;
 }
 
 PairForce::Nearest PairForce::nearest() const {

@@ -109,6 +109,22 @@ class PairOfShapes {
     return touch_of(distance_to_point(on_second, on_first), shapes_[1]->skin(), shapes_[0]->skin(), true);
   }
 
+  /// Calls act(touch, side, edge) for each edge of one shape that is nearer to a cylinder between its ends than at
+  /// them.
+  template <class Act>
+  void for_each_edge_on_cylinder(const Act& act) const {
+    for (const std::size_t side : {0UL, 1UL}) {
+      if (shapes_[1 - side]->kind != Kind::cylinder) continue;
+      const PlacedShape<T>& cylinder = *placed_[1 - side];
+      for (std::size_t edge = 0; edge < shapes_[side]->edges().size(); ++edge) {
+        const auto [from, to] = ends(side, edge);
+        if (const auto point = nearest_between_ends(from, to, cylinder))
+          act(touch_of(distance_to_core(*point, cylinder), shapes_[side]->skin(), cylinder.shape->skin(), side == 1),
+              side, edge);
+      }
+    }
+  }
+
   /// The place of a surface that is nearest to a corner of the other shape, however far it is: what is within a closed
   /// one is deeper than its skin. Behind an open one nothing is within.
   Touch<double> nearest_of_surface(std::size_t side, std::size_t corner) const requires std::is_same_v<T, double> {
@@ -251,6 +267,35 @@ class CrossingShare {
     result.touches.push_back(crossing);
   }
 
+  /// An edge that a cylinder presses between its ends, at `inner`: of the potential, V(p) prod_i (1 - V(p_i)/V(p)), i
+  /// its two ends against the cylinder.
+  void add_on_cylinder(Touch<T> inner, std::size_t side, std::size_t edge, PairTouches<T>& result) const {
+    if (value_of(inner.depth) <= 0) return;
+    const Spring<T> whole(law_, inner.depth);
+    const auto& corners = shapes_[side]->edges()[edge];
+    std::array<int, 2> number;
+    std::array<T, 2> left{T(1), T(1)}, slope{};
+    for (std::size_t k = 0; k < 2; ++k) {
+      number[k] = corner_touch_[side][static_cast<std::size_t>(corners[k])];
+      if (number[k] < 0) continue;
+      const Spring<T> end(law_, result.touches[static_cast<std::size_t>(number[k])].depth);
+      left[k] = T(1) - end.potential / whole.potential;
+      slope[k] = end.force;
+    }
+    T share = left[0] * left[1];
+    result.potential += whole.potential * share;
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (number[k] < 0) continue;
+      share += (T(1) - left[k]) * left[1 - k];
+      Touch<T>& end = result.touches[static_cast<std::size_t>(number[k])];
+      end.force -= slope[k] * left[1 - k];
+      end.load = value_of(end.force) > 0 ? end.force : T(0);
+    }
+    inner.force = inner.load = whole.force * share;
+    inner.id = static_cast<int>(crossings + edge);
+    result.touches.push_back(inner);
+  }
+
  private:
   /// What a crossing takes over from a corner is no load of it any more.
   void unload(std::size_t side, std::size_t edge, std::size_t end, const T& force, PairTouches<T>& result) const {
@@ -283,14 +328,15 @@ void find_touches(const PlacedShape<T>& first, const PlacedShape<T>& second, con
     const Spring<T> spring(law, touch.depth);
     touch.force = touch.load = spring.force;
     touch.id = static_cast<int>(32 * side + corner);
-    for (const Touch<T>& other : result.touches)
-      if (other.id == touch.id) touch.id += 64;
     result.potential += spring.potential;
     if (corner < corner_touch[side].size()) corner_touch[side][corner] = static_cast<int>(result.touches.size());
     result.touches.push_back(touch);
   });
   CrossingShare<T> crossings(pair, law, {first.shape, second.shape}, std::move(corner_touch));
   pair.for_each_crossing([&](std::size_t i, std::size_t j) { crossings.add(i, j, result); });
+  pair.for_each_edge_on_cylinder([&](const Touch<T>& inner, std::size_t side, std::size_t edge) {
+    crossings.add_on_cylinder(inner, side, edge, result);
+  });
 }
 
 template void find_touches(const PlacedShape<double>&, const PlacedShape<double>&, const NormalLaw&,
@@ -318,6 +364,7 @@ Touch<double> find_nearest_place(const PlacedShape<double>& first, const PlacedS
         take(pair.nearest_of_surface(side, k));
   if (!std::isinf(nearest.depth)) return nearest;
   pair.for_each_corner([&](const Touch<double>& touch, std::size_t, std::size_t) { take(touch); });
+  pair.for_each_edge_on_cylinder([&](const Touch<double>& touch, std::size_t, std::size_t) { take(touch); });
   // Crossings of edges that do not press yet.
   for (std::size_t i = 0; i < first.shape->edges().size(); ++i)
     for (std::size_t j = 0; j < second.shape->edges().size(); ++j) {

@@ -5,8 +5,9 @@
 // p = r_1 + r_2 - d. The elastic potential of the pair, V(p) = k p^(n+1)/(n+1), is
 //     sum over corners of V(p_j)  +  sum over crossing edges of V(p_e) prod_i (1 - V(p_i)/V(p_e)),
 // i the four ends of the two edges, each against the other edge, p_i <= p_e. An edge on which another slides to its end
-// thus hands over to its corner without a jump; of two that are parallel, the ends bear alone. Forces are derivatives
-// of the potential: along the normal at each place, and continuous.
+// thus hands over to its corner without a jump; of two that are parallel, the ends bear alone. So does the line of a
+// capsule on a cylinder, whose nearest place between its ends is compared with the cylinder as a whole. Forces are
+// derivatives of the potential: along the normal at each place, and continuous.
 #pragma once
 
 #include <vector>
@@ -31,7 +32,7 @@ struct Touch {
   Triple<T> place;   ///< halfway between the two surfaces
   T force{};         ///< elastic, along the normal on the second [N]; may be negative where edges share with corners
   T load{};          ///< what damping and friction follow: >= 0 [N]
-  int id = 0;        ///< the same from step to step: which corner, which crossing, where a corner touches several times
+  int id = 0;  ///< the same from step to step: which corner, which crossing; a corner may touch a surface several times
 };
 
 template <class T>

@@ -108,7 +108,7 @@ bool can_touch(Kind a, Kind b) {
   if (a > b) std::swap(a, b);
   if (a == Kind::sphere) return true;
   if (a == Kind::plane) return b == Kind::capsule || b == Kind::cylinder || b == Kind::box;
-  if (a == Kind::capsule) return b == Kind::capsule || b == Kind::box;
+  if (a == Kind::capsule) return b == Kind::capsule || b == Kind::cylinder || b == Kind::box;
   return a == Kind::box && b == Kind::box;
 }
 

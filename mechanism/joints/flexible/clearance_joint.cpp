@@ -24,7 +24,8 @@ void ClearanceJoint::declare(Declaration& declaration) const {
   declaration.memory.pop_back();
   for (const Place& place : places_) {
     declaration.crossings.push_back({fmt::format("contact {}", place.name)});
-    declaration.memory.insert(declaration.memory.end(), {0, place.law.damping_after(place.law.slowest_impact)});
+    declaration.memory.insert(declaration.memory.end(),
+                              {0, place.law.damping_after(place.law.slowest_impact), 0, 0, 0});
   }
   declaration.memory.push_back(time);
 }
@@ -43,6 +44,14 @@ NormalLaw::Force ClearanceJoint::push(std::size_t k, const LocalState& state, co
   return places_[k].law.force(contact.p().value, rate, state.memory()[memory_of(k) + 1]);
 }
 
+BristleStep ClearanceJoint::bristle(std::size_t k, const LocalState& state, const ClearanceContact& contact,
+                                    const Vector3& slip) const {
+  const auto memory = state.memory();
+  const double before = memory[memory.size() - 1];
+  const double h = std::isnan(before) ? 0 : std::max(0.0, state.time() - before);
+  return {*friction_, contact.sliding(bristle_before(k, state)), slip, h};
+}
+
 void ClearanceJoint::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
   const PairRotation turned = rotation(state);
   const Vector12 v = pair_rate(state.node(0), state.node(1));
@@ -51,14 +60,17 @@ void ClearanceJoint::add_residual(const LocalState& state, Eigen::Ref<VectorX> r
     const double N = push(k, state, c).F;
     if (N == 0) continue;
     r.head<12>() += N * c.p().gradient;
-    if (!friction_) continue;
+    if (!rubs(state)) continue;
     const Vector3 slip = c.sliding(c.Y() * v);
-    r.head<12>() += N * friction_->sliding(slip.norm()).h * (c.Y().transpose() * slip);
+    const Vector3 force =
+        has_bristles() ? bristle(k, state, c, slip).force : Vector3(friction_->sliding(slip.norm()).h * slip);
+    r.head<12>() += N * (c.Y().transpose() * force);
   }
 }
 
-// With slip = P w, P = I - n n^T, and F = N h(|slip|) slip the force of friction, Y^T F its part of the residual:
-//   dN = N_p dp + N_v d(pdot),   dF = h slip dN + N (h I + h'/|slip| slip slip^T) d(slip),
+// With slip = P w, P = I - n n^T, and F = N f the force of friction, Y^T F its part of the residual; f = h(|slip|)
+// slip, or of the bristle P z_0 and slip:
+//   dN = N_p dp + N_v d(pdot),   dF = f dN + N [df/d(slip) d(slip) + df/d(P z_0) turned_sliding(z_0) dz],
 //   d(slip) = P (Y dv + [v . dY]) + turned_sliding(w) dz,   d(Y^T F) = Y^T dF + Z(F) dz
 void ClearanceJoint::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   if (!tangent.wants_K && !tangent.wants_C) return;
@@ -74,11 +86,22 @@ void ClearanceJoint::add_tangent(const LocalState& state, LocalTangent& tangent)
     const Vector12 by_position = push.by_p * g + push.by_rate * (c.p().second.transpose() * v);
     Vector12 along = g;  // of N
     K += push.F * c.p().second;
-    if (friction_) {
+    if (rubs(state)) {
       const Vector3 w = c.Y() * v, slip = c.sliding(w);
-      const FrictionLaw::Sliding law = friction_->sliding(slip.norm());
-      along += law.h * (c.Y().transpose() * slip);
-      const Matrix3 slope = push.F * (law.h * Matrix3::Identity() + law.slope_over_speed * slip * slip.transpose());
+      Vector3 force;
+      Matrix3 slope;
+      if (has_bristles()) {
+        const BristleStep step = bristle(k, state, c, slip);
+        force = step.force;
+        slope = step.by_slip;
+        K += (push.F * step.by_before) * (c.Y().transpose() * c.turned_sliding(bristle_before(k, state)));
+      } else {
+        const FrictionLaw::Sliding law = friction_->sliding(slip.norm());
+        force = law.h * slip;
+        slope = law.h * Matrix3::Identity() + law.slope_over_speed * slip * slip.transpose();
+      }
+      along += c.Y().transpose() * force;
+      slope *= push.F;
       Rows by_rate, turning;
       for (int j = 0; j < 3; ++j) turning.row(j) = v.transpose() * c.Z(Vector3::Unit(j));
       for (int j = 0; j < 12; ++j) {
@@ -87,7 +110,7 @@ void ClearanceJoint::add_tangent(const LocalState& state, LocalTangent& tangent)
       }
       turning += c.turned_sliding(w);
       const Rows K_slip = slope * turning, C_slip = slope * by_rate;
-      K += c.Z(push.F * law.h * slip);
+      K += c.Z(push.F * force);
       K += c.Y().transpose() * K_slip;
       C += c.Y().transpose() * C_slip;
     }
@@ -108,7 +131,13 @@ void ClearanceJoint::add_energy(const LocalState& state, Energy& energy) const {
     energy.elastic += places_[k].law.energy(p);
     // A spring that the damper keeps from pushing gives its energy to the damper.
     energy.dissipation += (N - places_[k].law.force(p, 0, 0).F) * c.p().rate(v);
-    if (!friction_) continue;
+    if (!rubs(state)) continue;
+    if (has_bristles()) {
+      const BristleStep step = bristle(k, state, c, c.sliding(c.Y() * v));
+      energy.dissipation += N * step.lost;
+      energy.input -= N * step.stored;
+      continue;
+    }
     const double speed = c.sliding(c.Y() * v).norm();
     energy.dissipation += N * friction_->sliding(speed).h * speed * speed;
   }
@@ -118,6 +147,25 @@ void ClearanceJoint::calc_crossings(const LocalState& state, Eigen::Ref<VectorX>
   const PairRotation turned = rotation(state);
   for (std::size_t k = 0; k < places_.size(); ++k)
     values[static_cast<Eigen::Index>(k)] = contact(k, state, turned, false).p().value;
+}
+
+void ClearanceJoint::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {
+  remember_bristles(state, memory);
+  Joint::accept(state, memory);
+}
+
+void ClearanceJoint::remember_bristles(const LocalState& state, Eigen::Ref<VectorX> memory) const {
+  if (!has_bristles()) return;
+  const PairRotation turned = rotation(state);
+  const Vector12 v = pair_rate(state.node(0), state.node(1));
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    auto z = memory.segment<3>(memory_of(k) + 2);
+    const ClearanceContact c = contact(k, state, turned, false);
+    if (c.p().value <= 0)
+      z.setZero();
+    else if (!state.environment().statics)
+      z = bristle(k, state, c, c.sliding(c.Y() * v)).z;
+  }
 }
 
 void ClearanceJoint::begin_branch(const LocalState& state, std::span<const int> crossed,
@@ -133,6 +181,7 @@ void ClearanceJoint::begin_branch(const LocalState& state, std::span<const int> 
     const double rate = c.p().rate(v);
     const bool touched = memory[memory_of(k)] != 0, touches = met ? rate > 0 : c.p().value > 0;
     memory[memory_of(k)] = touches ? 1 : 0;
+    if (!touches || !touched) memory.segment<3>(memory_of(k) + 2).setZero();
     if (touches && !touched) memory[memory_of(k) + 1] = places_[k].law.damping_after(std::max(0.0, rate));
   }
 }

@@ -5,9 +5,11 @@
 //                        ends. The angle about the axis is free
 //   clearance_spherical  a ball in a socket
 // In the gap nothing acts. Where surfaces press into each other by p (clearance_contact.hpp), they push with
-// N = k p^n (1 + d pdot) (contact_laws/normal_law.hpp) and rub with N mu against the way they slide (friction_law.hpp,
-// regularised Coulomb). Steps end where surfaces touch and part. With a restitution, d follows from the speed of each
-// touch: it is remembered until they part.
+// N = k p^n (1 + d pdot) (contact_laws/normal_law.hpp) and rub with N mu against the way they slide (friction_law.hpp):
+// regularised Coulomb, or bristles (bristle_step.hpp), one of each place. A bristle is zero where surfaces begin to
+// touch, rides on the bush, and follows the surface of the bore. Steps end where surfaces touch and part. With a
+// restitution, d follows from the speed of each touch: it is remembered until they part.
+// Memory: [of the joint | of each place: whether it touches, d, the bristle z in the joint's axes on the bush | time].
 // References: P. Flores, J. Ambrosio, J. C. P. Claro, H. M. Lankarani, Kinematics and Dynamics of Multibody Systems
 // with Imperfect Joints (Springer, 2008).
 #pragma once
@@ -17,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "mechanism/contact_laws/bristle_step.hpp"
 #include "mechanism/contact_laws/friction_law.hpp"
 #include "mechanism/contact_laws/normal_law.hpp"
 #include "mechanism/joints/flexible/clearance_contact.hpp"
@@ -42,6 +45,7 @@ class ClearanceJoint final : public Joint, public OpenContact {
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   void add_energy(const LocalState& state, Energy& energy) const override;
   void calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const override;
+  void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
   void begin_branch(const LocalState& state, std::span<const int> crossed, Eigen::Ref<VectorX> memory) const override;
   bool leaves_branch(const LocalState& state) const override;
   /// `penetration` [m] and `normal_force` [N] of each place.
@@ -55,8 +59,21 @@ class ClearanceJoint final : public Joint, public OpenContact {
   PairRotation rotation(const LocalState& state) const;
   ClearanceContact contact(std::size_t k, const LocalState& state, const PairRotation& rotation, bool second) const;
   NormalLaw::Force push(std::size_t k, const LocalState& state, const ClearanceContact& contact) const;
-  /// First memory of a place: whether its surfaces touch, and the damping d since then.
-  Eigen::Index memory_of(std::size_t k) const { return static_cast<Eigen::Index>(2 * (coordinates().size() + k)); }
+  /// First memory of a place: whether its surfaces touch, the damping d since then, and the bristle.
+  Eigen::Index memory_of(std::size_t k) const {
+    constexpr std::size_t of_place = 5;
+    return static_cast<Eigen::Index>(2 * coordinates().size() + of_place * k);
+  }
+  bool has_bristles() const { return friction_ && friction_->model == FrictionLaw::Model::lugre; }
+  /// Whether friction acts: bristles stay as they are in statics, where nothing slides.
+  bool rubs(const LocalState& state) const { return friction_ && !(has_bristles() && state.environment().statics); }
+  /// The bristle of a place over this step. @param slip  [m/s]
+  BristleStep bristle(std::size_t k, const LocalState& state, const ClearanceContact& contact,
+                      const Vector3& slip) const;
+  Vector3 bristle_before(std::size_t k, const LocalState& state) const {
+    return state.memory().segment<3>(memory_of(k) + 2);
+  }
+  void remember_bristles(const LocalState& state, Eigen::Ref<VectorX> memory) const;
   std::vector<Place> places_;
   std::optional<FrictionLaw> friction_;
 };

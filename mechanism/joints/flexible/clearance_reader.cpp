@@ -62,7 +62,7 @@ std::optional<FrictionLaw> read_clearance_friction(const YamlValue& entry) {
   if (!friction) return std::nullopt;
   friction->check_keys(friction_law_keys(), "friction in a clearance");
   if (!entry.has("radius")) friction->fail("surfaces rub at the journal's `radius`, which is missing");
-  return read_friction_law(*friction, {"coulomb"});
+  return read_friction_law(*friction, {"coulomb", "lugre"});
 }
 
 double read_radius(const YamlValue& entry) {

@@ -10,8 +10,9 @@ namespace {
 enum StickSlipCrossing { comes_to_rest, begins_to_slip };
 
 /// The memory: direction of slip, 0 where it sticks, NaN where no motion has begun; whether it has slipped through an
-/// accepted step; when it began to; values of the coordinates where it stuck.
-enum StickSlipMemory { slip_direction, has_slipped, slips_since, stuck_at };
+/// accepted step; when it began to; how often at this instant, one after the other, because constraints refused to let
+/// it stick; values of the coordinates where it stuck.
+enum StickSlipMemory { slip_direction, has_slipped, slips_since, refusals, stuck_at };
 
 }  // namespace
 
@@ -25,7 +26,7 @@ void StickSlipFriction::declare(Declaration& declaration) const {
   declaration.memory[slip_direction] = std::numeric_limits<double>::quiet_NaN();
   Crossing rest{name + " sticks", Crossing::Direction::falling}, slip{name + " slips", Crossing::Direction::falling};
   rest.begins_on = slip.begins_on = 1;  // what cannot stick slips at once
-  slip.one_by_one = true;
+  rest.one_by_one = slip.one_by_one = true;
   rest.nearest = slip.nearest = 1e-5;
   declaration.crossings = {rest, slip};
 }
@@ -133,11 +134,17 @@ void StickSlipFriction::calc_crossings(const LocalState& state, Eigen::Ref<Vecto
   values.setOnes();
   if (dir != 0) {
     const auto memory = state.memory();
-    // Where it has just begun to slip its velocity is rounding, and its acceleration tells.
-    if (memory[has_slipped] == 0 && state.time() <= memory[slips_since])
-      values[comes_to_rest] = dir * acceleration(state) + no_acceleration(state);
-    else
-      values[comes_to_rest] = dir * velocity(state)[0] + (memory[has_slipped] != 0 ? -1 : 1) * no_velocity(state);
+    const double v = dir * velocity(state)[0], rounding = no_velocity(state);
+    if (memory[has_slipped] != 0) {
+      values[comes_to_rest] = v - rounding;
+    } else {
+      // Where it has just begun to slip its velocity is rounding, or an error of the scheme: the acceleration tells.
+      const double a = dir * acceleration(state) + no_acceleration(state);
+      const bool just_now = state.time() <= memory[slips_since];
+      // What can neither stick nor slip goes on for a step: others may hold it.
+      constexpr double often = 2;
+      values[comes_to_rest] = !just_now ? std::max(v + rounding, a) : memory[refusals] < often ? a : 1;
+    }
   } else if (holds(state)) {
     values[begins_to_slip] = law().sticking * normal_force(state) - std::abs(state.multiplier()[0]);
   } else if (is_on(state, 0) && std::abs(acceleration(state)) > no_acceleration(state)) {
@@ -156,6 +163,7 @@ void StickSlipFriction::slip_along(double direction, bool moving, const LocalSta
   memory[slip_direction] = direction;
   memory[has_slipped] = moving ? 1 : 0;
   memory[slips_since] = state.time();
+  memory[refusals] = 0;
 }
 
 void StickSlipFriction::begin_motion(const LocalState& state, bool known, Eigen::Ref<VectorX> memory) const {
@@ -178,12 +186,18 @@ void StickSlipFriction::begin_branch(const LocalState& state, std::span<const in
   const double v = velocity(state)[0];
   if (std::isnan(state.memory()[slip_direction])) return;
   if (is_on(state, 0) && !holds(state)) {
-    if (std::abs(v) > no_velocity(state))
-      slip_along(std::copysign(1.0, v), true, state, memory);
-    else if (has_crossed(begins_to_slip))
+    const bool again = state.time() <= state.memory()[slips_since];
+    const double refused = again ? state.memory()[refusals] : 0;
+    // What velocity there is may be the scheme's error of a rate that has just passed zero: the acceleration tells. If
+    // it did so a moment ago, and was wrong, the velocity is right.
+    if (has_crossed(begins_to_slip) && !(again && std::abs(v) > no_velocity(state))) {
       slip_along(std::copysign(1.0, acceleration(state)), false, state, memory);
-    else
+      memory[refusals] = refused + 1;
+    } else if (std::abs(v) > no_velocity(state)) {
+      slip_along(std::copysign(1.0, v), true, state, memory);
+    } else {
       stick_here(state, memory);
+    }
   } else if (has_crossed(begins_to_slip)) {
     slip_along(std::copysign(1.0, state.multiplier()[0]), false, state, memory);
   } else if (has_crossed(comes_to_rest)) {

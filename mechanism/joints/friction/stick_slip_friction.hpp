@@ -5,6 +5,7 @@
 // keeps its order. Where several joints are overloaded at once, the most overloaded lets go first.
 // The constraint yields to others: where a drive or a lock, or the friction of a joint that comes before, holds the
 // same motion, it is set aside and its friction is zero. Driven through a reversal the joint slips on, the other way.
+// At a dead centre, where others move it on, it slips on the other way as well (solvers/start/refused_holds.hpp).
 // Before a motion begins, and in statics, it neither sticks nor slips. A motion begins with what is at rest sticking,
 // if friction can hold it. Impulses (a lock that closes) do not make what sticks slip.
 #pragma once

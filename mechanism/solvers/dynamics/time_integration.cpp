@@ -3,6 +3,9 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "mechanism/solvers/constraints/redundancy.hpp"
 #include "mechanism/solvers/dynamics/stabilised_equations.hpp"
 #include "mechanism/solvers/dynamics/start_values.hpp"
@@ -10,6 +13,7 @@
 #include "mechanism/solvers/start/consistent_start.hpp"
 #include "mechanism/solvers/start/consistent_velocities.hpp"
 #include "mechanism/solvers/start/massless_balance.hpp"
+#include "mechanism/solvers/start/refused_holds.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -99,10 +103,21 @@ Jump TimeIntegration::begin_branch(double h, const std::vector<int>& crossed) {
   jump.crossed = crossed;
   jump.before = system_.energy(state, environment_);
   state.time += just_off(jump.time, h);
+  const std::vector<char> before = state.idle;
   system_.begin_branch(state, environment_, crossed);
   set_redundant_aside(system_, environment_, state);
+  std::vector<int> new_holds = active_holds(system_, state);
+  std::erase_if(new_holds, [&](int k) { return before[static_cast<std::size_t>(k)] == Idle::active; });
   StartReport report;
-  start_anew(h, report);
+  try {
+    refuse_holds(system_, environment_, state, std::move(new_holds), Overloaded::refused, correction_.saddle());
+    start_anew(h, report);
+  } catch (const ComputationError& error) {
+    std::vector<std::string> events;
+    for (const int k : crossed) events.push_back(system_.crossings()[static_cast<std::size_t>(k)].name);
+    if (events.empty()) throw;
+    throw ComputationError(fmt::format("{}; this is where {}", error.what(), fmt::join(events, ", ")));
+  }
   newton_.forget_factors();
   jump.after = system_.energy(state, environment_);
   jump.work = report.impulse_work;

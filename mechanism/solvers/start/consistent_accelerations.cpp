@@ -92,7 +92,7 @@ class AccelerationEquations {
     a_ = a_first;
     state_.multiplier = -guess;
     const Search mirrored = search();
-    if (!found.converged && !mirrored.converged) throw_without_solution();
+    if (!found.converged && !mirrored.converged) throw_without_solution(found.worst);
     if (found.converged && mirrored.converged) check_same(solution.multiplier, state_.multiplier);
     if (found.converged) {
       state_ = solution;
@@ -174,6 +174,7 @@ class AccelerationEquations {
   struct Search {
     bool converged = false;
     int determinant_sign = 0;
+    int worst = -1;  ///< the multiplier of the longest last step
   };
 
   /// Newton's method with the derivatives by multipliers, from where the state is. Steps over kinks are halved where
@@ -189,6 +190,7 @@ class AccelerationEquations {
         result.determinant_sign = saddle_.determinant_sign();
         solve();
         if (!step_.allFinite()) return result;
+        step_.tail(system_.multipliers()).cwiseAbs().maxCoeff(&result.worst);
         const VectorX full = step_;
         const State base = state_;
         const VectorX a_base = a_;
@@ -298,10 +300,15 @@ class AccelerationEquations {
         "t = {:.6g} s: forces that depend on reactions leave more than one solution for the accelerations: {}{}",
         state_.time, how, advice));
   }
-  [[noreturn]] void throw_without_solution() const {
+  /// @param worst  the multiplier that the search could not settle; -1: it was refused before
+  [[noreturn]] void throw_without_solution(int worst) const {
+    const std::string where =
+        worst < 0 ? std::string()
+                  : fmt::format(" (the search for {} did not settle)",
+                                system_.unknown_name(system_.size() - system_.multipliers() + worst));
     throw ComputationError(
-        fmt::format("t = {:.6g} s: forces that depend on reactions leave no solution for the accelerations{}",
-                    state_.time, advice));
+        fmt::format("t = {:.6g} s: forces that depend on reactions leave no solution for the accelerations{}{}",
+                    state_.time, where, advice));
   }
 
   const System& system_;

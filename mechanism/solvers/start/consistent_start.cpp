@@ -9,6 +9,7 @@
 #include "mechanism/solvers/start/consistent_velocities.hpp"
 #include "mechanism/solvers/start/massless_balance.hpp"
 #include "mechanism/solvers/start/massless_direction.hpp"
+#include "mechanism/solvers/start/refused_holds.hpp"
 
 namespace bielle::mechanism {
 
@@ -33,6 +34,7 @@ void release_overloaded(const System& system, const Environment& environment, St
     if (worst < 0) return;
     system.begin_branch(state, environment, {worst});
     set_redundant_aside(system, environment, state);
+    refuse_holds(system, environment, state, active_holds(system, state), Overloaded::holds, saddle);
     make_velocities_consistent(system, environment, state, report, saddle);
     make_accelerations_consistent(system, environment, state, saddle);
   }
@@ -55,6 +57,7 @@ StartReport make_consistent(const System& system, const Environment& environment
     make_velocities_consistent(system, environment, state, report, saddle);
   }
   begin_first_order(system, environment, state);
+  refuse_holds(system, environment, state, active_holds(system, state), Overloaded::holds, saddle);
   make_accelerations_consistent(system, environment, state, saddle);
   // What follows from reactions is known only now, and may change them.
   constexpr int most = 20;

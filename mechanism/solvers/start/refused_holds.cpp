@@ -1,0 +1,66 @@
+#include "mechanism/solvers/start/refused_holds.hpp"
+
+#include <algorithm>
+
+#include "mechanism/solvers/start/consistent_accelerations.hpp"
+#include "mechanism/solvers/start/consistent_velocities.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+char& idle_of(State& state, int multiplier) { return state.idle[static_cast<std::size_t>(multiplier)]; }
+
+/// By how much a hold is overloaded at a state, as its component measures it; not positive where it holds.
+double overload(const System& system, const VectorX& crossings, int hold) {
+  double most = 0;
+  for (Eigen::Index k = 0; k < crossings.size(); ++k) {
+    const MemberCrossing& each = system.crossings()[static_cast<std::size_t>(k)];
+    const Slots& slots = system.slots()[each.member];
+    const int own = hold - slots.multiplier_begin;
+    if (each.crossing.one_by_one && own >= 0 && own < slots.multipliers) most = std::max(most, -crossings[k]);
+  }
+  return most;
+}
+
+}  // namespace
+
+std::vector<int> active_holds(const System& system, const State& state) {
+  std::vector<int> holds;
+  for (int k = 0; k < static_cast<int>(state.idle.size()); ++k)
+    if (system.yields(k) && state.idle[static_cast<std::size_t>(k)] == Idle::active) holds.push_back(k);
+  return holds;
+}
+
+void refuse_holds(const System& system, const Environment& environment, State& state, std::vector<int> new_holds,
+                  Overloaded overloaded, MassSaddle& saddle) {
+  VectorX crossings = VectorX::Zero(static_cast<Eigen::Index>(system.crossings().size()));
+  while (!new_holds.empty()) {
+    State trial = state;
+    for (const int hold : new_holds) idle_of(trial, hold) = Idle::redundant;
+    saddle.serve_no_more();
+    StartReport unused;
+    make_velocities_consistent(system, environment, trial, unused, saddle);
+    for (const int hold : new_holds) idle_of(trial, hold) = Idle::active;
+    saddle.serve_no_more();
+    auto refused = new_holds.end();
+    try {
+      make_accelerations_consistent(system, environment, trial, saddle);
+      if (overloaded == Overloaded::refused) system.calc_crossings(trial, environment, crossings);
+      double most = 0;
+      for (auto hold = new_holds.begin(); hold != new_holds.end(); ++hold)
+        if (const double each = overload(system, crossings, *hold); each > most) {
+          most = each;
+          refused = hold;
+        }
+    } catch (const ComputationError&) {
+      refused = new_holds.end() - 1;
+    }
+    saddle.serve_no_more();
+    if (refused == new_holds.end()) return;
+    idle_of(state, *refused) = Idle::redundant;
+    state.multiplier[*refused] = 0;
+    new_holds.erase(refused);
+  }
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,177 @@
+#include "reduce/spectral/block_lanczos.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "reduce/common/counted.hpp"
+#include "reduce/common/error.hpp"
+#include "reduce/spectral/krylov_basis.hpp"
+
+namespace bielle {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+/// Eigenvalues so close to each other, relatively, may be copies of one.
+constexpr double close = 1e-3;
+/// To see that nothing is missing takes little accuracy.
+constexpr double look = 1e-3;
+/// Closer than this to the worst eigenvalue found, another one is no better.
+constexpr double equal = 1e-9;
+/// Of the largest |nu|: less is none, as of directions in which S M vanishes.
+constexpr double vanishing = 1e-13;
+
+Index block_columns(const EigenpairOptions& options, Index size) {
+  constexpr Index best = 16;  // as measured (performance_reduce_modes)
+  return std::clamp<Index>(options.block > 0 ? options.block : best, 1, size);
+}
+
+Index basis_columns(const EigenpairOptions& options, Index size, Index count, Index block) {
+  const Index wanted = options.basis > 0 ? options.basis : 3 * count + 12 * block;
+  return std::min(std::max(wanted, count + 4 * block), size) + block;
+}
+
+class BlockLanczos {
+ public:
+  BlockLanczos(const ShiftInvertProblem& problem, Index count, const EigenpairOptions& options)
+      : options_(options),
+        count_(std::min(count, problem.size)),
+        block_(block_columns(options, problem.size)),
+        basis_(problem, basis_columns(options, problem.size, count_, block_), options.threads,
+               [this](Index columns) { note(columns); }) {}
+
+  Eigenpairs run(double shift) {
+    find();
+    while (may_miss_copies() && find_missed()) {
+    }
+    result_.values = shift + basis_.locked_values().array().inverse();
+    result_.vectors = basis_.take_locked_vectors();
+    return std::move(result_);
+  }
+
+ private:
+  void note(Index columns) {
+    ++result_.sweeps;
+    result_.solves += static_cast<int>(columns);
+    if (options_.on_solve) options_.on_solve(result_.solves);
+  }
+
+  bool is_converged(const RitzPairs& ritz, Index k) const {
+    return ritz.residuals(k) <= options_.tolerance * std::abs(ritz.values(k));
+  }
+  Index converged(const RitzPairs& ritz, Index most) const {
+    Index k = 0;
+    while (k < std::min(most, ritz.size()) && is_converged(ritz, k)) ++k;
+    return k;
+  }
+
+  /// Another block in the space. False when there are no more directions.
+  bool grow() {
+    if (basis_.front() == 0) {
+      basis_.start(std::min(block_, basis_.room()));
+      starts_ += basis_.front();
+    }
+    if (basis_.front() == 0) return false;
+    basis_.expand();
+    return true;
+  }
+
+  bool is_full() const { return basis_.room() < std::max(basis_.front(), Index{1}); }
+
+  void restart(const RitzPairs& ritz) {
+    if (result_.restarts == options_.restarts)
+      throw ComputationError(fmt::format("the eigenvalue iteration stopped after {}, with {} of {} converged",
+                                         counted(result_.restarts, "restart"), converged(ritz, count_),
+                                         counted(count_, "mode")));
+    ++result_.restarts;
+    const Index least = basis_.front() + block_;  // to be made room for
+    const Index most = basis_.room() + ritz.size() - least;
+    basis_.restart(ritz, std::clamp<Index>((ritz.size() + count_) / 2, 1, most));
+  }
+
+  /// The first `count`, which are locked; fewer where there are no more.
+  void find() {
+    Index test_at = count_;
+    while (grow()) {
+      if (basis_.size() < test_at && !is_full()) continue;
+      const RitzPairs ritz = basis_.ritz();
+      if (converged(ritz, count_) == count_) return lock(ritz, count_);
+      if (is_full()) restart(ritz);
+      test_at = basis_.size() + basis_.size() / 12;  // dense eigenvalues of large bases take their time
+    }
+    if (basis_.size() == 0) return;
+    const RitzPairs ritz = basis_.ritz();  // of all there is
+    const Index exist = (ritz.values.array().abs() > vanishing * ritz.values.cwiseAbs().maxCoeff()).count();
+    lock(ritz, std::min(count_, exist));
+  }
+
+  /// As many eigenvalues next to each other as there were random vectors?
+  bool may_miss_copies() const {
+    if (basis_.locked() < count_) return false;
+    VectorXd values = basis_.locked_values();
+    std::sort(values.begin(), values.end());
+    Index run = 1, longest = 1;
+    for (Index k = 1; k < values.size(); ++k) {
+      run = values(k) - values(k - 1) < close * std::abs(values(k)) ? run + 1 : 1;
+      longest = std::max(longest, run);
+    }
+    return longest >= starts_;
+  }
+
+  /// Searches beside what is locked. What is better than the worst of it takes its place. False when there is nothing.
+  bool find_missed() {
+    const double worst = basis_.locked_values().cwiseAbs().minCoeff();
+    while (true) {
+      const bool grown = grow();
+      if (!grown && basis_.size() == basis_.locked()) return false;
+      const RitzPairs ritz = basis_.ritz();
+      const Index good = converged(ritz, ritz.size());
+      const Index better = (ritz.values.array().abs() > worst * (1 + equal)).count();
+      const double best = std::abs(ritz.values(0));
+      if (best + ritz.residuals(0) < worst && ritz.residuals(0) <= look * best) return false;
+      if (good > 0 && better == 0) return false;
+      if (better > 0 && (good >= better || !grown)) {
+        lock(ritz, better);
+        return true;
+      }
+      if (is_full()) restart(ritz);
+    }
+  }
+
+  /// Locks the best `count` of what is locked and the first `found` Ritz vectors.
+  void lock(const RitzPairs& ritz, Index found) {
+    const Index old = basis_.locked();
+    VectorXd values(old + found);
+    values << basis_.locked_values(), ritz.values.head(found);
+    MatrixXd weights = MatrixXd::Zero(basis_.size(), old + found);
+    weights.topLeftCorner(old, old).setIdentity();
+    weights.bottomRightCorner(ritz.size(), found) = ritz.weights.leftCols(found);
+    std::vector<Index> order(static_cast<std::size_t>(old + found));
+    std::iota(order.begin(), order.end(), Index{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](Index a, Index b) { return std::abs(values(a)) > std::abs(values(b)); });
+    order.resize(std::min(order.size(), static_cast<std::size_t>(count_)));
+    basis_.lock(weights(Eigen::all, order), values(order));
+  }
+
+  const EigenpairOptions& options_;
+  Eigenpairs result_;
+  Index count_, block_;
+  Index starts_ = 0;  // random vectors that the search has started from
+  KrylovBasis basis_;
+};
+
+}  // namespace
+
+Eigenpairs block_lanczos_eigenpairs(const ShiftInvertProblem& problem, int count, const EigenpairOptions& options) {
+  return BlockLanczos(problem, count, options).run(problem.shift);
+}
+
+}  // namespace bielle

@@ -1,0 +1,62 @@
+// Small pencils K - lambda M given by dense matrices, and their eigenvalues by a dense solver.
+#pragma once
+
+#include <Eigen/Cholesky>
+
+#include "reduce/common/symmetric_eigenpairs.hpp"
+#include "reduce/spectral/eigenpairs.hpp"
+#include "reduce/spectral/start_vectors.hpp"
+
+namespace bielle::test {
+
+struct DensePencil {
+  Eigen::MatrixXd K, M;
+  double shift = 0;
+  Eigen::LLT<Eigen::MatrixXd> factor{K - shift * M};
+
+  ShiftInvertProblem problem() const {
+    return {K.rows(), shift, [this](const Eigen::MatrixXd& b) { return Eigen::MatrixXd(factor.solve(b)); },
+            [this](const Eigen::MatrixXd& x) { return Eigen::MatrixXd(M * x); }};
+  }
+
+  /// All finite eigenvalues, ascending: M y = nu (K - shift M) y, lambda = shift + 1/nu.
+  Eigen::VectorXd values() const {
+    const Eigen::VectorXd nu = symmetric_eigenpairs(M, K - shift * M)->values.reverse();
+    const Eigen::Index finite = (nu.array() > 1e-12 * nu(0)).count();
+    return shift + nu.head(finite).array().inverse();
+  }
+
+  /// Largest |K phi - lambda M phi| / |K phi|.
+  double residual(const Eigenpairs& pairs) const {
+    const Eigen::MatrixXd forces = K * pairs.vectors;
+    const Eigen::MatrixXd error = forces - M * pairs.vectors * pairs.values.asDiagonal();
+    return (error.colwise().norm().array() / forces.colwise().norm().array()).maxCoeff();
+  }
+
+  /// Largest entry of Phi^T M Phi - I.
+  double orthogonality(const Eigenpairs& pairs) const {
+    const Eigen::Index n = pairs.vectors.cols();
+    return (pairs.vectors.transpose() * M * pairs.vectors - Eigen::MatrixXd::Identity(n, n)).cwiseAbs().maxCoeff();
+  }
+};
+
+/// A matrix with these eigenvalues and eigenvectors that are nothing special.
+inline Eigen::MatrixXd with_eigenvalues(const Eigen::VectorXd& values) {
+  const Eigen::MatrixXd any = StartVectors(values.size()).draw(values.size());
+  const Eigen::MatrixXd Q = symmetric_eigenpairs(any + any.transpose()).vectors;
+  const Eigen::MatrixXd A = Q * values.asDiagonal() * Q.transpose();
+  return (A + A.transpose()) / 2;
+}
+
+/// Masses of a chain between walls, `springs.size() - 1` of them: the stiffness.
+inline Eigen::MatrixXd chain_of_springs(const Eigen::VectorXd& springs) {
+  const Eigen::Index n = springs.size() - 1;
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n, n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    K(k, k) = springs(k) + springs(k + 1);
+    if (k > 0) K(k, k - 1) = K(k - 1, k) = -springs(k);
+  }
+  return K;
+}
+
+}  // namespace bielle::test
