@@ -1,0 +1,346 @@
+#include "mechanism/solvers/linearised/modes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <numbers>
+
+#include "mechanism/solvers/linearised/shifted_operator.hpp"
+#include "reduce/common/error.hpp"
+#include "reduce/common/orthogonal_factors.hpp"
+#include "reduce/common/symmetric_eigenpairs.hpp"
+#include "reduce/spectral/operator_eigenpairs.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+using Complex = std::complex<double>;
+using VectorXc = Eigen::VectorXcd;
+using MatrixXc = Eigen::MatrixXcd;
+using Sparse = LinearisedEquations::Sparse;
+
+/// An orthonormal basis of the scaled states that satisfy the constraints and their rates.
+MatrixX consistent_states(const LinearisedEquations& e, const VectorX& scale) {
+  const int n = e.unknowns(), m = e.constraints(), dofs = e.dofs;
+  if (m == 0) return MatrixX::Identity(e.states(), e.states());
+  const MatrixX B = MatrixX(e.B), S = MatrixX(e.S), BW = MatrixX(Sparse(e.B * e.W));
+  MatrixX rows = MatrixX::Zero(2 * m, e.states());
+  for (int k = 0; k < m; ++k) {
+    if (e.nonholonomic[static_cast<std::size_t>(k)]) {
+      rows.row(k).head(n) = S.row(k);
+      rows.row(k).tail(dofs) = B.row(k).head(dofs);
+    } else {
+      rows.row(k).head(n) = B.row(k);
+      rows.row(m + k).head(n) = -BW.row(k);
+      rows.row(m + k).tail(dofs) = B.row(k).head(dofs);
+    }
+  }
+  rows *= scale.asDiagonal();
+  for (int k = 0; k < 2 * m; ++k)
+    if (const double size = rows.row(k).norm(); size > 0) rows.row(k) /= size;
+  const RightSingularVectors svd = right_singular_vectors(rows);
+  Eigen::Index rank = 0;
+  while (rank < svd.values.size() && svd.values[rank] > 1e-11 * svd.values[0]) ++rank;
+  return svd.vectors.rightCols(e.states() - rank);
+}
+
+struct Found {
+  Complex s;
+  VectorXc x;  ///< scaled state
+  double residual;
+};
+
+/// Eigenpairs around a shift, nearest first, and how far around it all are known.
+struct Around {
+  std::vector<Found> pairs;
+  double radius = 0;  ///< |s - sigma|; infinite where all are there
+};
+
+class Search {
+ public:
+  Search(const LinearisedEquations& equations, const ModeOptions& options) : e_(equations), options_(options) {}
+
+  Modes run() {
+    Modes result;
+    result.states = e_.states();
+    if (e_.states() == 0) {
+      result.all = true;
+      return result;
+    }
+    return options_.near ? around_frequency(2 * std::numbers::pi * *options_.near) : slowest();
+  }
+
+ private:
+  /// Makes the operator, at a shift next to this one where it is an eigenvalue.
+  void set_shift(Complex shift) {
+    constexpr int tries = 5;
+    for (int k = 0; k < tries; ++k, shift *= 1.0137) {
+      operator_ = std::make_unique<ShiftedOperator>(e_, shift);
+      if (operator_->regular()) return;
+    }
+    throw ComputationError(
+        "the linearised equations are singular whatever the frequency: some unknown is determined by nothing (a node or a "
+        "rotation without mass, stiffness and constraint)");
+  }
+
+  bool dense() const { return e_.states() <= options_.dense; }
+
+  Around look(Eigen::Index count) const {
+    const ShiftedOperator& T = *operator_;
+    OperatorEigenpairs found;
+    MatrixX basis;
+    if (dense()) {
+      basis = consistent_states(e_, T.scale());
+      OperatorEigenOptions all;
+      all.dense = basis.cols();
+      if (T.is_real())
+        found = largest_eigenpairs(
+            LinearOperator<double>{basis.cols(),
+                                   [&](const VectorX& z) -> VectorX { return basis.transpose() * T.apply(VectorX(basis * z)); }},
+            count, all);
+      else
+        found = largest_eigenpairs(
+            LinearOperator<Complex>{
+                basis.cols(),
+                [&](const VectorXc& z) -> VectorXc {
+                  return basis.transpose().cast<Complex>() * T.apply(VectorXc(basis.cast<Complex>() * z));
+                }},
+            count, all);
+    } else {
+      OperatorEigenOptions sparse;
+      sparse.dense = 0;
+      const Eigen::Index size = e_.states();
+      if (T.is_real())
+        found = largest_eigenpairs(LinearOperator<double>{size, [&](const VectorX& x) { return T.apply(x); }}, count, sparse);
+      else
+        found = largest_eigenpairs(LinearOperator<Complex>{size, [&](const VectorXc& x) { return T.apply(x); }}, count, sparse);
+    }
+    Around around;
+    around.radius = found.all ? INFINITY : 1 / std::abs(found.values[found.values.size() - 1]);
+    for (Eigen::Index k = 0; k < found.values.size(); ++k) {
+      const Complex mu = found.values[k];
+      if (mu == 0.0) continue;
+      VectorXc x = found.vectors.col(k);
+      if (dense()) x = basis.cast<Complex>() * x;
+      // Nothing is left of what belongs to an infinite eigenvalue.
+      const VectorXc once = T.apply(x) / mu;
+      constexpr double same = 1e-2;
+      if (!((T.apply(once) / mu - x).norm() < same * x.norm())) continue;
+      around.pairs.push_back({T.shift() + 1.0 / mu, once / once.norm(), (once - x).norm() / x.norm()});
+    }
+    return around;
+  }
+
+  /// A size of rates from the entries alone: where the search for a better one begins.
+  double first_shift() const {
+    double least = INFINITY;
+    const VectorX M = e_.M.diagonal(), C = e_.C.diagonal(), K = e_.K.diagonal();
+    for (int i = 0; i < e_.unknowns(); ++i) {
+      if (i < e_.dofs && M[i] > 0 && K[i] != 0) least = std::min(least, std::sqrt(std::abs(K[i]) / M[i]));
+      if (i >= e_.dofs && C[i] != 0 && K[i] != 0) least = std::min(least, std::abs(K[i] / C[i]));
+    }
+    return std::isfinite(least) && least > 0 ? 0.1 * least : 1;
+  }
+
+  /// Whether s is zero to rounding: what the rates add is less than rounding errors of the other terms, or of those at
+  /// the shift.
+  bool is_zero(const Found& pair) const {
+    const int n = e_.unknowns();
+    const double rate = std::abs(operator_->shift());
+    const VectorX& scale = operator_->scale();
+    const VectorXc u = scale.head(n).asDiagonal() * pair.x.head(n);
+    const auto size_of = [&](const auto& forces) {
+      double sum = 0;
+      for (int i = 0; i < n; ++i) sum += std::norm(Complex(forces[i]) * weight(i));
+      return std::sqrt(sum);
+    };
+    const VectorXc added = pair.s * (e_.C.cast<Complex>() * u + e_.M.cast<Complex>() * (pair.s * u + e_.W.cast<Complex>() * u));
+    const VectorX sizes = u.cwiseAbs();
+    const VectorX stiff = absolute_K() * sizes;
+    const VectorX moving = rate * (rate * (absolute_M() * sizes) + absolute_C() * sizes);
+    constexpr double of_stiffness = 1e-14, of_shift = 1e-11;
+    return size_of(added) <= of_stiffness * size_of(stiff) + of_shift * size_of(moving);
+  }
+  double weight(int i) const { return i < e_.dofs ? operator_->scale()[i] : 1 / operator_->scale()[i]; }
+  const Sparse& absolute_K() const {
+    if (K_.size() == 0) K_ = Sparse(e_.K.cwiseAbs()) + Sparse(Sparse(e_.C * e_.W).cwiseAbs());
+    return K_;
+  }
+  const Sparse& absolute_C() const {
+    if (C_.size() == 0) C_ = e_.C.cwiseAbs();
+    return C_;
+  }
+  const Sparse& absolute_M() const {
+    if (M_.size() == 0) M_ = e_.M.cwiseAbs();
+    return M_;
+  }
+
+  Mode mode_of(const Found& pair, ModeKind kind) const {
+    const int n = e_.unknowns();
+    const VectorXc x = operator_->scale().asDiagonal() * pair.x;
+    return {pair.s, kind, x.head(n), x.tail(e_.dofs), pair.residual};
+  }
+
+  ModeKind kind_of(Complex s) const {
+    constexpr double rounding = 1e-8;
+    if (s.real() > rounding * std::abs(s)) return ModeKind::growing;
+    return s.imag() == 0 ? ModeKind::decaying : ModeKind::oscillating;
+  }
+
+  /// Independent shapes of eigenvalues that are zero.
+  std::vector<Mode> rigid_modes(const std::vector<Found>& zeros) const {
+    std::vector<Mode> modes;
+    if (zeros.empty()) return modes;
+    const int n = e_.unknowns();
+    const auto count = static_cast<Eigen::Index>(zeros.size());
+    MatrixX shapes(n, 2 * count);
+    double residual = 0;
+    for (Eigen::Index k = 0; k < count; ++k) {
+      const VectorXc u = zeros[static_cast<std::size_t>(k)].x.head(n);
+      const double size = u.norm();
+      shapes.col(2 * k) = u.real() / size;
+      shapes.col(2 * k + 1) = u.imag() / size;
+      residual = std::max(residual, zeros[static_cast<std::size_t>(k)].residual);
+    }
+    const SymmetricEigenpairs gram = symmetric_eigenpairs(MatrixX(shapes.transpose() * shapes));
+    constexpr double dependent = 1e-8;
+    for (Eigen::Index k = 2 * count - 1; k >= 0 && gram.values[k] > dependent * gram.values[2 * count - 1]; --k) {
+      const VectorX u = operator_->scale().head(n).asDiagonal() * (shapes * gram.vectors.col(k));
+      const VectorX w = (e_.W * u).head(e_.dofs);
+      modes.push_back({0, ModeKind::rigid, u.cast<Complex>(), w.cast<Complex>(), residual});
+    }
+    return modes;
+  }
+
+  /// Of conjugate pairs one.
+  static bool represents(Complex s) { return s.imag() >= 0; }
+
+  Modes collect(const std::vector<Found>& pairs, const std::function<bool(Complex)>& wanted) const {
+    Modes result;
+    result.states = e_.states();
+    std::vector<Found> zeros;
+    for (const Found& pair : pairs) {
+      if (is_zero(pair))
+        zeros.push_back(pair);
+      else if (wanted(pair.s) && represents(pair.s))
+        result.modes.push_back(mode_of(pair, kind_of(pair.s)));
+    }
+    if (wanted(0))
+      for (Mode& mode : rigid_modes(zeros)) result.modes.push_back(std::move(mode));
+    std::stable_sort(result.modes.begin(), result.modes.end(),
+                     [](const Mode& a, const Mode& b) { return std::abs(a.s) < std::abs(b.s); });
+    return result;
+  }
+
+  /// The smallest |s| that is not zero, or 0.
+  double slowest_of(const std::vector<Found>& pairs) const {
+    double least = INFINITY;
+    for (const Found& pair : pairs)
+      if (!is_zero(pair)) least = std::min(least, std::abs(pair.s));
+    return std::isfinite(least) ? least : 0;
+  }
+
+  /// The largest |s| that counts as zero.
+  double fastest_zero(const std::vector<Found>& pairs) const {
+    double most = 0;
+    for (const Found& pair : pairs)
+      if (is_zero(pair)) most = std::max(most, std::abs(pair.s));
+    return most;
+  }
+  /// What rounding makes of a double zero, relative to the shift.
+  static constexpr double rounded_pair = 1e-7;
+
+  Modes slowest() {
+    const bool limited = options_.below.has_value();
+    const double limit = limited ? 2 * std::numbers::pi * *options_.below : INFINITY;
+    Eigen::Index count = 2 * (limited ? 10 : options_.count) + 4;
+    set_shift(first_shift());
+    constexpr int most_shifts = 8;
+    Around around = look(count);
+    bool seen = false;
+    for (int k = 0; k < most_shifts; ++k) {
+      const double shift = std::abs(operator_->shift()), slow = slowest_of(around.pairs);
+      constexpr double far = 30;
+      if (const double zero = fastest_zero(around.pairs); !seen && zero > rounded_pair * shift) {
+        seen = true;  // zero to a shift that is much too large, perhaps
+        set_shift(100 * zero);
+      } else if (slow > 0 && (slow > far * shift || slow < shift / far)) {
+        set_shift(0.9 * slow);
+      } else {
+        break;
+      }
+      around = look(count);
+    }
+    while (true) {
+      // Nearest to the shift is not the same as slowest: within this circle none is missing.
+      const double known = around.radius - std::abs(operator_->shift());
+      const bool whole = !std::isfinite(around.radius);
+      Modes result = collect(around.pairs, [&](Complex s) { return std::abs(s) <= std::min(known, limit); });
+      const bool enough = limited ? known >= limit : static_cast<int>(result.modes.size()) >= options_.count;
+      if (!whole && !enough) {
+        count += std::max<Eigen::Index>(10, count / 2);
+        around = look(count);
+        continue;
+      }
+      result.all = whole && !limited && static_cast<int>(result.modes.size()) <= options_.count;
+      if (!limited && static_cast<int>(result.modes.size()) > options_.count)
+        result.modes.resize(static_cast<std::size_t>(options_.count));
+      return result;
+    }
+  }
+
+  Modes around_frequency(double omega) {
+    set_shift(Complex(0, omega));
+    Eigen::Index count = options_.count + 4;
+    while (true) {
+      const Around around = look(count);
+      Modes result = collect(around.pairs, [](Complex) { return true; });
+      const bool whole = !std::isfinite(around.radius);
+      if (!whole && static_cast<int>(result.modes.size()) < options_.count) {
+        count += std::max<Eigen::Index>(10, count / 2);
+        continue;
+      }
+      result.all = whole && static_cast<int>(result.modes.size()) <= options_.count;
+      if (static_cast<int>(result.modes.size()) > options_.count) {
+        const auto distance = [&](const Mode& mode) { return std::abs(mode.s - operator_->shift()); };
+        std::stable_sort(result.modes.begin(), result.modes.end(),
+                         [&](const Mode& a, const Mode& b) { return distance(a) < distance(b); });
+        result.modes.resize(static_cast<std::size_t>(options_.count));
+        std::stable_sort(result.modes.begin(), result.modes.end(),
+                         [](const Mode& a, const Mode& b) { return std::abs(a.s) < std::abs(b.s); });
+      }
+      return result;
+    }
+  }
+
+  const LinearisedEquations& e_;
+  const ModeOptions& options_;
+  std::unique_ptr<ShiftedOperator> operator_;
+  mutable Sparse K_, C_, M_;
+};
+
+}  // namespace
+
+const char* mode_kind_name(ModeKind kind) {
+  switch (kind) {
+    case ModeKind::rigid:
+      return "rigid";
+    case ModeKind::decaying:
+      return "decaying";
+    case ModeKind::growing:
+      return "growing";
+    default:
+      return "oscillating";
+  }
+}
+
+double Mode::frequency() const { return std::abs(s) / (2 * std::numbers::pi); }
+double Mode::damped_frequency() const { return std::abs(s.imag()) / (2 * std::numbers::pi); }
+double Mode::damping_ratio() const { return s == 0.0 ? 0 : -s.real() / std::abs(s); }
+
+Modes find_modes(const LinearisedEquations& equations, const ModeOptions& options) {
+  return Search(equations, options).run();
+}
+
+}  // namespace bielle::mechanism
