@@ -32,13 +32,16 @@ std::string main_parts(const ModeParts& parts, Eigen::Index mode) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
+/// A number of the size of 1 as people read it.
+double without_rounding(double number) { return std::abs(number) < 1e-10 ? 0 : number; }
+
 std::string format_table(const ModesReport& report, const ModeParts& parts) {
   std::string text = fmt::format("  {:>4}  {:>13}  {:>11}  {:<11}  {}\n", "mode", "frequency", "damping", "kind",
                                  "energy in");
   const std::vector<Mode>& modes = report.found.modes;
   for (std::size_t k = 0; k < std::min(most_listed, modes.size()); ++k)
     text += fmt::format("  {:>4}  {:>10.6g} Hz  {:>11.4g}  {:<11}  {}\n", k + 1, modes[k].frequency(),
-                        modes[k].damping_ratio(), mode_kind_name(modes[k].kind),
+                        without_rounding(modes[k].damping_ratio()), mode_kind_name(modes[k].kind),
                         main_parts(parts, static_cast<Eigen::Index>(k)));
   if (modes.size() > most_listed) text += fmt::format("  and {} more\n", modes.size() - most_listed);
   return text;
@@ -80,11 +83,23 @@ std::string format_remarks(const ModesReport& report) {
   return text;
 }
 
+/// `rotation: {rate: 12, axis: [0, 0, 1], position: [0, 0, 0]}`
+SteadyRotation read_rotation(const YamlValue& entry) {
+  entry.check_keys({"rate", "axis", "position"}, "`rotation`");
+  SteadyRotation rotation;
+  const double rate = entry.at("rate").number();
+  if (rate == 0) entry.at("rate").fail("expected a rate other than 0: without rotation, leave the key out");
+  rotation.omega = rate * Vector3(entry.at("axis").direction());
+  if (const auto position = entry.find("position")) rotation.through = position->vector3();
+  return rotation;
+}
+
 }  // namespace
 
 std::unique_ptr<Analysis> read_eigen(const YamlValue& entry, const Model& /*model*/) {
-  entry.check_keys({"type", "count", "near", "below", "shapes"}, "the analysis 'eigen'");
-  ModeOptions options;
+  entry.check_keys({"type", "count", "near", "below", "rotation", "shapes"}, "the analysis 'eigen'");
+  ModesOptions all;
+  ModeOptions& options = all.search;
   if (const auto count = entry.find("count")) {
     options.count = count->integer();
     if (options.count < 1) count->fail("expected at least one mode");
@@ -95,8 +110,9 @@ std::unique_ptr<Analysis> read_eigen(const YamlValue& entry, const Model& /*mode
     if (entry.has("count")) below->fail("all modes below a frequency are found, however many: leave `count` out");
     options.below = below->positive_number();
   }
+  if (const auto rotation = entry.find("rotation")) all.rotation = read_rotation(*rotation);
   const bool shapes = !entry.has("shapes") || entry.at("shapes").boolean();
-  return std::make_unique<EigenAnalysis>(std::move(options), shapes);
+  return std::make_unique<EigenAnalysis>(std::move(all), shapes);
 }
 
 void EigenAnalysis::solve(Session& session, AnalysisSummary& summary) const {

@@ -8,13 +8,13 @@ namespace bielle::mechanism {
 /// Its summary has the numbers "frequency" [Hz], "damping_ratio", "real" and "imaginary" parts of the eigenvalues [1/s].
 class EigenAnalysis : public Analysis {
  public:
-  EigenAnalysis(ModeOptions options, bool shapes) : Analysis("eigen"), options_(std::move(options)), shapes_(shapes) {}
-  const ModeOptions& options() const { return options_; }
+  EigenAnalysis(ModesOptions options, bool shapes) : Analysis("eigen"), options_(std::move(options)), shapes_(shapes) {}
+  const ModesOptions& options() const { return options_; }
   bool shapes() const { return shapes_; }  ///< whether they go to the sinks
 
  private:
   void solve(Session& session, AnalysisSummary& summary) const override;
-  ModeOptions options_;
+  ModesOptions options_;
   bool shapes_;
 };
 

@@ -7,6 +7,7 @@
 #include "mechanism/solvers/linearised/mode_parts.hpp"
 #include "mechanism/solvers/linearised/modes.hpp"
 #include "mechanism/solvers/linearised/steadiness.hpp"
+#include "mechanism/solvers/linearised/steady_rotation.hpp"
 #include "mechanism/solvers/start/start_report.hpp"
 
 namespace bielle::mechanism {
@@ -16,6 +17,11 @@ struct StandingState {
   State state;
   Environment environment;
   StartReport start;  ///< what had to be made consistent
+};
+
+struct ModesOptions {
+  ModeOptions search;
+  std::optional<SteadyRotation> rotation;  ///< modes about the steady rotation that begins at the state
 };
 
 struct ModesReport {

@@ -76,7 +76,7 @@ class Session {
   Motion dynamics(const DynamicsOptions& options, const std::vector<double>& checkpoint, ResultSink& sink);
   /// Small motions about the present state, which stays: about the start made consistent, an equilibrium under the part
   /// of the load that it stands under, the end of a motion. @throws ComputationError
-  ModesReport modes(const ModeOptions& options) const;
+  ModesReport modes(const ModesOptions& options) const;
 
   // -- reading
   const State& state() const { return *shown_; }  ///< of the motion, while one is under way

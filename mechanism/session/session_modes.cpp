@@ -34,9 +34,10 @@ StandingState Session::standing() const {
   return standing;
 }
 
-ModesReport Session::modes(const ModeOptions& options) const {
+ModesReport Session::modes(const ModesOptions& options) const {
   ModesReport report;
   report.about = standing();
+  if (options.rotation) settle_in_rotation(system_, report.about.environment, *options.rotation, report.about.state);
   const State& state = report.about.state;
   const Environment& environment = report.about.environment;
   report.steadiness = find_steadiness(system_, environment, state);
@@ -47,7 +48,7 @@ ModesReport Session::modes(const ModeOptions& options) const {
     report.unbalance = unbalance(system_, environment, state, equation);
     report.unbalanced = system_.equation_name(equation);
   }
-  report.found = find_modes(linearised_equations(system_, environment, state, report.axes), options);
+  report.found = find_modes(linearised_equations(system_, environment, state, report.axes), options.search);
   for (Mode& mode : report.found.modes) {
     const std::complex<double> factor = unit_factor(system_, state, mode);
     mode.u *= factor;

@@ -128,8 +128,9 @@ MemberEnergies member_energies(const System& system, const Environment& environm
     for (Eigen::Index k = 0; k < columns; ++k) {
       const auto j = static_cast<std::size_t>(k);
       const MemberVariation local = member_variation(system, slots, modes[j], nodes[j]);
-      energies.kinetic(m, k) = mean_energy(M, local.w);
-      energies.potential(m, k) = mean_energy(K, local.u);
+      const bool rigid = modes[j].kind == ModeKind::rigid;
+      energies.kinetic(m, k) = mean_energy(M, rigid ? local.u : local.w);
+      if (!rigid) energies.potential(m, k) = mean_energy(K, local.u);
     }
   }
   return energies;

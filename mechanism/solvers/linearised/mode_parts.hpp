@@ -21,7 +21,7 @@ std::complex<double> unit_factor(const System& system, const State& state, const
 
 /// Energies of modes in each member of the model, averaged over a period: (dv^H M dv)/4 and (u^H K u)/4, M and the
 /// symmetric part of K those of the member alone. K contains the geometric stiffness of its forces, of a joint that of
-/// its reactions, of a body that of its weight.
+/// its reactions, of a body that of its weight. A rigid mode moves by its shape within a second.
 struct MemberEnergies {
   MatrixX kinetic, potential;  ///< (members, modes) [J] for amplitudes as they are; potential ones may be negative
 };

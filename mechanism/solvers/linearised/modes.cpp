@@ -45,6 +45,20 @@ MatrixX consistent_states(const LinearisedEquations& e, const VectorX& scale) {
   return svd.vectors.rightCols(e.states() - rank);
 }
 
+/// The same span, as far as its directions are not lost beside the others.
+MatrixX orthonormal(const MatrixX& vectors) {
+  MatrixX result = vectors;
+  for (int twice = 0; twice < 2; ++twice) {
+    const SymmetricEigenpairs gram = symmetric_eigenpairs(MatrixX(result.transpose() * result));
+    const double most = gram.values[gram.values.size() - 1];
+    Eigen::Index first = 0;
+    while (gram.values[first] < 1e-15 * most) ++first;
+    const Eigen::Index left = gram.values.size() - first;
+    result = result * gram.vectors.rightCols(left) * gram.values.tail(left).cwiseSqrt().cwiseInverse().asDiagonal();
+  }
+  return result;
+}
+
 struct Found {
   Complex s;
   VectorXc x;  ///< scaled state
@@ -188,25 +202,50 @@ class Search {
     return s.imag() == 0 ? ModeKind::decaying : ModeKind::oscillating;
   }
 
-  /// Independent shapes of eigenvalues that are zero.
+  /// Independent shapes of eigenvalues that are zero. These come in pairs of nearly the same vector, which tell their
+  /// number badly. With D(s) u = 0 the equations, a shape that costs nothing is one that D(sigma)^-1 (D(sigma) - D(0))
+  /// leaves as it is, and all others become shorter.
   std::vector<Mode> rigid_modes(const std::vector<Found>& zeros) const {
     std::vector<Mode> modes;
     if (zeros.empty()) return modes;
     const int n = e_.unknowns();
-    const auto count = static_cast<Eigen::Index>(zeros.size());
-    MatrixX shapes(n, 2 * count);
+    const double shift = operator_->shift().real();
+    const auto scale = operator_->scale().head(n);
+    const auto count = std::min<Eigen::Index>(n, static_cast<Eigen::Index>(zeros.size()));
     double residual = 0;
+    MatrixX shapes(n, count);
     for (Eigen::Index k = 0; k < count; ++k) {
-      const VectorXc u = zeros[static_cast<std::size_t>(k)].x.head(n);
-      const double size = u.norm();
-      shapes.col(2 * k) = u.real() / size;
-      shapes.col(2 * k + 1) = u.imag() / size;
-      residual = std::max(residual, zeros[static_cast<std::size_t>(k)].residual);
+      const Found& zero = zeros[static_cast<std::size_t>(k)];
+      residual = std::max(residual, zero.residual);
+      shapes.col(k) = zero.x.head(n).real().normalized();
+      for (Eigen::Index i = 0; i < n; ++i)  // vectors that repeat each other have to be told apart
+        shapes(i, k) += 1e-3 / std::sqrt(n) * std::cos(static_cast<double>((i + 1) * (k + 1) % 7919));
     }
-    const SymmetricEigenpairs gram = symmetric_eigenpairs(MatrixX(shapes.transpose() * shapes));
-    constexpr double dependent = 1e-8;
-    for (Eigen::Index k = 2 * count - 1; k >= 0 && gram.values[k] > dependent * gram.values[2 * count - 1]; --k) {
-      const VectorX u = operator_->scale().head(n).asDiagonal() * (shapes * gram.vectors.col(k));
+    const auto answer = [&](const VectorX& x) {
+      const VectorX u = scale.cwiseProduct(x);
+      VectorX right = VectorX::Zero(n + e_.constraints());
+      right.head(n) = shift * (e_.C * u + e_.M * (shift * u + e_.W * u));
+      const VectorX of_constraints = shift * (e_.B * u);
+      for (int k = 0; k < e_.constraints(); ++k)
+        if (e_.nonholonomic[static_cast<std::size_t>(k)]) right[n + k] = of_constraints[k];
+      return VectorX(operator_->solve(right.cast<Complex>()).head(n).real().cwiseQuotient(scale));
+    };
+    constexpr int rounds = 100;
+    constexpr double stays = 1e-8, settled = 1e-22, leaves = 1e-3;  // squares of changes
+    SymmetricEigenpairs change;
+    for (int round = 0; round < rounds; ++round) {
+      shapes = orthonormal(shapes);
+      MatrixX answers(n, shapes.cols());
+      for (Eigen::Index k = 0; k < shapes.cols(); ++k) answers.col(k) = answer(shapes.col(k));
+      const MatrixX changes = answers - shapes;
+      change = symmetric_eigenpairs(MatrixX(changes.transpose() * changes));
+      if (round > 0 && std::all_of(change.values.begin(), change.values.end(),
+                                   [](double value) { return value < settled || value > leaves; }))
+        break;
+      if (round + 1 < rounds) shapes = answers;
+    }
+    for (Eigen::Index k = 0; k < change.values.size() && change.values[k] < stays; ++k) {
+      const VectorX u = scale.cwiseProduct(shapes * change.vectors.col(k));
       const VectorX w = (e_.W * u).head(e_.dofs);
       modes.push_back({0, ModeKind::rigid, u.cast<Complex>(), w.cast<Complex>(), residual});
     }
@@ -226,7 +265,7 @@ class Search {
       else if (wanted(pair.s) && represents(pair.s))
         result.modes.push_back(mode_of(pair, kind_of(pair.s)));
     }
-    if (wanted(0))
+    if (operator_->is_real() && wanted(0))
       for (Mode& mode : rigid_modes(zeros)) result.modes.push_back(std::move(mode));
     std::stable_sort(result.modes.begin(), result.modes.end(),
                      [](const Mode& a, const Mode& b) { return std::abs(a.s) < std::abs(b.s); });

@@ -80,7 +80,7 @@ void ShiftedOperator::build() {
 void ShiftedOperator::set_scale(const SparseC& D) {
   const LinearisedEquations& e = equations_;
   const int n = e.unknowns(), dofs = e.dofs;
-  const double rate = std::abs(shift_);
+  const double rate = shift_ == 0.0 ? 1 : std::abs(shift_);
   scale_ = VectorX::Zero(e.states());
   const VectorX mass = e.M.diagonal();
   const VectorX stiffness = D.diagonal().cwiseAbs();
