@@ -75,10 +75,9 @@ std::string format_remarks(const ModesReport& report) {
     text += fmt::format("  in motion, seen in axes that {}\n",
                         report.axes == ModeAxes::turning ? "turn with each node" : "do not turn");
     if (!steadiness.steady())
-      text += fmt::format(
-          "  the motion is not steady: the equations change by {:.2g} of themselves while it goes on by a radian; modes are "
-          "those of the equations as they are at this moment\n",
-          steadiness.least() / steadiness.rate);
+      text +=
+          "  the motion is not steady, or not in axes of these kinds: the equations change while it goes on, and modes are "
+          "those of the equations as they are at this moment\n";
   }
   return text;
 }

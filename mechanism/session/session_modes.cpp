@@ -1,4 +1,6 @@
 // Modes about the state that a session shows.
+#include <fmt/format.h>
+
 #include "mechanism/session/session.hpp"
 #include "mechanism/solvers/constraints/redundancy.hpp"
 #include "mechanism/solvers/start/assemble_positions.hpp"
@@ -34,6 +36,22 @@ StandingState Session::standing() const {
   return standing;
 }
 
+namespace {
+
+[[noreturn]] void throw_undetermined(const System& system, const LinearisedEquations& equations, int at) {
+  const int n = equations.unknowns();
+  const std::string what =
+      at < 0   ? "some unknown"
+      : at < n ? system.unknown_name(at)
+               : system.unknown_name(n + equations.multiplier[static_cast<std::size_t>(at - n)]);
+  throw ComputationError(fmt::format(
+      "there are no modes: nothing determines {} whatever the frequency: it has neither mass nor stiffness, and nothing "
+      "holds it, or constraints next to it are redundant",
+      what));
+}
+
+}  // namespace
+
 ModesReport Session::modes(const ModesOptions& options) const {
   ModesReport report;
   report.about = standing();
@@ -48,7 +66,12 @@ ModesReport Session::modes(const ModesOptions& options) const {
     report.unbalance = unbalance(system_, environment, state, equation);
     report.unbalanced = system_.equation_name(equation);
   }
-  report.found = find_modes(linearised_equations(system_, environment, state, report.axes), options.search);
+  const LinearisedEquations equations = linearised_equations(system_, environment, state, report.axes);
+  try {
+    report.found = find_modes(equations, options.search);
+  } catch (const SingularEquations& singular) {
+    throw_undetermined(system_, equations, singular.at());
+  }
   for (Mode& mode : report.found.modes) {
     const std::complex<double> factor = unit_factor(system_, state, mode);
     mode.u *= factor;

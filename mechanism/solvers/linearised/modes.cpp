@@ -93,9 +93,7 @@ class Search {
       operator_ = std::make_unique<ShiftedOperator>(e_, shift);
       if (operator_->regular()) return;
     }
-    throw ComputationError(
-        "the linearised equations are singular whatever the frequency: some unknown is determined by nothing (a node or a "
-        "rotation without mass, stiffness and constraint)");
+    throw SingularEquations(operator_->singular());
   }
 
   bool dense() const { return e_.states() <= options_.dense; }
@@ -141,20 +139,13 @@ class Search {
       const VectorXc once = T.apply(x) / mu;
       constexpr double same = 1e-2;
       if (!((T.apply(once) / mu - x).norm() < same * x.norm())) continue;
-      around.pairs.push_back({T.shift() + 1.0 / mu, once / once.norm(), (once - x).norm() / x.norm()});
+      Complex value = T.shift() + 1.0 / mu;
+      // Of a complex operator real eigenvalues are real but for rounding.
+      constexpr double rounding = 1e-9;
+      if (!T.is_real() && std::abs(value.imag()) < rounding * std::abs(value)) value = value.real();
+      around.pairs.push_back({value, once / once.norm(), (once - x).norm() / x.norm()});
     }
     return around;
-  }
-
-  /// A size of rates from the entries alone: where the search for a better one begins.
-  double first_shift() const {
-    double least = INFINITY;
-    const VectorX M = e_.M.diagonal(), C = e_.C.diagonal(), K = e_.K.diagonal();
-    for (int i = 0; i < e_.unknowns(); ++i) {
-      if (i < e_.dofs && M[i] > 0 && K[i] != 0) least = std::min(least, std::sqrt(std::abs(K[i]) / M[i]));
-      if (i >= e_.dofs && C[i] != 0 && K[i] != 0) least = std::min(least, std::abs(K[i] / C[i]));
-    }
-    return std::isfinite(least) && least > 0 ? 0.1 * least : 1;
   }
 
   /// Whether s is zero to rounding: what the rates add is less than rounding errors of the other terms, or of those at
@@ -196,9 +187,18 @@ class Search {
     return {pair.s, kind, x.head(n), x.tail(e_.dofs), pair.residual};
   }
 
-  ModeKind kind_of(Complex s) const {
-    constexpr double rounding = 1e-8;
-    if (s.real() > rounding * std::abs(s)) return ModeKind::growing;
+  /// Rounding splits double eigenvalues that have one shape, by far more than itself: growth is that of their mean.
+  static ModeKind kind_of(Complex s, const std::vector<Found>& pairs) {
+    constexpr double rounding = 1e-8, split = 1e-4;
+    Complex sum = 0;
+    double count = 0;
+    for (const Found& pair : pairs)
+      if (std::abs(pair.s - s) <= split * std::abs(s)) {
+        sum += pair.s;
+        ++count;
+      }
+    const Complex mean = count > 0 ? sum / count : s;
+    if (mean.real() > rounding * std::abs(s)) return ModeKind::growing;
     return s.imag() == 0 ? ModeKind::decaying : ModeKind::oscillating;
   }
 
@@ -263,7 +263,7 @@ class Search {
       if (is_zero(pair))
         zeros.push_back(pair);
       else if (wanted(pair.s) && represents(pair.s))
-        result.modes.push_back(mode_of(pair, kind_of(pair.s)));
+        result.modes.push_back(mode_of(pair, kind_of(pair.s, pairs)));
     }
     if (operator_->is_real() && wanted(0))
       for (Mode& mode : rigid_modes(zeros)) result.modes.push_back(std::move(mode));
@@ -294,7 +294,7 @@ class Search {
     const bool limited = options_.below.has_value();
     const double limit = limited ? 2 * std::numbers::pi * *options_.below : INFINITY;
     Eigen::Index count = 2 * (limited ? 10 : options_.count) + 4;
-    set_shift(first_shift());
+    set_shift(0.1 * typical_rate(e_));
     constexpr int most_shifts = 8;
     Around around = look(count);
     bool seen = false;
@@ -377,6 +377,19 @@ const char* mode_kind_name(ModeKind kind) {
 double Mode::frequency() const { return std::abs(s) / (2 * std::numbers::pi); }
 double Mode::damped_frequency() const { return std::abs(s.imag()) / (2 * std::numbers::pi); }
 double Mode::damping_ratio() const { return s == 0.0 ? 0 : -s.real() / std::abs(s); }
+
+SingularEquations::SingularEquations(int at)
+    : ComputationError("the linearised equations are singular whatever the frequency"), at_(at) {}
+
+double typical_rate(const LinearisedEquations& e) {
+  double least = INFINITY;
+  const VectorX M = e.M.diagonal(), C = e.C.diagonal(), K = e.K.diagonal();
+  for (int i = 0; i < e.unknowns(); ++i) {
+    if (i < e.dofs && M[i] > 0 && K[i] != 0) least = std::min(least, std::sqrt(std::abs(K[i]) / M[i]));
+    if (i >= e.dofs && C[i] != 0 && K[i] != 0) least = std::min(least, std::abs(K[i] / C[i]));
+  }
+  return std::isfinite(least) && least > 0 ? least : 1;
+}
 
 Modes find_modes(const LinearisedEquations& equations, const ModeOptions& options) {
   return Search(equations, options).run();

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "mechanism/solvers/linearised/equations.hpp"
+#include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
 
@@ -43,8 +44,20 @@ struct Modes {
   int states = 0;
 };
 
-/// @throws ComputationError where every number is an eigenvalue (nothing determines some unknown), or ARPACK does not
-///         converge
+/// A size of rates from diagonal entries alone, of the softest unknown [1/s]: where a search may begin.
+double typical_rate(const LinearisedEquations& equations);
+
+/// Nothing determines some unknown: every number is an eigenvalue.
+class SingularEquations : public ComputationError {
+ public:
+  explicit SingularEquations(int at);
+  int at() const { return at_; }  ///< among the unknowns, then the constraints in the equations; or -1
+
+ private:
+  int at_;
+};
+
+/// @throws SingularEquations; ComputationError where ARPACK does not converge
 Modes find_modes(const LinearisedEquations& equations, const ModeOptions& options);
 
 }  // namespace bielle::mechanism

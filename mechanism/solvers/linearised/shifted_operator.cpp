@@ -27,6 +27,8 @@ void ShiftedOperator::build() {
   shifted.setIdentity();
   shifted = SparseC(shifted * shift_ + e.W.cast<Complex>());
   rates_ = SparseC(e.M.cast<Complex>() * shift_ + e.C.cast<Complex>());
+  if (is_real()) real_rates_ = rates_.real();
+  any_nonholonomic_ = std::any_of(e.nonholonomic.begin(), e.nonholonomic.end(), [](char each) { return each != 0; });
   const SparseC D = SparseC(rates_ * shifted) + e.K.cast<Complex>();
   const SparseC moving = SparseC(e.B.cast<Complex>() * shifted) + e.S.cast<Complex>();
 
@@ -75,6 +77,7 @@ void ShiftedOperator::build() {
   }
   factors_ = std::make_unique<SparseLU>(*pattern_);
   regular_ = factors_->factor(values, diagonal) == FactorStatus::good && factors_->reciprocal_condition() > 0;
+  if (factors_->singular_column() >= 0) singular_ = factors_->singular_column() / parts;
 }
 
 void ShiftedOperator::set_scale(const SparseC& D) {
@@ -135,30 +138,46 @@ VectorXc ShiftedOperator::solve(const VectorXc& right) const {
   return x;
 }
 
-VectorXc ShiftedOperator::apply_shifted(const VectorXc& x) const {
+template <class Vector, class Matrix, class Solve>
+Vector ShiftedOperator::apply_with(const Vector& x, const Matrix& rates, typename Vector::Scalar shift,
+                                   const Solve& solution_of) const {
   const LinearisedEquations& e = equations_;
   const int n = e.unknowns();
-  const VectorXc in = scale_.cwiseProduct(x);
-  VectorXc w = VectorXc::Zero(n);
+  const Vector in = scale_.template cast<typename Vector::Scalar>().cwiseProduct(x);
+  Vector w = Vector::Zero(n);
   w.head(e.dofs) = in.tail(e.dofs);
-  VectorXc right(n + e.constraints());
-  right.head(n) = -(rates_ * in.head(n)) - e.M.cast<Complex>() * w;
-  const VectorXc of_constraints = e.B.cast<Complex>() * in.head(n);
-  for (int k = 0; k < e.constraints(); ++k)
-    right[n + k] = e.nonholonomic[static_cast<std::size_t>(k)] ? Complex(-of_constraints[k]) : Complex(0);
-  const VectorXc solution = solve(right);
-  VectorXc out(e.states());
+  Vector right(n + e.constraints());
+  right.head(n) = -(rates * in.head(n)) - e.M * w;
+  right.tail(e.constraints()).setZero();
+  if (any_nonholonomic_) {
+    const Vector of_constraints = e.B * in.head(n);
+    for (int k = 0; k < e.constraints(); ++k)
+      if (e.nonholonomic[static_cast<std::size_t>(k)]) right[n + k] = -of_constraints[k];
+  }
+  const Vector solution = solution_of(right);
+  Vector out(e.states());
   out.head(n) = solution.head(n);
-  out.tail(e.dofs) =
-      (shift_ * solution.head(n) + e.W.cast<Complex>() * solution.head(n) + in.head(n)).head(e.dofs);
-  return out.cwiseQuotient(scale_.cast<Complex>());
+  out.tail(e.dofs) = (shift * solution.head(n) + e.W * solution.head(n) + in.head(n)).head(e.dofs);
+  return out.cwiseQuotient(scale_.template cast<typename Vector::Scalar>());
 }
 
-VectorXc ShiftedOperator::apply(const VectorXc& x) const { return apply_shifted(x); }
+VectorXc ShiftedOperator::apply(const VectorXc& x) const {
+  if (is_real()) {
+    VectorXc y(x.size());
+    y.real() = apply(VectorX(x.real()));
+    y.imag() = apply(VectorX(x.imag()));
+    return y;
+  }
+  return apply_with(x, rates_, shift_, [&](const VectorXc& right) { return solve(right); });
+}
 
 VectorX ShiftedOperator::apply(const VectorX& x) const {
   if (!is_real()) throw std::logic_error("a complex shift makes complex vectors");
-  return apply_shifted(x.cast<Complex>()).real();
+  return apply_with(x, real_rates_, shift_.real(), [&](const VectorX& right) {
+    VectorX solution = right;
+    factors_->solve(solution);
+    return solution;
+  });
 }
 
 }  // namespace bielle::mechanism

@@ -31,6 +31,8 @@ class ShiftedOperator {
 
   /// Whether there are factors: not where the shift is an eigenvalue, or every number is.
   bool regular() const { return regular_; }
+  /// Where the factorisation found no pivot: among the unknowns, then the constraints in the equations; or -1.
+  int singular() const { return singular_; }
   Complex shift() const { return shift_; }
   bool is_real() const { return shift_.imag() == 0; }
 
@@ -47,13 +49,17 @@ class ShiftedOperator {
   using SparseC = Eigen::SparseMatrix<Complex>;
   void build();
   void set_scale(const SparseC& D);
-  VectorXc apply_shifted(const VectorXc& x) const;
+  template <class Vector, class Matrix, class Solve>
+  Vector apply_with(const Vector& x, const Matrix& rates, typename Vector::Scalar shift, const Solve& solution_of) const;
 
   const LinearisedEquations& equations_;
   Complex shift_;
   bool regular_ = false;
   VectorX scale_;
-  SparseC rates_;  ///< sigma M + C
+  SparseC rates_;                          ///< sigma M + C
+  Eigen::SparseMatrix<double> real_rates_;  ///< the same of a real shift
+  bool any_nonholonomic_ = false;
+  int singular_ = -1;
   std::unique_ptr<const SparsePattern> pattern_;
   std::unique_ptr<SparseLU> factors_;
 };

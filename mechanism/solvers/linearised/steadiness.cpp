@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "mechanism/solvers/linearised/modes.hpp"
 #include "mechanism/solvers/linearised/shifted_operator.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
 #include "mechanism/solvers/start/consistent_accelerations.hpp"
@@ -42,13 +43,19 @@ void carry(const System& system, const State& from, const State& to, ModeAxes ax
   }
 }
 
-double rate_of(const State& state) {
-  double turns = 0, moves = 0;
+struct Rates {
+  double velocity = 0, acceleration = 0;  ///< [1/s]
+};
+
+Rates rates_of(const State& state) {
+  Rates rates;
+  const double length = model_length(state);
   for (const NodeState& node : state.nodes) {
-    turns = std::max(turns, node.Omega.norm());
-    moves = std::max(moves, node.v.norm());
+    rates.velocity = std::max({rates.velocity, node.Omega.norm(), node.v.norm() / length});
+    rates.acceleration =
+        std::max({rates.acceleration, std::sqrt(node.Omegadot.norm()), std::sqrt(node.a.norm() / length)});
   }
-  return std::max(turns, moves / model_length(state));
+  return rates;
 }
 
 State moved_on(const System& system, const Environment& environment, const State& state, double h) {
@@ -100,8 +107,12 @@ ModeAxes Steadiness::axes() const {
 
 std::optional<Steadiness> find_steadiness(const System& system, const Environment& environment, const State& state) {
   Steadiness steadiness;
-  steadiness.rate = rate_of(state);
-  if (steadiness.rate == 0) return std::nullopt;
+  const Rates rates = rates_of(state);
+  constexpr double negligible = 1e-7;  // its square is that of rounding
+  if (rates.velocity <=
+      negligible * typical_rate(linearised_equations(system, environment, state, ModeAxes::inertial)))
+    return std::nullopt;
+  steadiness.rate = std::max(rates.velocity, rates.acceleration);
   constexpr double part = 1e-5;  // of the time for a radian: half of the digits
   const State later = moved_on(system, environment, state, part / steadiness.rate);
   steadiness.inertial = change(system, environment, state, later, steadiness.rate, ModeAxes::inertial);

@@ -13,17 +13,19 @@
 namespace bielle::mechanism {
 
 struct Steadiness {
-  double rate = 0;      ///< of the motion [1/s]: the largest angular velocity, or velocity over the mechanism's size
+  /// Of the motion [1/s]: by the largest angular velocity, velocity over the mechanism's size, and accelerations alike.
+  double rate = 0;
   double inertial = 0;  ///< how fast the equations change in inertial axes [1/s], relative to themselves
   double turning = 0;   ///< the same in axes that turn with the nodes
   double least() const { return inertial < turning ? inertial : turning; }
   /// Inertial ones, unless these are worse.
   ModeAxes axes() const;
-  /// Whether the equations change by less than a thousandth while the motion goes on by a radian.
+  /// Whether the equations change by less than a thousandth while the motion goes on by a radian or its size.
   bool steady() const { return least() <= 1e-3 * rate; }
 };
 
-/// Of a state whose accelerations and multipliers belong to its velocities. Nothing where it is at rest.
+/// Of a state whose accelerations and multipliers belong to its velocities. Nothing where it is at rest,
+/// or so slow that velocities do not matter.
 std::optional<Steadiness> find_steadiness(const System& system, const Environment& environment, const State& state);
 
 /// The largest acceleration force of a state at rest relative to the largest force that acts: zero in equilibrium.
