@@ -39,10 +39,8 @@ MatrixX consistent_states(const LinearisedEquations& e, const VectorX& scale) {
   rows *= scale.asDiagonal();
   for (int k = 0; k < 2 * m; ++k)
     if (const double size = rows.row(k).norm(); size > 0) rows.row(k) /= size;
-  const RightSingularVectors svd = right_singular_vectors(rows);
-  Eigen::Index rank = 0;
-  while (rank < svd.values.size() && svd.values[rank] > 1e-11 * svd.values[0]) ++rank;
-  return svd.vectors.rightCols(e.states() - rank);
+  constexpr double dependent = 1e-11;
+  return null_space(rows, dependent);
 }
 
 /// The same span, as far as its directions are not lost beside the others.
@@ -88,15 +86,19 @@ class Search {
  private:
   /// Makes the operator, at a shift next to this one where it is an eigenvalue.
   void set_shift(Complex shift) {
-    constexpr int tries = 5;
-    for (int k = 0; k < tries; ++k, shift *= 1.0137) {
-      operator_ = std::make_unique<ShiftedOperator>(e_, shift);
+    constexpr double factors[] = {1, 1.0137, 13.7, 1370, 1.37e5};
+    for (const double factor : factors) {
+      if (factor > 2 && shift.real() == 0) break;  // a frequency that was asked for
+      operator_ = std::make_unique<ShiftedOperator>(e_, factor * shift);
       if (operator_->regular()) return;
     }
     throw SingularEquations(operator_->singular());
   }
 
-  bool dense() const { return e_.states() <= options_.dense; }
+  bool dense() const {
+    constexpr int most = 2000;  // states, for the null space of the constraints
+    return e_.states() - 2 * e_.constraints() <= options_.dense && e_.states() <= most && options_.dense > 0;
+  }
 
   Around look(Eigen::Index count) const {
     const ShiftedOperator& T = *operator_;
@@ -148,11 +150,13 @@ class Search {
     return around;
   }
 
-  /// Whether s is zero to rounding: what the rates add is less than rounding errors of the other terms, or of those at
-  /// the shift.
+  /// Whether s is zero to rounding: beside the shift (a double zero is split by the square root of rounding, a
+  /// triple one by its cube root), or because what
+  /// the rates add is less than rounding errors of the other terms.
   bool is_zero(const Found& pair) const {
     const int n = e_.unknowns();
-    const double rate = std::abs(operator_->shift());
+    constexpr double of_shift = 1e-4, of_stiffness = 1e-14;
+    if (std::abs(pair.s) <= of_shift * std::abs(operator_->shift())) return true;
     const VectorX& scale = operator_->scale();
     const VectorXc u = scale.head(n).asDiagonal() * pair.x.head(n);
     const auto size_of = [&](const auto& forces) {
@@ -161,24 +165,13 @@ class Search {
       return std::sqrt(sum);
     };
     const VectorXc added = pair.s * (e_.C.cast<Complex>() * u + e_.M.cast<Complex>() * (pair.s * u + e_.W.cast<Complex>() * u));
-    const VectorX sizes = u.cwiseAbs();
-    const VectorX stiff = absolute_K() * sizes;
-    const VectorX moving = rate * (rate * (absolute_M() * sizes) + absolute_C() * sizes);
-    constexpr double of_stiffness = 1e-14, of_shift = 1e-11;
-    return size_of(added) <= of_stiffness * size_of(stiff) + of_shift * size_of(moving);
+    const VectorX stiff = absolute_K() * u.cwiseAbs();
+    return size_of(added) <= of_stiffness * size_of(stiff);
   }
   double weight(int i) const { return i < e_.dofs ? operator_->scale()[i] : 1 / operator_->scale()[i]; }
   const Sparse& absolute_K() const {
     if (K_.size() == 0) K_ = Sparse(e_.K.cwiseAbs()) + Sparse(Sparse(e_.C * e_.W).cwiseAbs());
     return K_;
-  }
-  const Sparse& absolute_C() const {
-    if (C_.size() == 0) C_ = e_.C.cwiseAbs();
-    return C_;
-  }
-  const Sparse& absolute_M() const {
-    if (M_.size() == 0) M_ = e_.M.cwiseAbs();
-    return M_;
   }
 
   Mode mode_of(const Found& pair, ModeKind kind) const {
@@ -356,7 +349,7 @@ class Search {
   const LinearisedEquations& e_;
   const ModeOptions& options_;
   std::unique_ptr<ShiftedOperator> operator_;
-  mutable Sparse K_, C_, M_;
+  mutable Sparse K_;
 };
 
 }  // namespace
@@ -382,13 +375,20 @@ SingularEquations::SingularEquations(int at)
     : ComputationError("the linearised equations are singular whatever the frequency"), at_(at) {}
 
 double typical_rate(const LinearisedEquations& e) {
-  double least = INFINITY;
   const VectorX M = e.M.diagonal(), C = e.C.diagonal(), K = e.K.diagonal();
+  std::vector<double> rates;
   for (int i = 0; i < e.unknowns(); ++i) {
-    if (i < e.dofs && M[i] > 0 && K[i] != 0) least = std::min(least, std::sqrt(std::abs(K[i]) / M[i]));
-    if (i >= e.dofs && C[i] != 0 && K[i] != 0) least = std::min(least, std::abs(K[i] / C[i]));
+    if (i < e.dofs && M[i] > 0) rates.push_back(std::sqrt(std::abs(K[i]) / M[i]));
+    if (i >= e.dofs && C[i] != 0) rates.push_back(std::abs(K[i] / C[i]));
   }
-  return std::isfinite(least) && least > 0 ? least : 1;
+  if (rates.empty()) return 1;
+  const double most = *std::max_element(rates.begin(), rates.end());
+  if (!(most > 0)) return 1;
+  constexpr double rounding = 1e-9;
+  double least = most;
+  for (const double rate : rates)
+    if (rate > rounding * most) least = std::min(least, rate);
+  return least;
 }
 
 Modes find_modes(const LinearisedEquations& equations, const ModeOptions& options) {
