@@ -21,7 +21,7 @@ struct StandingState {
 
 struct ModesOptions {
   ModeOptions search;
-  std::optional<SteadyRotation> rotation;  ///< modes about the steady rotation that begins at the state
+  std::optional<SteadyRotation> rotation = {};  ///< modes about the steady rotation that begins at the state
 };
 
 struct ModesReport {

@@ -33,8 +33,8 @@ struct Mode {
 
 struct ModeOptions {
   int count = 20;               ///< of modes; where `below` is given, it does not count
-  std::optional<double> near;   ///< those nearest to this frequency [Hz] > 0; no rigid ones
-  std::optional<double> below;  ///< all with |s| / 2 pi up to this frequency [Hz] > 0
+  std::optional<double> near = {};   ///< those nearest to this frequency [Hz] > 0; no rigid ones
+  std::optional<double> below = {};  ///< all with |s| / 2 pi up to this frequency [Hz] > 0
   int dense = 300;              ///< systems of up to so many independent states are solved densely; 0: none
 };
 
