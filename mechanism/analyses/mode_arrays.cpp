@@ -13,7 +13,14 @@ ModeParts mode_parts(const Model& model, const ModesReport& report) {
   ModeParts parts;
   std::map<Entry, Eigen::Index> place;
   std::vector<Eigen::Index> part_of;
+  constexpr Eigen::Index none = -1;
   for (const Member& member : model.members()) {
+    Declaration declaration;
+    member.component->declare(declaration);
+    if (declaration.passive) {
+      part_of.push_back(none);
+      continue;
+    }
     const auto [found, added] = place.emplace(member.entry, static_cast<Eigen::Index>(parts.names.size()));
     if (added) parts.names.push_back(fmt::format("{} '{}'", section_noun(member.entry.section), member.entry.name));
     part_of.push_back(found->second);
@@ -21,6 +28,7 @@ ModeParts mode_parts(const Model& model, const ModesReport& report) {
   const auto rows = static_cast<Eigen::Index>(parts.names.size()), modes = report.energies.kinetic.cols();
   parts.kinetic = parts.potential = MatrixX::Zero(rows, modes);
   for (std::size_t m = 0; m < part_of.size(); ++m) {
+    if (part_of[m] == none) continue;
     parts.kinetic.row(part_of[m]) += report.energies.kinetic.row(static_cast<Eigen::Index>(m));
     parts.potential.row(part_of[m]) += report.energies.potential.row(static_cast<Eigen::Index>(m));
   }

@@ -44,13 +44,12 @@ TEST_CASE("a pendulum on its head grows as it falls", "[linearised]") {
 }
 
 TEST_CASE("a double pendulum of points has omega^2 = g/l (2 -+ sqrt 2)", "[linearised]") {
-  // Rotations of the points are held relative to the rods that carry them: rods without mass, as spherical rods (distance).
   const std::string text =
       "gravity: [0, 0, -9.81]\n"
       "nodes:\n  a: {position: [0, 0, -1], fixed: [y, rx, ry, rz]}\n  b: {position: [0, 0, -2], fixed: [y, rx, ry, rz]}\n"
       "elements:\n  a: {type: point_mass, node: a, mass: 3}\n  b: {type: point_mass, node: b, mass: 3}\n"
-      "joints:\n  upper: {type: distance, nodes: [ground, a], at: [[0, 0, 0], [0, 0, 0]], distance: 1}\n"
-      "  lower: {type: distance, nodes: [a, b], at: [[0, 0, 0], [0, 0, 0]], distance: 1}\n";
+      "joints:\n  upper: {type: distance, nodes: [ground, a], at: [[0, 0, 0], [0, 0, 0]], length: 1}\n"
+      "  lower: {type: distance, nodes: [a, b], at: [[0, 0, 0], [0, 0, 0]], length: 1}\n";
   const std::vector<double> exact = {std::sqrt(g * (2 - std::sqrt(2.0))), std::sqrt(g * (2 + std::sqrt(2.0)))};
   const ModesReport report = ModesOf(text)();
   CHECK(report.found.all);

@@ -68,11 +68,11 @@ TEST_CASE("Beck's column flutters from P = 20.0509 EI/L^2 on", "[linearised]") {
 
 TEST_CASE("a free beam has three rigid modes in its plane and the textbook's frequencies", "[linearised]") {
   // cos x cosh x = 1: x = 4.730040744862704, 7.853204624095838, 10.995607838001671.
-  const ModesReport report = ModesOf(plane_beam("fixed: [z, rx, ry]", free_end, "", 24))({.count = 20});
+  const ModesReport report = ModesOf(plane_beam("fixed: [z, rx, ry]", free_end, "", 48))({.count = 20});
   CHECK(count_rigid(report) == 5 - 2);
   std::vector<double> found = rates_of(report);
   found.resize(3);
-  check_rates(found, {std::pow(4.730040744862704, 2), std::pow(7.853204624095838, 2), std::pow(10.995607838001671, 2)}, 3e-5);
+  check_rates(found, {std::pow(4.730040744862704, 2), std::pow(7.853204624095838, 2), std::pow(10.995607838001671, 2)}, 1e-5);
 }
 
 TEST_CASE("large models go by ARPACK to the same modes, multiple ones included", "[linearised]") {
@@ -102,7 +102,7 @@ TEST_CASE("a chain of elastic links with hinges has the same modes densely and b
                           k == 0 ? std::string("ground") : fmt::format("b{}", k - 1), -k, k % 2 ? "spherical" : "hinge",
                           k % 2 ? "" : ", axis: [0, 1, 0]");
   }
-  const ModesOf chain(nodes + elements + joints, true);
+  const ModesOf chain(nodes + elements + joints);
   const ModesReport dense = chain({.count = 15, .dense = 2000}), sparse = chain({.count = 15, .dense = 0});
   REQUIRE(dense.found.modes.size() == sparse.found.modes.size());
   CHECK(count_rigid(dense) == count_rigid(sparse));

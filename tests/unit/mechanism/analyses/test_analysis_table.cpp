@@ -3,6 +3,7 @@
 
 #include "mechanism/analyses/analysis_table.hpp"
 #include "mechanism/analyses/dynamic.hpp"
+#include "mechanism/analyses/eigen.hpp"
 #include "mechanism/analyses/static.hpp"
 #include "tests/support/messages.hpp"
 
@@ -30,7 +31,7 @@ TEST_CASE("each type of the table gives an analysis of its name") {
   CHECK(dynamic->duration() == 2);
   CHECK(dynamic->can_go_on());
   CHECK(dynamic_cast<const DynamicAnalysis&>(*dynamic).options().equilibrium);
-  CHECK(analysis_table().size() == 3);
+  CHECK(analysis_table().size() == 4);
 }
 
 TEST_CASE("keys of statics are read") {
@@ -47,7 +48,36 @@ TEST_CASE("keys of statics are read") {
 
 TEST_CASE("types that do not exist, or not yet, are refused") {
   CHECK_THAT(refusal("{type: dynamc}"), Contains("did you mean 'dynamic'"));
-  CHECK_THAT(refusal("{type: eigen}"),
-             Contains("the analysis 'eigen' is not in this version; there are assembly, static and dynamic"));
+  CHECK_THAT(refusal("{type: kinematic}"),
+             Contains("the analysis 'kinematic' is not in this version; there are assembly, static, dynamic and eigen"));
   CHECK_THAT(refusal("{type: assembly, steps: 2}"), Contains("'steps'") && Contains("the analysis 'assembly'"));
+}
+
+TEST_CASE("the analysis `eigen` reads how many modes, where, and about which rotation") {
+  const auto options = [&](const std::string& text) {
+    return dynamic_cast<const EigenAnalysis&>(*read(text)).options();
+  };
+  CHECK(options("{type: eigen}").search.count == 20);
+  CHECK_FALSE(options("{type: eigen}").rotation);
+  CHECK(options("{type: eigen, count: 5, near: 12.5}").search.near == 12.5);
+  CHECK(options("{type: eigen, below: 100}").search.below == 100);
+  const SteadyRotation turns =
+      *options("{type: eigen, rotation: {rate: 3, axis: [0, 0, 2], position: [1, 0, 0]}}").rotation;
+  CHECK(turns.omega == Vector3(0, 0, 3));
+  CHECK(turns.through == Vector3(1, 0, 0));
+  CHECK_FALSE(dynamic_cast<const EigenAnalysis&>(*read("{type: eigen, shapes: false}")).shapes());
+
+  CHECK_THAT(refusal("{type: eigen, modes: 3}"), Contains("'modes' is not a key of the analysis 'eigen'"));
+  CHECK_THAT(refusal("{type: eigen, count: 0}"), Contains("expected at least one mode"));
+  CHECK_THAT(refusal("{type: eigen, count: 2.5}"), Contains("count"));
+  CHECK_THAT(refusal("{type: eigen, near: 0}"), Contains("near"));
+  CHECK_THAT(refusal("{type: eigen, below: -1}"), Contains("below"));
+  CHECK_THAT(refusal("{type: eigen, near: 1, below: 2}"), Contains("either `near`") && Contains("or `below`"));
+  CHECK_THAT(refusal("{type: eigen, count: 1, below: 2}"), Contains("leave `count` out"));
+  CHECK_THAT(refusal("{type: eigen, shapes: 3}"), Contains("shapes"));
+  CHECK_THAT(refusal("{type: eigen, rotation: {rate: 0, axis: [0, 0, 1]}}"), Contains("other than 0"));
+  CHECK_THAT(refusal("{type: eigen, rotation: {rate: 1, axis: [0, 0, 0]}}"), Contains("axis"));
+  CHECK_THAT(refusal("{type: eigen, rotation: {rate: 1}}"), Contains("axis"));
+  CHECK_THAT(refusal("{type: eigen, rotation: {rate: 1, axis: [0, 0, 1], position: 3}}"), Contains("position"));
+  CHECK_THAT(refusal("{type: eigen, rotation: {speed: 1, axis: [0, 0, 1]}}"), Contains("'speed'"));
 }
