@@ -25,6 +25,7 @@ struct OperatorEigenOptions {
   Eigen::Index dense = 300;  ///< up to this size all eigenpairs are computed densely
   double tolerance = 1e-13;  ///< asked of ARPACK, relative to the eigenvalue
   int restarts = 300;        ///< before giving up
+  bool copies = true;        ///< whether copies of multiple eigenvalues that ARPACK has missed are looked for
 };
 
 /// Descending in magnitude. Of a real operator both of a conjugate pair are there, or none.

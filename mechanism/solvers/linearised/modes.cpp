@@ -100,7 +100,9 @@ class Search {
     return e_.states() - 2 * e_.constraints() <= options_.dense && e_.states() <= most && options_.dense > 0;
   }
 
-  Around look(Eigen::Index count) const {
+  enum class Look { roughly, exactly };
+
+  Around look(Eigen::Index count, Look how = Look::exactly) const {
     const ShiftedOperator& T = *operator_;
     OperatorEigenpairs found;
     MatrixX basis;
@@ -124,6 +126,10 @@ class Search {
     } else {
       OperatorEigenOptions sparse;
       sparse.dense = 0;
+      if (how == Look::roughly) {
+        sparse.tolerance = 1e-6;
+        sparse.copies = false;
+      }
       const Eigen::Index size = e_.states();
       if (T.is_real())
         found = largest_eigenpairs(LinearOperator<double>{size, [&](const VectorX& x) { return T.apply(x); }}, count, sparse);
@@ -283,27 +289,42 @@ class Search {
   /// What rounding makes of a double zero, relative to the shift.
   static constexpr double rounded_pair = 1e-7;
 
-  Modes slowest() {
-    const bool limited = options_.below.has_value();
-    const double limit = limited ? 2 * std::numbers::pi * *options_.below : INFINITY;
-    Eigen::Index count = 2 * (limited ? 10 : options_.count) + 4;
-    set_shift(0.1 * typical_rate(e_));
-    constexpr int most_shifts = 8;
-    Around around = look(count);
+  /// A shift of the size of the slowest mode that is not rigid. A shift that is too small shows that mode well, one
+  /// that is too large shows it as zero, beside many others.
+  void choose_shift(Eigen::Index count) {
+    set_shift(std::max(1e-3 * slowest_rate(e_), 1e-6 * fastest_rate(e_)));
+    constexpr int most_shifts = 10;
     bool seen = false;
     for (int k = 0; k < most_shifts; ++k) {
-      const double shift = std::abs(operator_->shift()), slow = slowest_of(around.pairs);
+      const double shift = operator_->shift().real();
+      Around around;
+      try {
+        around = look(count, Look::roughly);
+      } catch (const ComputationError&) {
+        set_shift(shift / 30);  // many eigenvalues beside each other, as slow ones are to a large shift
+        continue;
+      }
+      const double slow = slowest_of(around.pairs);
       constexpr double far = 30;
       if (const double zero = fastest_zero(around.pairs); !seen && zero > rounded_pair * shift) {
         seen = true;  // zero to a shift that is much too large, perhaps
         set_shift(100 * zero);
       } else if (slow > 0 && (slow > far * shift || slow < shift / far)) {
         set_shift(0.9 * slow);
+      } else if (slow == 0 && std::isfinite(around.radius)) {
+        count *= 2;
       } else {
-        break;
+        return;
       }
-      around = look(count);
     }
+  }
+
+  Modes slowest() {
+    const bool limited = options_.below.has_value();
+    const double limit = limited ? 2 * std::numbers::pi * *options_.below : INFINITY;
+    Eigen::Index count = 2 * (limited ? 10 : options_.count) + 4;
+    choose_shift(count);
+    Around around = look(count);
     while (true) {
       // Nearest to the shift is not the same as slowest: within this circle none is missing.
       const double known = around.radius - std::abs(operator_->shift());
@@ -374,19 +395,33 @@ double Mode::damping_ratio() const { return s == 0.0 ? 0 : -s.real() / std::abs(
 SingularEquations::SingularEquations(int at)
     : ComputationError("the linearised equations are singular whatever the frequency"), at_(at) {}
 
-double typical_rate(const LinearisedEquations& e) {
+namespace {
+
+/// sqrt(K/M) of dofs, K/C of first-order unknowns, by diagonal entries; zeros left out.
+std::vector<double> diagonal_rates(const LinearisedEquations& e) {
   const VectorX M = e.M.diagonal(), C = e.C.diagonal(), K = e.K.diagonal();
   std::vector<double> rates;
   for (int i = 0; i < e.unknowns(); ++i) {
-    if (i < e.dofs && M[i] > 0) rates.push_back(std::sqrt(std::abs(K[i]) / M[i]));
-    if (i >= e.dofs && C[i] != 0) rates.push_back(std::abs(K[i] / C[i]));
+    double rate = 0;
+    if (i < e.dofs && M[i] > 0) rate = std::sqrt(std::abs(K[i]) / M[i]);
+    if (i >= e.dofs && C[i] != 0) rate = std::abs(K[i] / C[i]);
+    if (rate > 0) rates.push_back(rate);
   }
-  if (rates.empty()) return 1;
-  const double most = *std::max_element(rates.begin(), rates.end());
-  if (!(most > 0)) return 1;
+  return rates;
+}
+
+}  // namespace
+
+double fastest_rate(const LinearisedEquations& equations) {
+  const std::vector<double> rates = diagonal_rates(equations);
+  return rates.empty() ? 1 : *std::max_element(rates.begin(), rates.end());
+}
+
+double slowest_rate(const LinearisedEquations& equations) {
+  const double most = fastest_rate(equations);
   constexpr double rounding = 1e-9;
   double least = most;
-  for (const double rate : rates)
+  for (const double rate : diagonal_rates(equations))
     if (rate > rounding * most) least = std::min(least, rate);
   return least;
 }

@@ -44,8 +44,9 @@ struct Modes {
   int states = 0;
 };
 
-/// A size of rates from diagonal entries alone, of the softest unknown [1/s]: where a search may begin.
-double typical_rate(const LinearisedEquations& equations);
+/// Sizes of rates from diagonal entries alone, of the softest and of the stiffest unknown [1/s].
+double slowest_rate(const LinearisedEquations& equations);
+double fastest_rate(const LinearisedEquations& equations);
 
 /// Nothing determines some unknown: every number is an eigenvalue.
 class SingularEquations : public ComputationError {
