@@ -271,12 +271,9 @@ void add_missed(const LinearOperator<Scalar>& T, Index count, const OperatorEige
     // To see that nothing is missing takes little accuracy.
     constexpr double rough = 1e-3;
     const MatrixOf<Scalar> next = search(T, found.Q, 1, rough, options.restarts, 2 * round + 2, 1);
-    double most = 0;
-    for (Index k = 0; k < next.cols(); ++k) {
-      VectorOf<Scalar> y = T.apply(next.col(k));
-      y -= found.Q * (found.Q.adjoint() * y).eval();
-      most = std::max(most, y.norm() / next.col(k).norm());
-    }
+    MatrixOf<Scalar> answers(T.size, next.cols());
+    for (Index k = 0; k < next.cols(); ++k) answers.col(k) = T.apply(next.col(k));
+    const double most = dense_pairs(MatrixOf<Scalar>(next.adjoint() * answers)).values.cwiseAbs().maxCoeff();
     if (most < least * (1 - 2 * rough)) return;
     // Errors of the found subspace keep others from converging fully; those that do not have another round.
     const double tolerance = std::max(options.tolerance, 1e-10);
