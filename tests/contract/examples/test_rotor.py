@@ -69,6 +69,18 @@ class Rotor(unittest.TestCase):
             self.assertEqual("axes that do not turn" in summary, speed > 0)
             self.assertNotIn("not steady", summary)
 
+    def test_a_study_over_the_speed_is_a_campbell_diagram(self):
+        with tempfile.TemporaryDirectory() as folder:
+            table, target = os.path.join(folder, "speeds.csv"), os.path.join(folder, "speeds.h5")
+            with open(table, "w") as file:
+                file.write("speed\n10\n80\n")
+            subprocess.run([os.path.join(REPOSITORY, "tools", "study"), MODEL, table, "-o", target], check=True, capture_output=True,
+                           env={**os.environ, "BIELLE_BIN": os.environ["BIELLE_PROGRAMS"]}, timeout=100)
+            with h5py.File(target) as file:
+                for k, speed in enumerate(file["/parameters/speed"], start=1):
+                    frequencies = file[f"/runs/{k}/eigen/frequency"][:]
+                    np.testing.assert_allclose(frequencies[2:6], whirl(float(speed))[:4], rtol=3e-3)
+
     def test_the_shapes_are_those_of_whirls(self):
         with tempfile.TemporaryDirectory() as folder:
             target = os.path.join(folder, "run.h5")
