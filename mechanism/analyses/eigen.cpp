@@ -23,7 +23,8 @@ constexpr double balanced = 1e-6;  // of the largest force: equilibria are found
 std::string main_parts(const ModeParts& parts, Eigen::Index mode) {
   std::vector<std::pair<double, std::string>> shares;
   for (Eigen::Index k = 0; k < parts.share.rows(); ++k)
-    if (parts.share(k, mode) >= 0.05) shares.emplace_back(parts.share(k, mode), parts.names[static_cast<std::size_t>(k)]);
+    if (parts.share(k, mode) >= 0.05)
+      shares.emplace_back(parts.share(k, mode), parts.names[static_cast<std::size_t>(k)]);
   std::stable_sort(shares.begin(), shares.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   constexpr std::size_t most = 3;
   std::vector<std::string> words;
@@ -36,8 +37,8 @@ std::string main_parts(const ModeParts& parts, Eigen::Index mode) {
 double without_rounding(double number) { return std::abs(number) < 1e-10 ? 0 : number; }
 
 std::string format_table(const ModesReport& report, const ModeParts& parts) {
-  std::string text = fmt::format("  {:>4}  {:>13}  {:>11}  {:<11}  {}\n", "mode", "frequency", "damping", "kind",
-                                 "energy in");
+  std::string text =
+      fmt::format("  {:>4}  {:>13}  {:>11}  {:<11}  {}\n", "mode", "frequency", "damping", "kind", "energy in");
   const std::vector<Mode>& modes = report.found.modes;
   for (std::size_t k = 0; k < std::min(most_listed, modes.size()); ++k)
     text += fmt::format("  {:>4}  {:>10.6g} Hz  {:>11.4g}  {:<11}  {}\n", k + 1, modes[k].frequency(),
@@ -76,7 +77,8 @@ std::string format_remarks(const ModesReport& report) {
                         report.axes == ModeAxes::turning ? "turn with each node" : "do not turn");
     if (!steadiness.steady())
       text +=
-          "  the motion is not steady, or not in axes of these kinds: the equations change while it goes on, and modes are "
+          "  the motion is not steady, or not in axes of these kinds: the equations change while it goes on, and modes "
+          "are "
           "those of the equations as they are at this moment\n";
   }
   return text;
@@ -105,7 +107,8 @@ std::unique_ptr<Analysis> read_eigen(const YamlValue& entry, const Model& /*mode
   }
   if (const auto near = entry.find("near")) options.near = near->positive_number();
   if (const auto below = entry.find("below")) {
-    if (options.near) below->fail("give either `near`, a frequency around which modes are sought, or `below`, their limit");
+    if (options.near)
+      below->fail("give either `near`, a frequency around which modes are sought, or `below`, their limit");
     if (entry.has("count")) below->fail("all modes below a frequency are found, however many: leave `count` out");
     options.below = below->positive_number();
   }
@@ -126,9 +129,9 @@ void EigenAnalysis::solve(Session& session, AnalysisSummary& summary) const {
     summary.numbers["imaginary"].push_back(mode.s.imag());
   }
   const Environment& environment = report.about.environment;
-  summary.text = fmt::format("eigen, {} about the state at t = {:.6g} s{}\n", counted(modes.size(), "mode"),
-                             report.about.state.time,
-                             environment.load_factor == 1 ? "" : fmt::format(", load factor {:.6g}", environment.load_factor));
+  summary.text = fmt::format(
+      "eigen, {} about the state at t = {:.6g} s{}\n", counted(modes.size(), "mode"), report.about.state.time,
+      environment.load_factor == 1 ? "" : fmt::format(", load factor {:.6g}", environment.load_factor));
   summary.text += format_start(report.about.start);
   if (!modes.empty()) summary.text += format_table(report, parts);
   if (report.found.all)

@@ -5,7 +5,8 @@
 
 namespace bielle::mechanism {
 
-/// Its summary has the numbers "frequency" [Hz], "damping_ratio", "real" and "imaginary" parts of the eigenvalues [1/s].
+/// Its summary has the numbers "frequency" [Hz], "damping_ratio", "real" and "imaginary" parts of the eigenvalues
+/// [1/s].
 class EigenAnalysis : public Analysis {
  public:
   EigenAnalysis(ModesOptions options, bool shapes) : Analysis("eigen"), options_(std::move(options)), shapes_(shapes) {}

@@ -48,7 +48,8 @@ class ModeWriter {
   void write_numbers() {
     write_each("frequency", "Hz", "|s| / 2 pi", [](const Mode& mode) { return mode.frequency(); });
     write_each("damped_frequency", "Hz", "|Im s| / 2 pi", [](const Mode& mode) { return mode.damped_frequency(); });
-    write_each("damping_ratio", "-", "-Re s / |s|; 0 of rigid modes", [](const Mode& mode) { return mode.damping_ratio(); });
+    write_each("damping_ratio", "-", "-Re s / |s|; 0 of rigid modes",
+               [](const Mode& mode) { return mode.damping_ratio(); });
     write_each("residual", "-", "error of the eigenpair as a state of the inverted operator, relative",
                [](const Mode& mode) { return mode.residual; });
     std::vector<double> eigenvalues;
@@ -70,7 +71,8 @@ class ModeWriter {
                       units,
                       what});
     };
-    write_matrix("kinetic_energy", parts.kinetic, "J", "of each part, mean over a period at the amplitude of the shape");
+    write_matrix("kinetic_energy", parts.kinetic, "J",
+                 "of each part, mean over a period at the amplitude of the shape");
     write_matrix("potential_energy", parts.potential, "J",
                  "of each part, likewise; with what its forces and reactions do as they turn: may be negative");
     write_matrix("energy_share", parts.share, "-", "of each part in the sum of kinetic and |potential| energies");
@@ -79,7 +81,8 @@ class ModeWriter {
   void write_shapes() {
     const System& system = session_.system();
     const State& state = report_.about.state;
-    const std::size_t nodes = state.nodes.size(), unknowns = static_cast<std::size_t>(system.size() - system.multipliers());
+    const std::size_t nodes = state.nodes.size(),
+                      unknowns = static_cast<std::size_t>(system.size() - system.multipliers());
     std::vector<std::string> names;
     for (std::size_t i = 0; i < unknowns; ++i) names.push_back(system.unknown_name(static_cast<int>(i)));
     session_.write(ResultNames{"eigen/unknowns", names});
@@ -101,12 +104,20 @@ class ModeWriter {
       append(displacements, of_nodes.displacement);
       append(rotations, of_nodes.rotation);
     }
-    session_.write({"eigen/position", {nodes, 3}, positions, "m", "of the nodes in the state that the modes are about"});
+    session_.write(
+        {"eigen/position", {nodes, 3}, positions, "m", "of the nodes in the state that the modes are about"});
     session_.write({"eigen/orientation", {nodes, 4}, orientations, "-", "of the nodes there: unit quaternion w x y z"});
-    session_.write({"eigen/shapes", {count_, unknowns, 2}, shapes, "-",
+    session_.write({"eigen/shapes",
+                    {count_, unknowns, 2},
+                    shapes,
+                    "-",
                     "increments of the unknowns, each in its units: real and imaginary part"});
-    session_.write({"eigen/displacement", {count_, nodes, 3, 2}, displacements, "m", "of the nodes, inertial components"});
-    session_.write({"eigen/rotation", {count_, nodes, 3, 2}, rotations, "rad",
+    session_.write(
+        {"eigen/displacement", {count_, nodes, 3, 2}, displacements, "m", "of the nodes, inertial components"});
+    session_.write({"eigen/rotation",
+                    {count_, nodes, 3, 2},
+                    rotations,
+                    "rad",
                     "rotation vectors of the nodes, inertial components"});
   }
 

@@ -10,7 +10,7 @@ namespace bielle::mechanism {
 
 /// Energies of modes by the entries of the model file.
 struct ModeParts {
-  std::vector<std::string> names;    ///< "element 'rod'"
+  std::vector<std::string> names;     ///< "element 'rod'"
   MatrixX kinetic, potential, share;  ///< (parts, modes); share: of the sum of T + |V|
 };
 ModeParts mode_parts(const Model& model, const ModesReport& report);

@@ -26,7 +26,7 @@ struct ModesOptions {
 
 struct ModesReport {
   StandingState about;
-  Modes found;             ///< shapes of unit size (unit_factor)
+  Modes found;  ///< shapes of unit size (unit_factor)
   ModeAxes axes = ModeAxes::inertial;
   std::optional<Steadiness> steadiness;  ///< nothing at rest
   double unbalance = 0;                  ///< at rest: the largest missing force relative to the largest that acts

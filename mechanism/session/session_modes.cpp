@@ -40,14 +40,14 @@ namespace {
 
 [[noreturn]] void throw_undetermined(const System& system, const LinearisedEquations& equations, int at) {
   const int n = equations.unknowns();
-  const std::string what =
-      at < 0   ? "some unknown"
-      : at < n ? system.unknown_name(at)
-               : system.unknown_name(n + equations.multiplier[static_cast<std::size_t>(at - n)]);
-  throw ComputationError(fmt::format(
-      "there are no modes: nothing determines {} whatever the frequency: it has neither mass nor stiffness, and nothing "
-      "holds it, or constraints next to it are redundant",
-      what));
+  const std::string what = at < 0   ? "some unknown"
+                           : at < n ? system.unknown_name(at)
+                                    : system.unknown_name(n + equations.multiplier[static_cast<std::size_t>(at - n)]);
+  throw ComputationError(
+      fmt::format("there are no modes: nothing determines {} whatever the frequency: it has neither mass nor "
+                  "stiffness, and nothing "
+                  "holds it, or constraints next to it are redundant",
+                  what));
 }
 
 }  // namespace

@@ -45,7 +45,8 @@ struct ComplexPairs {
 };
 
 void check_lapack(int info) {
-  if (info != 0) throw ComputationError(fmt::format("the eigenvalues did not converge (LAPACK's geev returned {})", info));
+  if (info != 0)
+    throw ComputationError(fmt::format("the eigenvalues did not converge (LAPACK's geev returned {})", info));
 }
 
 /// Column k and k + 1 of `pairs` are real and imaginary part where the eigenvalue is complex.
@@ -70,7 +71,8 @@ ComplexPairs dense_pairs(MatrixXd A) {
   MatrixXd vectors(n, n);
   int room = -1, info = 0;
   double wanted = 0;
-  dgeev_("N", "V", &n, A.data(), &n, real.data(), imag.data(), nullptr, &one, vectors.data(), &n, &wanted, &room, &info);
+  dgeev_("N", "V", &n, A.data(), &n, real.data(), imag.data(), nullptr, &one, vectors.data(), &n, &wanted, &room,
+         &info);
   room = static_cast<int>(wanted);
   VectorXd work(room);
   dgeev_("N", "V", &n, A.data(), &n, real.data(), imag.data(), nullptr, &one, vectors.data(), &n, work.data(), &room,
@@ -156,7 +158,8 @@ class ArnoldiIteration {
       throw ComputationError(fmt::format("the eigenvalue iteration stopped after {}, with {} of {} converged",
                                          counted(static_cast<int>(parameters_[2]), "restart"), converged,
                                          counted(static_cast<int>(wanted_), "eigenvalue")));
-    if (info_ < 0) throw ComputationError(fmt::format("the eigenvalue iteration failed (ARPACK's naupd returned {})", info_));
+    if (info_ < 0)
+      throw ComputationError(fmt::format("the eigenvalue iteration failed (ARPACK's naupd returned {})", info_));
   }
 
   /// An orthonormal basis of the invariant subspace that was found: of Schur vectors, which unlike eigenvectors are
@@ -167,15 +170,15 @@ class ArnoldiIteration {
     std::vector<Scalar> values(static_cast<std::size_t>(basis_) + 1), more(static_cast<std::size_t>(3 * basis_));
     std::vector<double> imag(static_cast<std::size_t>(basis_) + 1);
     if constexpr (real)
-      arpack::neupd(1, arpack::howmny::ritz_vectors, select.data(), values.data(), imag.data(), vectors.data(), size_, 0,
-                    0, more.data(), arpack::bmat::identity, size_, arpack::which::largest_magnitude, wanted_, tolerance_,
-                    residual_.data(), basis_, arnoldi_.data(), size_, parameters_.data(), pointers_.data(), work_.data(),
-                    small_work_.data(), small_size(), info_);
+      arpack::neupd(1, arpack::howmny::ritz_vectors, select.data(), values.data(), imag.data(), vectors.data(), size_,
+                    0, 0, more.data(), arpack::bmat::identity, size_, arpack::which::largest_magnitude, wanted_,
+                    tolerance_, residual_.data(), basis_, arnoldi_.data(), size_, parameters_.data(), pointers_.data(),
+                    work_.data(), small_work_.data(), small_size(), info_);
     else
-      arpack::neupd(1, arpack::howmny::ritz_vectors, select.data(), values.data(), vectors.data(), size_, 0, more.data(),
-                    arpack::bmat::identity, size_, arpack::which::largest_magnitude, wanted_, tolerance_,
-                    residual_.data(), basis_, arnoldi_.data(), size_, parameters_.data(), pointers_.data(), work_.data(),
-                    small_work_.data(), small_size(), real_work_.data(), info_);
+      arpack::neupd(1, arpack::howmny::ritz_vectors, select.data(), values.data(), vectors.data(), size_, 0,
+                    more.data(), arpack::bmat::identity, size_, arpack::which::largest_magnitude, wanted_, tolerance_,
+                    residual_.data(), basis_, arnoldi_.data(), size_, parameters_.data(), pointers_.data(),
+                    work_.data(), small_work_.data(), small_size(), real_work_.data(), info_);
     if (info_ != 0)
       throw ComputationError(fmt::format("the eigenvectors could not be formed (ARPACK's neupd returned {})", info_));
     // A conjugate pair is not divided.
@@ -186,12 +189,12 @@ class ArnoldiIteration {
   void iterate(a_int& request) {
     if constexpr (real)
       arpack::naupd(request, arpack::bmat::identity, size_, arpack::which::largest_magnitude, wanted_, tolerance_,
-                    residual_.data(), basis_, arnoldi_.data(), size_, parameters_.data(), pointers_.data(), work_.data(),
-                    small_work_.data(), small_size(), info_);
+                    residual_.data(), basis_, arnoldi_.data(), size_, parameters_.data(), pointers_.data(),
+                    work_.data(), small_work_.data(), small_size(), info_);
     else
       arpack::naupd(request, arpack::bmat::identity, size_, arpack::which::largest_magnitude, wanted_, tolerance_,
-                    residual_.data(), basis_, arnoldi_.data(), size_, parameters_.data(), pointers_.data(), work_.data(),
-                    small_work_.data(), small_size(), real_work_.data(), info_);
+                    residual_.data(), basis_, arnoldi_.data(), size_, parameters_.data(), pointers_.data(),
+                    work_.data(), small_work_.data(), small_size(), real_work_.data(), info_);
   }
   Eigen::Map<VectorOf<Scalar>> column(int pointer) {
     return Eigen::Map<VectorOf<Scalar>>(work_.data() + pointers_[static_cast<std::size_t>(pointer)] - 1, size_);
@@ -237,7 +240,8 @@ std::vector<Index> by_magnitude(const VectorXcd& values) {
   std::vector<Index> order(static_cast<std::size_t>(values.size()));
   std::iota(order.begin(), order.end(), Index{0});
   // Both of a conjugate pair are of exactly the same size.
-  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return std::abs(values[a]) > std::abs(values[b]); });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Index a, Index b) { return std::abs(values[a]) > std::abs(values[b]); });
   return order;
 }
 
@@ -329,7 +333,8 @@ OperatorEigenpairs largest(const LinearOperator<Scalar>& T, Index count, const O
 
 }  // namespace
 
-OperatorEigenpairs largest_eigenpairs(const LinearOperator<double>& T, Index count, const OperatorEigenOptions& options) {
+OperatorEigenpairs largest_eigenpairs(const LinearOperator<double>& T, Index count,
+                                      const OperatorEigenOptions& options) {
   return largest(T, count, options);
 }
 

@@ -1,5 +1,5 @@
-// Eigenpairs of largest magnitude of an unsymmetric linear operator: by ARPACK's implicitly restarted Arnoldi method, or
-// of a small one by dense algebra (LAPACK's geev).
+// Eigenpairs of largest magnitude of an unsymmetric linear operator: by ARPACK's implicitly restarted Arnoldi method,
+// or of a small one by dense algebra (LAPACK's geev).
 //
 // The operator is given by what it makes of a vector: a shift-inverted pencil, say. Of multiple eigenvalues all copies
 // are found as far as they have eigenvectors of their own. Reference: R. B. Lehoucq, D. C. Sorensen, C. Yang, ARPACK

@@ -51,7 +51,8 @@ Sparse chosen_rows(const Sparse& A, const std::vector<int>& number) {
   Entries entries;
   for (int j = 0; j < A.outerSize(); ++j)
     for (Sparse::InnerIterator it(A, j); it; ++it)
-      if (const int row = number[static_cast<std::size_t>(it.row())]; row >= 0) entries.emplace_back(row, j, it.value());
+      if (const int row = number[static_cast<std::size_t>(it.row())]; row >= 0)
+        entries.emplace_back(row, j, it.value());
   int rows = 0;
   for (const int each : number) rows += each >= 0 ? 1 : 0;
   Sparse chosen(rows, A.cols());

@@ -25,10 +25,10 @@ enum class ModeAxes { inertial, turning };
 
 struct LinearisedEquations {
   using Sparse = SystemMatrices::Sparse;
-  int dofs = 0;         ///< the first of the n unknowns
-  Sparse M, C, K;       ///< (n, n); C with M Z
-  Sparse W;             ///< (n, n)
-  Sparse B, S, F;       ///< (constraints, n), (constraints, n), (n, constraints): of those in the equations alone
+  int dofs = 0;    ///< the first of the n unknowns
+  Sparse M, C, K;  ///< (n, n); C with M Z
+  Sparse W;        ///< (n, n)
+  Sparse B, S, F;  ///< (constraints, n), (constraints, n), (n, constraints): of those in the equations alone
   std::vector<char> nonholonomic;  ///< of each constraint
   std::vector<int> multiplier;     ///< its number in the system
 

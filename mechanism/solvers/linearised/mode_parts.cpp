@@ -23,14 +23,14 @@ NodeVariation variation(const System& system, const State& state, const Mode& mo
   NodeVariation result;
   if (freedom.count == 0) return result;
   const NodeRelation relation = relate(kinematics, node, state, nullptr);
-  const Eigen::VectorXcd u = mode.u.segment(freedom.begin, freedom.count), w = mode.w.segment(freedom.begin, freedom.count);
+  const Eigen::VectorXcd u = mode.u.segment(freedom.begin, freedom.count),
+                         w = mode.w.segment(freedom.begin, freedom.count);
   const Eigen::MatrixXcd A = MatrixX(relation.displacement).cast<Complex>();
   result.position = A * u;
   result.rate = A * w;
   if (relation.carried) result.rate += MatrixX(relation.rate_of_displacement).cast<Complex>() * u;
   return result;
 }
-
 
 }  // namespace
 
@@ -107,8 +107,7 @@ MemberEnergies member_energies(const System& system, const Environment& environm
   std::vector<std::vector<NodeVariation>> nodes;
   for (const Mode& mode : modes) {
     std::vector<NodeVariation>& of_mode = nodes.emplace_back();
-    for (int k = 0; k < static_cast<int>(state.nodes.size()); ++k)
-      of_mode.push_back(variation(system, state, mode, k));
+    for (int k = 0; k < static_cast<int>(state.nodes.size()); ++k) of_mode.push_back(variation(system, state, mode, k));
   }
   for (Eigen::Index m = 0; m < rows; ++m) {
     const Component& component = *members[static_cast<std::size_t>(m)].component;
@@ -120,7 +119,7 @@ MemberEnergies member_energies(const System& system, const Environment& environm
     const bool constrains = slots.multipliers > 0;
     if (!declaration.stiffness && !declaration.mass && !constrains) continue;
     MatrixX K = MatrixX::Zero(size, size), C = MatrixX::Zero(size, size), M = MatrixX::Zero(size, size);
-    LocalTangent tangent{LocalMatrix(K), LocalMatrix(C), LocalMatrix(M), declaration.stiffness || constrains,
+    LocalTangent tangent{LocalMatrix(K),      LocalMatrix(C),  LocalMatrix(M), declaration.stiffness || constrains,
                          declaration.damping, declaration.mass};
     component.add_tangent(LocalState(state, slots, environment), tangent);
     K = K.topLeftCorner(positions, positions).eval();

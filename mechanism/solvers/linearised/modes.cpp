@@ -111,18 +111,18 @@ class Search {
       OperatorEigenOptions all;
       all.dense = basis.cols();
       if (T.is_real())
-        found = largest_eigenpairs(
-            LinearOperator<double>{basis.cols(),
-                                   [&](const VectorX& z) -> VectorX { return basis.transpose() * T.apply(VectorX(basis * z)); }},
-            count, all);
+        found = largest_eigenpairs(LinearOperator<double>{basis.cols(),
+                                                          [&](const VectorX& z) -> VectorX {
+                                                            return basis.transpose() * T.apply(VectorX(basis * z));
+                                                          }},
+                                   count, all);
       else
-        found = largest_eigenpairs(
-            LinearOperator<Complex>{
-                basis.cols(),
-                [&](const VectorXc& z) -> VectorXc {
-                  return basis.transpose().cast<Complex>() * T.apply(VectorXc(basis.cast<Complex>() * z));
-                }},
-            count, all);
+        found = largest_eigenpairs(LinearOperator<Complex>{basis.cols(),
+                                                           [&](const VectorXc& z) -> VectorXc {
+                                                             return basis.transpose().cast<Complex>() *
+                                                                    T.apply(VectorXc(basis.cast<Complex>() * z));
+                                                           }},
+                                   count, all);
     } else {
       OperatorEigenOptions sparse;
       sparse.dense = 0;
@@ -132,9 +132,11 @@ class Search {
       }
       const Eigen::Index size = e_.states();
       if (T.is_real())
-        found = largest_eigenpairs(LinearOperator<double>{size, [&](const VectorX& x) { return T.apply(x); }}, count, sparse);
+        found = largest_eigenpairs(LinearOperator<double>{size, [&](const VectorX& x) { return T.apply(x); }}, count,
+                                   sparse);
       else
-        found = largest_eigenpairs(LinearOperator<Complex>{size, [&](const VectorXc& x) { return T.apply(x); }}, count, sparse);
+        found = largest_eigenpairs(LinearOperator<Complex>{size, [&](const VectorXc& x) { return T.apply(x); }}, count,
+                                   sparse);
     }
     Around around;
     around.radius = found.all ? INFINITY : 1 / std::abs(found.values[found.values.size() - 1]);
@@ -170,7 +172,8 @@ class Search {
       for (int i = 0; i < n; ++i) sum += std::norm(Complex(forces[i]) * weight(i));
       return std::sqrt(sum);
     };
-    const VectorXc added = pair.s * (e_.C.cast<Complex>() * u + e_.M.cast<Complex>() * (pair.s * u + e_.W.cast<Complex>() * u));
+    const VectorXc added =
+        pair.s * (e_.C.cast<Complex>() * u + e_.M.cast<Complex>() * (pair.s * u + e_.W.cast<Complex>() * u));
     const VectorX stiff = absolute_K() * u.cwiseAbs();
     return size_of(added) <= of_stiffness * size_of(stiff);
   }

@@ -23,19 +23,19 @@ const char* mode_kind_name(ModeKind kind);  ///< "oscillating"
 struct Mode {
   std::complex<double> s;  ///< [1/s]; 0 of rigid modes
   ModeKind kind = ModeKind::oscillating;
-  Eigen::VectorXcd u;   ///< increments of dofs and first-order unknowns (n), of any size
-  Eigen::VectorXcd w;   ///< variations of the dofs' rates that go with them
-  double residual = 0;  ///< |T x - x / (s - sigma)| |s - sigma| / |x|, x the scaled state
-  double frequency() const;  ///< |s| / 2 pi [Hz]
+  Eigen::VectorXcd u;               ///< increments of dofs and first-order unknowns (n), of any size
+  Eigen::VectorXcd w;               ///< variations of the dofs' rates that go with them
+  double residual = 0;              ///< |T x - x / (s - sigma)| |s - sigma| / |x|, x the scaled state
+  double frequency() const;         ///< |s| / 2 pi [Hz]
   double damped_frequency() const;  ///< |Im s| / 2 pi [Hz]
   double damping_ratio() const;     ///< -Re s / |s|; 0 of rigid modes
 };
 
 struct ModeOptions {
-  int count = 20;               ///< of modes; where `below` is given, it does not count
+  int count = 20;                    ///< of modes; where `below` is given, it does not count
   std::optional<double> near = {};   ///< those nearest to this frequency [Hz] > 0; no rigid ones
   std::optional<double> below = {};  ///< all with |s| / 2 pi up to this frequency [Hz] > 0
-  int dense = 300;              ///< systems of up to so many independent states are solved densely; 0: none
+  int dense = 300;                   ///< systems of up to so many independent states are solved densely; 0: none
 };
 
 struct Modes {

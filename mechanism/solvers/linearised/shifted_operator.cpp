@@ -56,7 +56,8 @@ void ShiftedOperator::build() {
       if (e.nonholonomic[static_cast<std::size_t>(it.row())]) add(n + static_cast<int>(it.row()), j, it.value());
   }
   for (int j = 0; j < m; ++j)
-    for (LinearisedEquations::Sparse::InnerIterator it(e.F, j); it; ++it) add(static_cast<int>(it.row()), n + j, it.value());
+    for (LinearisedEquations::Sparse::InnerIterator it(e.F, j); it; ++it)
+      add(static_cast<int>(it.row()), n + j, it.value());
   Eigen::SparseMatrix<double> whole(parts * size, parts * size);
   whole.setFromTriplets(entries.begin(), entries.end());
   whole.makeCompressed();

@@ -50,13 +50,14 @@ class ShiftedOperator {
   void build();
   void set_scale(const SparseC& D);
   template <class Vector, class Matrix, class Solve>
-  Vector apply_with(const Vector& x, const Matrix& rates, typename Vector::Scalar shift, const Solve& solution_of) const;
+  Vector apply_with(const Vector& x, const Matrix& rates, typename Vector::Scalar shift,
+                    const Solve& solution_of) const;
 
   const LinearisedEquations& equations_;
   Complex shift_;
   bool regular_ = false;
   VectorX scale_;
-  SparseC rates_;                          ///< sigma M + C
+  SparseC rates_;                           ///< sigma M + C
   Eigen::SparseMatrix<double> real_rates_;  ///< the same of a real shift
   bool any_nonholonomic_ = false;
   int singular_ = -1;

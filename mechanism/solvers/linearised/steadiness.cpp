@@ -109,8 +109,7 @@ std::optional<Steadiness> find_steadiness(const System& system, const Environmen
   Steadiness steadiness;
   const Rates rates = rates_of(state);
   constexpr double negligible = 1e-7;  // its square is that of rounding
-  if (rates.velocity <=
-      negligible * slowest_rate(linearised_equations(system, environment, state, ModeAxes::inertial)))
+  if (rates.velocity <= negligible * slowest_rate(linearised_equations(system, environment, state, ModeAxes::inertial)))
     return std::nullopt;
   steadiness.rate = std::max(rates.velocity, rates.acceleration);
   constexpr double part = 1e-5;  // of the time for a radian: half of the digits

@@ -69,7 +69,8 @@ bool settle_at(const System& system, const Environment& environment, const Stead
 }
 
 /// What keeps the mechanism from turning as a whole.
-void check_turns(const System& system, const Environment& environment, const SteadyRotation& rotation, const State& state) {
+void check_turns(const System& system, const Environment& environment, const SteadyRotation& rotation,
+                 const State& state) {
   const double rate = rotation.omega.norm(), length = model_length(state);
   VectorX velocity(system.multipliers()), unused(system.multipliers());
   system.constraint_rates(state, environment, velocity, unused);
@@ -96,7 +97,8 @@ void check_turns(const System& system, const Environment& environment, const Ste
 
 }  // namespace
 
-void settle_in_rotation(const System& system, const Environment& environment, const SteadyRotation& rotation, State& state) {
+void settle_in_rotation(const System& system, const Environment& environment, const SteadyRotation& rotation,
+                        State& state) {
   const State begin = state;
   for (int steps = 1; steps <= 16; steps *= 4) {
     state = begin;
@@ -114,7 +116,8 @@ void settle_in_rotation(const System& system, const Environment& environment, co
     check_turns(system, environment, rotation, state);
     return;
   }
-  throw ComputationError(fmt::format("no equilibrium in steady rotation at {:.6g} rad/s was found", rotation.omega.norm()));
+  throw ComputationError(
+      fmt::format("no equilibrium in steady rotation at {:.6g} rad/s was found", rotation.omega.norm()));
 }
 
 }  // namespace bielle::mechanism

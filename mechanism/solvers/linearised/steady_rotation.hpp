@@ -14,7 +14,9 @@ struct SteadyRotation {
 };
 
 /// Moves a state there, with its rates, accelerations and multipliers; at first as a whole, then in steps of the speed.
-/// @throws ComputationError  where no equilibrium is found; where joints, drives or supports do not let everything turn so
-void settle_in_rotation(const System& system, const Environment& environment, const SteadyRotation& rotation, State& state);
+/// @throws ComputationError  where no equilibrium is found; where joints, drives or supports do not let everything turn
+/// so
+void settle_in_rotation(const System& system, const Environment& environment, const SteadyRotation& rotation,
+                        State& state);
 
 }  // namespace bielle::mechanism

@@ -1,10 +1,10 @@
 // Modes of actuators and superelements, and what the analysis records of modes.
 #include "mechanism/analyses/analysis_table.hpp"
 #include "mechanism/session/memory_sink.hpp"
+#include "reduce/common/symmetric_eigenpairs.hpp"
 #include "tests/benchmarks/linearised/modes_of.hpp"
 #include "tests/support/beam_superelement.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "reduce/common/symmetric_eigenpairs.hpp"
 
 using namespace bielle::mechanism;
 using namespace bielle::test;
@@ -15,7 +15,8 @@ TEST_CASE("the oil in a cylinder is a spring of B (A1^2/V1 + A2^2/V2)", "[linear
   const ModesReport report = ModesOf(
       "nodes: {mass: {position: [0, 0, 1], fixed: [x, y, rx, ry, rz]}}\n"
       "elements:\n  load: {type: point_mass, node: mass, mass: 500}\n"
-      "  jack: {type: hydraulic_actuator, nodes: [ground, mass], ambient_pressure: 0, bulk_modulus: 1.4e9, piston_areas: [2e-3, 1.2e-3], "
+      "  jack: {type: hydraulic_actuator, nodes: [ground, mass], ambient_pressure: 0, bulk_modulus: 1.4e9, "
+      "piston_areas: [2e-3, 1.2e-3], "
       "dead_volumes: [1e-3, 0.2e-3], stroke: [1, 1.5], pressures: [6e6, 10e6]}\n")();
   std::vector<double> oscillating;
   for (const Mode& mode : report.found.modes)
@@ -41,7 +42,8 @@ TEST_CASE("the analysis records frequencies, shapes and shares of energy", "[lin
   ModesOf model(
       "gravity: [0, 0, -9.81]\n"
       "nodes: {a: {position: [0, 0, 0], fixed: true}, b: {position: [1, 0, 0]}}\n"
-      "elements: {b: {type: beam, nodes: [a, b], elements: 4, section: {circle: 0.01, young: 2e11, poisson: 0.3, density: 7800}}, "
+      "elements: {b: {type: beam, nodes: [a, b], elements: 4, section: {circle: 0.01, young: 2e11, poisson: 0.3, "
+      "density: 7800}}, "
       "tip: {type: point_mass, node: b, mass: 3}}\n"
       "analysis: [{type: static}, {type: eigen, count: 3}, {type: eigen, count: 2, shapes: false}]\n");
   MemorySink sink(model.file.model);
@@ -62,7 +64,8 @@ TEST_CASE("the analysis records frequencies, shapes and shares of energy", "[lin
   REQUIRE(share.size() == 3 * 2);
   for (std::size_t k = 0; k < 3; ++k) CHECK(share[2 * k] + share[2 * k + 1] == Approx(1).epsilon(1e-12));
   // Kinetic and potential energy are the same over a period.
-  const std::vector<double> kinetic = sink.read(1, "eigen/kinetic_energy"), potential = sink.read(1, "eigen/potential_energy");
+  const std::vector<double> kinetic = sink.read(1, "eigen/kinetic_energy"),
+                            potential = sink.read(1, "eigen/potential_energy");
   for (std::size_t k = 0; k < 3; ++k)
     CHECK(kinetic[2 * k] + kinetic[2 * k + 1] == Approx(potential[2 * k] + potential[2 * k + 1]).epsilon(1e-6));
   const std::size_t nodes = model.file.model.nodes().size();

@@ -10,7 +10,8 @@ namespace {
 std::string plane_beam(const std::string& a, const std::string& b, const std::string& loads, int elements = 24) {
   return fmt::format(
       "nodes: {{a: {{position: [0, 0, 0], {}}}, b: {{position: [1, 0, 0], {}}}}}\n"
-      "elements:\n  b: {{type: beam, nodes: [a, b], elements: {}, orientation: [0, 1, 0], section: {{EA: 1e7, GAy: 1e8, GAz: 1e8, GJ: "
+      "elements:\n  b: {{type: beam, nodes: [a, b], elements: {}, orientation: [0, 1, 0], section: {{EA: 1e7, GAy: "
+      "1e8, GAz: 1e8, GJ: "
       "1e4, EIy: 1e4, EIz: 1, mass_per_length: 1, Jx: 1e-7, Jy: 1e-8, Jz: 1e-8}}}}\n{}",
       a, b, elements, loads);
 }
@@ -72,14 +73,16 @@ TEST_CASE("a free beam has three rigid modes in its plane and the textbook's fre
   CHECK(count_rigid(report) == 5 - 2);
   std::vector<double> found = rates_of(report);
   found.resize(3);
-  check_rates(found, {std::pow(4.730040744862704, 2), std::pow(7.853204624095838, 2), std::pow(10.995607838001671, 2)}, 1e-5);
+  check_rates(found, {std::pow(4.730040744862704, 2), std::pow(7.853204624095838, 2), std::pow(10.995607838001671, 2)},
+              1e-5);
 }
 
 TEST_CASE("large models go by ARPACK to the same modes, multiple ones included", "[linearised]") {
   // A free beam of equal stiffness in both planes: every bending mode twice, six rigid ones.
   const ModesOf beam(
       "nodes: {a: {position: [0, 0, 0]}, b: {position: [0.6, 0.8, 0]}}\n"
-      "elements: {b: {type: beam, nodes: [a, b], elements: 12, section: {circle: 0.01, young: 2e11, poisson: 0.3, density: 7800}, "
+      "elements: {b: {type: beam, nodes: [a, b], elements: 12, section: {circle: 0.01, young: 2e11, poisson: 0.3, "
+      "density: 7800}, "
       "damping: 1e-5}}\n");
   const ModesReport dense = beam({.count = 20}), sparse = beam({.count = 20, .dense = 0});
   CHECK(count_rigid(dense) == 6);
@@ -97,9 +100,12 @@ TEST_CASE("a chain of elastic links with hinges has the same modes densely and b
   for (int k = 0; k < links; ++k) {
     nodes += fmt::format("  a{0}: {{position: [0, 0, {1}]}}\n  b{0}: {{position: [0, 0, {2}]}}\n", k, -k, -k - 1);
     elements += fmt::format(
-        "  l{0}: {{type: beam, nodes: [a{0}, b{0}], elements: 2, section: {{circle: 0.02, young: 7e10, poisson: 0.3, density: 2700}}}}\n", k);
-    joints += fmt::format("  h{0}: {{type: hinge, nodes: [{1}, a{0}], position: [0, 0, {2}], axis: {3}}}\n", k,
-                          k == 0 ? std::string("ground") : fmt::format("b{}", k - 1), -k, k % 2 ? "[1, 0, 0]" : "[0, 1, 0]");
+        "  l{0}: {{type: beam, nodes: [a{0}, b{0}], elements: 2, section: {{circle: 0.02, young: 7e10, poisson: 0.3, "
+        "density: 2700}}}}\n",
+        k);
+    joints +=
+        fmt::format("  h{0}: {{type: hinge, nodes: [{1}, a{0}], position: [0, 0, {2}], axis: {3}}}\n", k,
+                    k == 0 ? std::string("ground") : fmt::format("b{}", k - 1), -k, k % 2 ? "[1, 0, 0]" : "[0, 1, 0]");
   }
   const ModesOf chain(nodes + elements + joints, true);
   const ModesReport dense = chain({.count = 15, .dense = 2000}), sparse = chain({.count = 15, .dense = 0});

@@ -22,7 +22,8 @@ std::string rotor(double speed, double kx, double ky, const std::string& more = 
 }  // namespace
 
 TEST_CASE("a spinning disc tilts forwards and backwards with different frequencies", "[linearised]") {
-  // G. Genta, Dynamics of Rotating Systems (2005), ch. 4: Jt w^2 -+ Jp Om w - k = 0. Supports need not be alike: inertial axes.
+  // G. Genta, Dynamics of Rotating Systems (2005), ch. 4: Jt w^2 -+ Jp Om w - k = 0. Supports need not be alike:
+  // inertial axes.
   for (const double speed : {0.0, 30.0, 100.0, 1000.0}) {
     const ModesReport report = ModesOf(rotor(speed, 2e5, 1e5))();
     CAPTURE(speed);
@@ -30,8 +31,8 @@ TEST_CASE("a spinning disc tilts forwards and backwards with different frequenci
     if (speed > 0) CHECK(report.steadiness->steady());
     CHECK(count_rigid(report) == 1);
     const double gyro = Jp * speed, root = std::sqrt(gyro * gyro + 4 * k_tilt * Jt);
-    std::vector<double> exact = {(root - gyro) / (2 * Jt), (root + gyro) / (2 * Jt), std::sqrt(2e5 / mass), std::sqrt(1e5 / mass),
-                                 std::sqrt(3e5 / mass)};
+    std::vector<double> exact = {(root - gyro) / (2 * Jt), (root + gyro) / (2 * Jt), std::sqrt(2e5 / mass),
+                                 std::sqrt(1e5 / mass), std::sqrt(3e5 / mass)};
     std::sort(exact.begin(), exact.end());
     check_rates(rates_of(report), exact, 1e-9);
     for (const Mode& mode : report.found.modes) CHECK(std::abs(mode.damping_ratio()) < 1e-9);
@@ -39,7 +40,8 @@ TEST_CASE("a spinning disc tilts forwards and backwards with different frequenci
 }
 
 TEST_CASE("a small motion along a mode of a damped rotor goes as exp(s t)", "[linearised]") {
-  // Time integration of the nonlinear model, from a state along the mode: constraints, gyroscopic terms and damping at once.
+  // Time integration of the nonlinear model, from a state along the mode: constraints, gyroscopic terms and damping at
+  // once.
   const std::string text = rotor(60, 2e5, 1e5, ", damping: [200, 100, 100, 0.5, 1, 1]");
   ModesOf model(text);
   const ModesReport report = model();
@@ -66,7 +68,8 @@ TEST_CASE("a small motion along a mode of a damped rotor goes as exp(s t)", "[li
     const int hub = *model.file.model.find_node("hub");
     const NodeShapes shapes = node_shapes(system, report.about.state, mode);
     const NodeState& node = session.state().nodes[static_cast<std::size_t>(hub)];
-    const Vector3 moved = (shapes.displacement.col(hub) * at(end)).real(), turned = (shapes.rotation.col(hub) * at(end)).real();
+    const Vector3 moved = (shapes.displacement.col(hub) * at(end)).real(),
+                  turned = (shapes.rotation.col(hub) * at(end)).real();
     CAPTURE(mode.s);
     // Errors of the steps are (2 pi/4000)^2 2 pi/12, those of linearisation 1e-5.
     const double whole = size * std::abs(std::exp(mode.s * end));
@@ -78,13 +81,15 @@ TEST_CASE("a small motion along a mode of a damped rotor goes as exp(s t)", "[li
 }
 
 TEST_CASE("a rotating cantilever has Wright's frequencies, in and out of the plane", "[linearised]") {
-  // A. Wright, C. Smith, R. Thresher, J. Wang, J. Appl. Mech. 49 (1982) 197, to 1e-11 by Ritz's method: flap; lag is less by
-  // the speed's square. EI = m = L = 1.
+  // A. Wright, C. Smith, R. Thresher, J. Wang, J. Appl. Mech. 49 (1982) 197, to 1e-11 by Ritz's method: flap; lag is
+  // less by the speed's square. EI = m = L = 1.
   const auto text = [](double eta, double hub) {
     return fmt::format(
-        "nodes: {{root: {{position: [{1}, 0, 0], motion: {{x: \"{1}*(cos({0}*t) - 1)\", y: \"{1}*sin({0}*t)\", z: 0, rx: 0, ry: 0, rz: "
+        "nodes: {{root: {{position: [{1}, 0, 0], motion: {{x: \"{1}*(cos({0}*t) - 1)\", y: \"{1}*sin({0}*t)\", z: 0, "
+        "rx: 0, ry: 0, rz: "
         "\"{0}*t\"}}}}, tip: {{position: [{1} + 1, 0, 0]}}}}\n"
-        "elements:\n  b: {{type: beam, nodes: [root, tip], elements: 16, orientation: [0, 1, 0], section: {{EA: 1e7, GAy: 1e7, GAz: "
+        "elements:\n  b: {{type: beam, nodes: [root, tip], elements: 16, orientation: [0, 1, 0], section: {{EA: 1e7, "
+        "GAy: 1e7, GAz: "
         "1e7, GJ: 1, EIy: 1, EIz: 1, mass_per_length: 1, Jx: 1e-7, Jy: 1e-7, Jz: 1e-7}}}}\n",
         eta, hub);
   };
@@ -113,15 +118,17 @@ TEST_CASE("a rotating cantilever has Wright's frequencies, in and out of the pla
 }
 
 TEST_CASE("a rigid blade on a flapping hinge in rotation swings with the speed", "[linearised]") {
-  // Flap of a rod hinged in the axis: omega = Om; hinged at e outside it: Om sqrt(1 + 3 e/(2 l)). Nothing but centrifugal forces.
+  // Flap of a rod hinged in the axis: omega = Om; hinged at e outside it: Om sqrt(1 + 3 e/(2 l)). Nothing but
+  // centrifugal forces.
   for (const double e : {0.0, 0.2}) {
     const double rate = 7;
-    const ModesOf model(fmt::format(
-        "nodes: {{hub: {{position: [0, 0, 0], motion: {{x: 0, y: 0, z: 0, rx: 0, ry: 0, rz: \"{0}*t\"}}}}, rod: {{position: [{1} + 0.5, "
-        "0, 0]}}}}\n"
-        "elements: {{rod: {{type: rigid_body, node: rod, mass: 3, inertia: [0, 0.25, 0.25]}}}}\n"
-        "joints: {{flap: {{type: hinge, nodes: [hub, rod], position: [{1}, 0, 0], axis: [0, 1, 0]}}}}\n",
-        rate, e));
+    const ModesOf model(
+        fmt::format("nodes: {{hub: {{position: [0, 0, 0], motion: {{x: 0, y: 0, z: 0, rx: 0, ry: 0, rz: \"{0}*t\"}}}}, "
+                    "rod: {{position: [{1} + 0.5, "
+                    "0, 0]}}}}\n"
+                    "elements: {{rod: {{type: rigid_body, node: rod, mass: 3, inertia: [0, 0.25, 0.25]}}}}\n"
+                    "joints: {{flap: {{type: hinge, nodes: [hub, rod], position: [{1}, 0, 0], axis: [0, 1, 0]}}}}\n",
+                    rate, e));
     const ModesReport report = model.session.modes({{}, SteadyRotation{Vector3(0, 0, rate), Vector3::Zero()}});
     CHECK(report.steadiness->steady());
     check_rates(rates_of(report), {rate * std::sqrt(1 + 1.5 * e)}, 1e-9);
@@ -134,10 +141,10 @@ TEST_CASE("a free body spins stably about its largest and smallest inertia, not 
   for (int axis = 0; axis < 3; ++axis) {
     Vector3 spin = Vector3::Zero();
     spin[axis] = 4;
-    const ModesReport report = ModesOf(fmt::format(
-        "nodes: {{b: {{position: [0, 0, 0], fixed: [x, y, z], angular_velocity: [{}, {}, {}]}}}}\n"
-        "elements: {{b: {{type: rigid_body, node: b, mass: 1, inertia: [1, 2, 2.5]}}}}\n",
-        spin[0], spin[1], spin[2]))();
+    const ModesReport report =
+        ModesOf(fmt::format("nodes: {{b: {{position: [0, 0, 0], fixed: [x, y, z], angular_velocity: [{}, {}, {}]}}}}\n"
+                            "elements: {{b: {{type: rigid_body, node: b, mass: 1, inertia: [1, 2, 2.5]}}}}\n",
+                            spin[0], spin[1], spin[2]))();
     const double Js = J[axis], Ja = J[(axis + 1) % 3], Jb = J[(axis + 2) % 3];
     const double square = -16 * (Js - Ja) * (Js - Jb) / (Ja * Jb);
     CAPTURE(axis);

@@ -1,4 +1,5 @@
-// Eigenpairs of largest magnitude of unsymmetric operators: dense algebra and ARPACK on operators whose eigenvalues are known.
+// Eigenpairs of largest magnitude of unsymmetric operators: dense algebra and ARPACK on operators whose eigenvalues are
+// known.
 #include <cmath>
 
 #include <catch2/catch.hpp>
