@@ -10,6 +10,7 @@
 
 #include "mechanism/analyses/analysis_table.hpp"
 #include "mechanism/analyses/mode_arrays.hpp"
+#include "mechanism/analyses/rotation_reader.hpp"
 #include "mechanism/analyses/summary_text.hpp"
 #include "reduce/common/counted.hpp"
 
@@ -82,17 +83,6 @@ std::string format_remarks(const ModesReport& report) {
           "those of the equations as they are at this moment\n";
   }
   return text;
-}
-
-/// `rotation: {rate: 12, axis: [0, 0, 1], position: [0, 0, 0]}`
-SteadyRotation read_rotation(const YamlValue& entry) {
-  entry.check_keys({"rate", "axis", "position"}, "`rotation`");
-  SteadyRotation rotation;
-  const double rate = entry.at("rate").number();
-  if (rate == 0) entry.at("rate").fail("expected a rate other than 0: without rotation, leave the key out");
-  rotation.omega = rate * Vector3(entry.at("axis").direction());
-  if (const auto position = entry.find("position")) rotation.through = position->vector3();
-  return rotation;
 }
 
 }  // namespace

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "mechanism/session/assembly_options.hpp"
+#include "mechanism/session/frequency_response.hpp"
 #include "mechanism/session/gatherers.hpp"
 #include "mechanism/session/modes_report.hpp"
 #include "mechanism/session/motion.hpp"
@@ -77,6 +78,9 @@ class Session {
   /// Small motions about the present state, which stays: about the start made consistent, an equilibrium under the part
   /// of the load that it stands under, the end of a motion. @throws ComputationError
   ModesReport modes(const ModesOptions& options) const;
+  /// How small motions about the present state answer to harmonic inputs. @throws InputError for names that the model
+  /// does not have; ComputationError at a frequency of an undamped mode
+  FrequencyResponse frequency_response(const FrequencyResponseOptions& options) const;
 
   // -- reading
   const State& state() const { return *shown_; }  ///< of the motion, while one is under way

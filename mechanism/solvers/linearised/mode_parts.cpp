@@ -2,34 +2,17 @@
 
 #include <cmath>
 
+#include "mechanism/solvers/linearised/variations.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
-#include "mechanism/system/node_relation.hpp"
 
 namespace bielle::mechanism {
 namespace {
 
 using Complex = std::complex<double>;
-using Vector6c = Eigen::Matrix<Complex, 6, 1>;
-
-/// Increments [dx; dTheta] and variations of velocities [dv; dOmega] of a node.
-struct NodeVariation {
-  Vector6c position = Vector6c::Zero(), rate = Vector6c::Zero();
-};
-
-NodeVariation variation(const System& system, const State& state, const Mode& mode, int node) {
-  const NodeKinematics& kinematics = system.kinematics();
-  const Carry* carry = kinematics.carry(node);
-  const NodeFreedom& freedom = kinematics.freedom(carry ? carry->carrier : node);
-  NodeVariation result;
-  if (freedom.count == 0) return result;
-  const NodeRelation relation = relate(kinematics, node, state, nullptr);
-  const Eigen::VectorXcd u = mode.u.segment(freedom.begin, freedom.count),
-                         w = mode.w.segment(freedom.begin, freedom.count);
-  const Eigen::MatrixXcd A = MatrixX(relation.displacement).cast<Complex>();
-  result.position = A * u;
-  result.rate = A * w;
-  if (relation.carried) result.rate += MatrixX(relation.rate_of_displacement).cast<Complex>() * u;
-  return result;
+Variation variation_of(const System& system, const Mode& mode) {
+  Variation variation{mode.u, mode.s * mode.u, {}};
+  variation.rate.head(system.dofs()) = mode.w;
+  return variation;
 }
 
 }  // namespace
@@ -37,8 +20,9 @@ NodeVariation variation(const System& system, const State& state, const Mode& mo
 NodeShapes node_shapes(const System& system, const State& state, const Mode& mode) {
   const auto count = static_cast<Eigen::Index>(state.nodes.size());
   NodeShapes shapes{Eigen::Matrix3Xcd::Zero(3, count), Eigen::Matrix3Xcd::Zero(3, count)};
+  const Variation variation = variation_of(system, mode);
   for (Eigen::Index k = 0; k < count; ++k) {
-    const NodeVariation node = variation(system, state, mode, static_cast<int>(k));
+    const NodeVariation node = node_variation(system, state, variation, static_cast<int>(k));
     shapes.displacement.col(k) = node.position.head<3>();
     shapes.rotation.col(k) = state.nodes[static_cast<std::size_t>(k)].R.cast<Complex>() * node.position.tail<3>();
   }
@@ -107,7 +91,9 @@ MemberEnergies member_energies(const System& system, const Environment& environm
   std::vector<std::vector<NodeVariation>> nodes;
   for (const Mode& mode : modes) {
     std::vector<NodeVariation>& of_mode = nodes.emplace_back();
-    for (int k = 0; k < static_cast<int>(state.nodes.size()); ++k) of_mode.push_back(variation(system, state, mode, k));
+    const Variation variation = variation_of(system, mode);
+    for (int k = 0; k < static_cast<int>(state.nodes.size()); ++k)
+      of_mode.push_back(node_variation(system, state, variation, k));
   }
   for (Eigen::Index m = 0; m < rows; ++m) {
     const Component& component = *members[static_cast<std::size_t>(m)].component;

@@ -4,6 +4,7 @@
 #include "mechanism/analyses/analysis_table.hpp"
 #include "mechanism/analyses/dynamic.hpp"
 #include "mechanism/analyses/eigen.hpp"
+#include "mechanism/analyses/frequency_response.hpp"
 #include "mechanism/analyses/static.hpp"
 #include "tests/support/messages.hpp"
 
@@ -31,7 +32,7 @@ TEST_CASE("each type of the table gives an analysis of its name") {
   CHECK(dynamic->duration() == 2);
   CHECK(dynamic->can_go_on());
   CHECK(dynamic_cast<const DynamicAnalysis&>(*dynamic).options().equilibrium);
-  CHECK(analysis_table().size() == 4);
+  CHECK(analysis_table().size() == 5);
 }
 
 TEST_CASE("keys of statics are read") {
@@ -49,7 +50,7 @@ TEST_CASE("keys of statics are read") {
 TEST_CASE("types that do not exist, or not yet, are refused") {
   CHECK_THAT(refusal("{type: dynamc}"), Contains("did you mean 'dynamic'"));
   CHECK_THAT(refusal("{type: kinematic}"),
-             Contains("the analysis 'kinematic' is not in this version; there are assembly, static, dynamic and eigen"));
+             Contains("the analysis 'kinematic' is not in this version; there are assembly, static, dynamic, eigen and frequency_response"));
   CHECK_THAT(refusal("{type: assembly, steps: 2}"), Contains("'steps'") && Contains("the analysis 'assembly'"));
 }
 
@@ -80,4 +81,42 @@ TEST_CASE("the analysis `eigen` reads how many modes, where, and about which rot
   CHECK_THAT(refusal("{type: eigen, rotation: {rate: 1}}"), Contains("axis"));
   CHECK_THAT(refusal("{type: eigen, rotation: {rate: 1, axis: [0, 0, 1], position: 3}}"), Contains("position"));
   CHECK_THAT(refusal("{type: eigen, rotation: {speed: 1, axis: [0, 0, 1]}}"), Contains("'speed'"));
+}
+
+TEST_CASE("the analysis `frequency_response` says what it does not understand") {
+  const auto with = [](const std::string& inputs, const std::string& outputs, const std::string& frequencies) {
+    return refusal("{type: frequency_response, inputs: " + inputs + ", outputs: " + outputs +
+                   ", frequencies: " + frequencies + "}");
+  };
+  const std::string force = "[{node: ground, direction: x}]", moves = "[{node: ground, direction: [0, 3, 4]}]",
+                    some = "{from: 1, to: 10, count: 5}";
+  const auto read_all = [&](const std::string& frequencies) {
+    return dynamic_cast<const FrequencyResponseAnalysis&>(
+               *read("{type: frequency_response, inputs: " + force + ", outputs: " + moves +
+                     ", frequencies: " + frequencies + "}"))
+        .options();
+  };
+  CHECK(read_all(some).frequencies.size() == 5);
+  CHECK(read_all("{from: 1, to: 100, count: 3}").frequencies[1] == Approx(10));
+  CHECK(read_all("{from: 0, to: 100, count: 3, spacing: even}").frequencies[1] == Approx(50));
+  CHECK(read_all("{from: 1, to: 100}").frequencies.size() == 200);
+  CHECK(read_all("[3, 1]").frequencies == std::vector<double>{3, 1});
+  CHECK(read_all(some).outputs[0].direction.y() == Approx(0.6));
+  CHECK(read_all(some).inputs[0].name == "force x of node 'ground'");
+  CHECK_THAT(with("[psh]", moves, some), Contains("there is no input 'psh'"));
+  CHECK_THAT(with(force, "[psh]", some), Contains("there is no measure 'psh'"));
+  CHECK_THAT(with("[]", moves, some), Contains("at least one input"));
+  CHECK_THAT(with(force, "[]", some), Contains("at least one output"));
+  CHECK_THAT(with("[{node: gruond, direction: x}]", moves, some), Contains("did you mean 'ground'"));
+  CHECK_THAT(with("[{node: ground, direction: u}]", moves, some), Contains("direction"));
+  CHECK_THAT(with("[{node: ground, direction: x, quantity: displacement}]", moves, some), Contains("quantity"));
+  CHECK_THAT(with("[{node: ground}]", moves, some), Contains("direction"));
+  CHECK_THAT(with("[{node: ground, direction: x, at: 3}]", moves, some), Contains("'at'"));
+  CHECK_THAT(with(force, moves, "{from: 5, to: 1}"), Contains("expected more than `from`"));
+  CHECK_THAT(with(force, moves, "{from: 0, to: 1}"), Contains("from"));
+  CHECK_THAT(with(force, moves, "{from: -1, to: 1, spacing: even}"), Contains("0 or more"));
+  CHECK_THAT(with(force, moves, "{from: 1, to: 2, count: 1}"), Contains("at least 2"));
+  CHECK_THAT(with(force, moves, "{from: 1, to: 2, spacing: uneven}"), Contains("spacing"));
+  CHECK_THAT(with(force, moves, "[]"), Contains("at least one frequency"));
+  CHECK_THAT(with(force, moves, "[-1]"), Contains("0 or more"));
 }
