@@ -124,15 +124,17 @@ void FrequencyResponseAnalysis::solve(Session& session, AnalysisSummary& summary
   for (std::size_t k = 0; k < outputs; ++k)
     output_names.push_back(fmt::format("{} [{}]", options_.outputs[k].name, result.output_units[k]));
   session.write({"frequency_response/frequency", {frequencies}, options_.frequencies, "Hz", ""});
-  session.write({"frequency_response/response",
-                 {frequencies, outputs, inputs, 2},
-                 numbers,
-                 "-",
-                 "complex amplitude of each output per unit of each input: real and imaginary part of Re(H exp(i w t))"});
+  session.write(
+      {"frequency_response/response",
+       {frequencies, outputs, inputs, 2},
+       numbers,
+       "-",
+       "complex amplitude of each output per unit of each input: real and imaginary part of Re(H exp(i w t))"});
   session.write(ResultNames{"frequency_response/inputs", input_names});
   session.write(ResultNames{"frequency_response/outputs", output_names});
-  summary.text = fmt::format("frequency_response, {} from {:.6g} to {:.6g} Hz\n", counted(frequencies, "frequency", "frequencies"),
-                             options_.frequencies.front(), options_.frequencies.back());
+  summary.text =
+      fmt::format("frequency_response, {} from {:.6g} to {:.6g} Hz\n", counted(frequencies, "frequency", "frequencies"),
+                  options_.frequencies.front(), options_.frequencies.back());
   for (std::size_t i = 0; i < outputs; ++i)
     for (std::size_t j = 0; j < inputs; ++j) {
       const auto size = [&](std::size_t k) {
@@ -143,8 +145,8 @@ void FrequencyResponseAnalysis::solve(Session& session, AnalysisSummary& summary
         if (size(k) > size(most)) most = k;
       summary.numbers["peak"].push_back(size(most));
       summary.numbers["peak_frequency"].push_back(options_.frequencies[most]);
-      summary.text += fmt::format("  {} per unit of {}: at most {:.6g}, at {:.6g} Hz\n", output_names[i], input_names[j],
-                                  size(most), options_.frequencies[most]);
+      summary.text += fmt::format("  {} per unit of {}: at most {:.6g}, at {:.6g} Hz\n", output_names[i],
+                                  input_names[j], size(most), options_.frequencies[most]);
     }
 }
 

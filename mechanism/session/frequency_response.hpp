@@ -14,8 +14,8 @@ namespace bielle::mechanism {
 
 /// A force or moment on a node along an inertial direction, or the number of an input of the model.
 struct ResponseInput {
-  std::string name;   ///< of the model's input; of others as they are recorded: "force x at node 'tip'"
-  int node = -1;      ///< -1: an input of the model
+  std::string name;  ///< of the model's input; of others as they are recorded: "force x at node 'tip'"
+  int node = -1;     ///< -1: an input of the model
   bool moment = false;
   Vector3 direction = Vector3::Zero();  ///< unit vector
 };
@@ -36,7 +36,8 @@ struct FrequencyResponseOptions {
 };
 
 struct FrequencyResponse {
-  /// Of each frequency (outputs, inputs): the output's complex amplitude per unit of the input, both as Re(x exp(i w t)).
+  /// Of each frequency (outputs, inputs): the output's complex amplitude per unit of the input, both as Re(x exp(i w
+  /// t)).
   std::vector<Eigen::MatrixXcd> response;
   std::vector<std::string> output_units;
   ModeAxes axes = ModeAxes::inertial;

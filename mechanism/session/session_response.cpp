@@ -99,7 +99,8 @@ class Response {
     if (input.node < 0) {  // of which it may be a function itself
       const InputStep step = step_of(input.name);
       const State ahead = with(step, 1), behind = with(step, -1);
-      sum += (measure.value(LocalState(ahead, slots, environment_)) - measure.value(LocalState(behind, slots, environment_))) /
+      sum += (measure.value(LocalState(ahead, slots, environment_)) -
+              measure.value(LocalState(behind, slots, environment_))) /
              (2 * step.size);
     }
     return sum;
@@ -138,7 +139,8 @@ FrequencyResponse Session::frequency_response(const FrequencyResponseOptions& op
   StandingState about = standing();
   if (options.rotation) settle_in_rotation(system_, about.environment, *options.rotation, about.state);
   FrequencyResponse result;
-  if (const auto steadiness = find_steadiness(system_, about.environment, about.state)) result.axes = steadiness->axes();
+  if (const auto steadiness = find_steadiness(system_, about.environment, about.state))
+    result.axes = steadiness->axes();
   const LinearisedEquations equations = linearised_equations(system_, about.environment, about.state, result.axes);
   const Response response(system_, about, equations);
   std::vector<VectorX> rights;
@@ -150,7 +152,8 @@ FrequencyResponse Session::frequency_response(const FrequencyResponseOptions& op
     const ShiftedOperator D(equations, Complex(0, 2 * std::numbers::pi * frequency));
     if (!D.regular())
       throw ComputationError(fmt::format(
-          "there is no response at {:.6g} Hz: it is a frequency at which the mechanism moves without any force", frequency));
+          "there is no response at {:.6g} Hz: it is a frequency at which the mechanism moves without any force",
+          frequency));
     Eigen::MatrixXcd H(options.outputs.size(), options.inputs.size());
     for (std::size_t j = 0; j < rights.size(); ++j) {
       const Variation variation = response.answer(D, rights[j]);

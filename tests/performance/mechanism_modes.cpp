@@ -2,8 +2,8 @@
 //
 //   performance_mechanism_modes [LINKS] [MODES]
 //
-// The slowest frequencies are those of a heavy chain, j_n sqrt(g/L)/2 with the zeros j_n of Bessel's J0, but for its links and their
-// stiffness.
+// The slowest frequencies are those of a heavy chain, j_n sqrt(g/L)/2 with the zeros j_n of Bessel's J0, but for its
+// links and their stiffness.
 #include <cmath>
 #include <cstdlib>
 #include <numbers>

@@ -24,8 +24,8 @@ NodeVariation node_variation(const System& system, const State& state, const Var
 
 namespace {
 
-void fill_local(const System& system, const State& state, const Variation& variation, const Slots& slots, Eigen::Index begin,
-                LocalVariation& local) {
+void fill_local(const System& system, const State& state, const Variation& variation, const Slots& slots,
+                Eigen::Index begin, LocalVariation& local) {
   for (std::size_t k = 0; k < slots.nodes.size(); ++k) {
     const NodeVariation node = node_variation(system, state, variation, slots.nodes[k]);
     local.position.segment<6>(begin + 6 * static_cast<Eigen::Index>(k)) = node.position;
@@ -46,7 +46,8 @@ void fill_local(const System& system, const State& state, const Variation& varia
 
 }  // namespace
 
-LocalVariation local_variation(const System& system, const State& state, const Variation& variation, const Slots& slots) {
+LocalVariation local_variation(const System& system, const State& state, const Variation& variation,
+                               const Slots& slots) {
   LocalVariation local{Eigen::VectorXcd::Zero(slots.size()), Eigen::VectorXcd::Zero(slots.size())};
   fill_local(system, state, variation, slots, 0, local);
   return local;

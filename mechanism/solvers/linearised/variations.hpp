@@ -24,6 +24,7 @@ NodeVariation node_variation(const System& system, const State& state, const Var
 struct LocalVariation {
   Eigen::VectorXcd position, rate;
 };
-LocalVariation local_variation(const System& system, const State& state, const Variation& variation, const Slots& slots);
+LocalVariation local_variation(const System& system, const State& state, const Variation& variation,
+                               const Slots& slots);
 
 }  // namespace bielle::mechanism

@@ -20,12 +20,16 @@ const std::string oscillator =
 
 }  // namespace
 
-TEST_CASE("an oscillator answers with 1/(k - m w^2 + i c w) to forces, twice that to an input that pushes twice", "[linearised]") {
+TEST_CASE("an oscillator answers with 1/(k - m w^2 + i c w) to forces, twice that to an input that pushes twice",
+          "[linearised]") {
   const ModesOf model(oscillator);
   const int node = *model.file.model.find_node("m");
   FrequencyResponseOptions options;
   options.inputs = {{"force", node, false, Vector3::UnitX()}, {"push", -1, false, Vector3::Zero()}};
-  options.outputs = {{"displacement", node, false, Vector3::UnitX()}, {"place", -1, false, {}}, {"speed", -1, false, {}}, {"both", -1, false, {}}};
+  options.outputs = {{"displacement", node, false, Vector3::UnitX()},
+                     {"place", -1, false, {}},
+                     {"speed", -1, false, {}},
+                     {"both", -1, false, {}}};
   options.frequencies = {0, 0.5, 1.5, 1.59, 10};
   const FrequencyResponse found = model.session.frequency_response(options);
   for (std::size_t f = 0; f < options.frequencies.size(); ++f) {
@@ -33,7 +37,9 @@ TEST_CASE("an oscillator answers with 1/(k - m w^2 + i c w) to forces, twice tha
     const Complex H = 1.0 / Complex(k - m * w * w, c * w), iw(0, w);
     const Eigen::MatrixXcd& found_here = found.response[f];
     CAPTURE(w);
-    const auto check = [&](int i, int j, Complex exact) { CHECK(std::abs(found_here(i, j) - exact) <= 1e-9 * (std::abs(exact) + std::abs(H))); };
+    const auto check = [&](int i, int j, Complex exact) {
+      CHECK(std::abs(found_here(i, j) - exact) <= 1e-9 * (std::abs(exact) + std::abs(H)));
+    };
     check(0, 0, H);
     check(1, 0, H);
     check(2, 0, iw * H);
@@ -88,11 +94,12 @@ TEST_CASE("a vibration in time settles to the frequency response", "[linearised]
 }
 
 TEST_CASE("the analysis `frequency_response` records what it finds", "[linearised]") {
-  const MechanismFile file = read_mechanism_text(
-      oscillator +
-          "analysis: [{type: frequency_response, inputs: [push, {node: m, direction: x}], outputs: [place, {node: m, direction: x, quantity: "
-          "displacement}], frequencies: {from: 0.5, to: 5, count: 11}}]\n",
-      "model.yaml");
+  const MechanismFile file =
+      read_mechanism_text(oscillator +
+                              "analysis: [{type: frequency_response, inputs: [push, {node: m, direction: x}], outputs: "
+                              "[place, {node: m, direction: x, quantity: "
+                              "displacement}], frequencies: {from: 0.5, to: 5, count: 11}}]\n",
+                          "model.yaml");
   Session session(file.model);
   MemorySink sink(file.model);
   session.add_sink(sink);
@@ -115,7 +122,8 @@ TEST_CASE("the analysis `frequency_response` records what it finds", "[linearise
 }
 
 TEST_CASE("a frequency at which the mechanism moves by itself has no response", "[linearised]") {
-  const ModesOf free("nodes: {m: {position: [0, 0, 0]}}\nelements: {m: {type: rigid_body, node: m, mass: 1, inertia: [1, 1, 1]}}\n");
+  const ModesOf free(
+      "nodes: {m: {position: [0, 0, 0]}}\nelements: {m: {type: rigid_body, node: m, mass: 1, inertia: [1, 1, 1]}}\n");
   FrequencyResponseOptions options;
   options.inputs = {{"force", *free.file.model.find_node("m"), false, Vector3::UnitX()}};
   options.outputs = {{"moves", *free.file.model.find_node("m"), false, Vector3::UnitX()}};
