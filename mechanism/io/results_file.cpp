@@ -108,6 +108,10 @@ void ResultsFile::write(const ResultArray& array) {
   file().write(analysis_group() + "/" + array.dataset, array.values, array.shape, units, array.description);
 }
 
+void ResultsFile::write(const ResultNames& names) {
+  file().write_names(analysis_group() + "/" + names.dataset, names.names);
+}
+
 void ResultsFile::write(const EntryNumbers& numbers) {
   write_numbers(file(), analysis_group(), stream_->rows().kinds(), stream_->layout(), numbers);
 }

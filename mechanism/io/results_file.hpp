@@ -59,6 +59,7 @@ class ResultsFile : public ResultSink {
 
   /// A dataset of the running analysis, besides its rows.
   void write(const ResultArray& array) override;
+  void write(const ResultNames& names) override;
   void write(const EntryNumbers& numbers) override;
   /// Appends to /analysis_k/events.
   void note(const Event& event) override;

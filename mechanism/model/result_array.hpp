@@ -15,4 +15,10 @@ struct ResultArray {
   std::string units, description;
 };
 
+/// Names that go with them.
+struct ResultNames {
+  std::string dataset;  ///< as above
+  std::vector<std::string> names;
+};
+
 }  // namespace bielle::mechanism

@@ -7,7 +7,7 @@
 namespace bielle::mechanism {
 
 void MemorySink::begin_analysis(const std::string& type, std::size_t expected_rows) {
-  analyses_.push_back({type, {}, {}, {}, {}});
+  analyses_.push_back({type, {}, {}, {}, {}, {}});
   analyses_.back().time.reserve(expected_rows);
   analyses_.back().values.reserve(expected_rows * rows_.size());
   rows_.restart();

@@ -18,6 +18,7 @@ class MemorySink : public ResultSink {
     std::vector<double> time;
     std::vector<double> values;  ///< row after row
     std::map<std::string, ResultArray> arrays;
+    std::map<std::string, std::vector<std::string>> names;
     std::vector<Event> events;
   };
   explicit MemorySink(const Model& model) : rows_(model) {}  ///< which must outlive this object
@@ -32,6 +33,7 @@ class MemorySink : public ResultSink {
   void record(const State& state, const std::vector<Slots>& slots, const Environment& environment,
               const StepRecord& step) override;
   void write(const ResultArray& array) override;
+  void write(const ResultNames& names) override { analyses_.back().names[names.dataset] = names.names; }
   void write(const EntryNumbers& numbers) override;
   void note(const Event& event) override { analyses_.back().events.push_back(event); }
   void end_analysis() override {}

@@ -43,6 +43,7 @@ class ResultSink {
   virtual void record(const State& state, const std::vector<Slots>& slots, const Environment& environment,
                       const StepRecord& step) = 0;
   virtual void write(const ResultArray& array) = 0;
+  virtual void write(const ResultNames& /*names*/) {}
   virtual void write(const EntryNumbers& numbers) = 0;  ///< of entries that record
   /// A crossing was met.
   virtual void note(const Event& event) = 0;

@@ -281,6 +281,11 @@ void Session::write(const ResultArray& array) {
   for (ResultSink* sink : sinks_) sink->write(array);
 }
 
+void Session::write(const ResultNames& names) {
+  if (!open_) throw std::logic_error("a result outside of an analysis");
+  for (ResultSink* sink : sinks_) sink->write(names);
+}
+
 void Session::end_analysis() {
   if (open_)
     for (const ResultArray& array : gatherers_.results()) write(array);

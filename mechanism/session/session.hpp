@@ -20,8 +20,10 @@
 #include <vector>
 
 #include "mechanism/session/assembly_options.hpp"
+#include "mechanism/session/frequency_response.hpp"
 #include "mechanism/session/gatherers.hpp"
 #include "mechanism/session/kinematics_options.hpp"
+#include "mechanism/session/modes_report.hpp"
 #include "mechanism/session/motion.hpp"
 #include "mechanism/session/notes.hpp"
 #include "mechanism/session/recording.hpp"
@@ -78,6 +80,12 @@ class Session {
   Motion dynamics(const DynamicsOptions& options, const std::vector<double>& saved);
   /// The same from what a sink keeps (ResultSink::checkpoint). @param sink  whose part stands among the numbers
   Motion dynamics(const DynamicsOptions& options, const std::vector<double>& checkpoint, ResultSink& sink);
+  /// Small motions about the present state, which stays: about the start made consistent, an equilibrium under the part
+  /// of the load that it stands under, the end of a motion. @throws ComputationError
+  ModesReport modes(const ModesOptions& options) const;
+  /// How small motions about the present state answer to harmonic inputs. @throws InputError for names that the model
+  /// does not have; ComputationError at a frequency of an undamped mode
+  FrequencyResponse frequency_response(const FrequencyResponseOptions& options) const;
 
   // -- reading
   const State& state() const { return *shown_; }  ///< of the motion, while one is under way
@@ -125,6 +133,7 @@ class Session {
   /// @param goes_on  a sink that has the analysis open already
   void begin_analysis(const std::string& type, std::size_t expected_rows = 0, const ResultSink* goes_on = nullptr);
   void write(const ResultArray& array);  ///< a result that is no row
+  void write(const ResultNames& names);
   void end_analysis();                   ///< writes what components have gathered
   /// What components have gathered over the steps of this analysis, in lines for the user.
   std::string gathered() { return gatherers_.summary(); }
@@ -135,6 +144,7 @@ class Session {
   struct Stopped {};
   Session(std::unique_ptr<const Model> owned, const Model* model, int threads);
   void at_rest();  ///< ends the motion, if any
+  StandingState standing() const;
   /// What the model asks of a start, until something has started.
   StartConditions start_conditions() const;
   void record(const State& state, const Environment& environment, const StepRecord& step);

@@ -24,6 +24,17 @@ MatrixXd pseudo_inverse(const MatrixXd& A) {
   return Eigen::CompleteOrthogonalDecomposition<MatrixXd>(A).pseudoInverse();
 }
 
+MatrixXd null_space(const MatrixXd& A, double dependent) {
+  Eigen::ColPivHouseholderQR<MatrixXd> factors(A.cols(), A.rows());
+  factors.setThreshold(dependent);
+  factors.compute(A.transpose());
+  const Eigen::Index left = A.cols() - factors.rank();
+  MatrixXd basis = MatrixXd::Zero(A.cols(), left);
+  basis.bottomRows(left).setIdentity();
+  basis.applyOnTheLeft(factors.householderQ());
+  return basis;
+}
+
 RightSingularVectors right_singular_vectors(const MatrixXd& A) {
   const Eigen::JacobiSVD<MatrixXd> svd(A, Eigen::ComputeFullV);
   return {svd.singularValues(), svd.matrixV()};

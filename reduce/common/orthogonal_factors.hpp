@@ -21,6 +21,10 @@ Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b
 /// A^+ (n,m) of A (m,n): A^+ b is the solution of `least_squares`.
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& A);
 
+/// An orthonormal basis (n,k) of the null space of A (m,n), by QR with column pivoting of A^T.
+/// @param dependent  rows whose part normal to those before is at most this share of the largest count as dependent
+Eigen::MatrixXd null_space(const Eigen::MatrixXd& A, double dependent);
+
 /// V of A = U S V^T.
 struct RightSingularVectors {
   Eigen::VectorXd values;   ///< of S, descending: min(m,n)

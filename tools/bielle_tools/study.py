@@ -20,7 +20,7 @@ import numpy as np
 
 from .messages import InputError, counted, note
 
-KEPT = ["joints", "measures", "energy", "events", "peaks"]
+KEPT = ["joints", "measures", "energy", "events", "peaks", "eigen"]
 GROUPS = [*KEPT, "nodes", "elements", "solver", "validity", "all"]  # what may be kept
 
 

@@ -16,7 +16,7 @@ FOLDERS = {
                   "elements/superelement/recovery", "elements/superelement",
                   "joints", "joints/friction", "joints/actions", "joints/cables", "joints/couplings", "joints/flexible", "joints/gears", "joints/pairs", "joints/cams", "joints/contacts",
                   "hydraulics/circuit", "hydraulics/lines", "hydraulics/actuators", "hydraulics/reading",
-                  "system", "solvers/newton", "solvers/constraints", "solvers/start", "solvers/statics", "solvers/dynamics",
+                  "system", "solvers/newton", "solvers/constraints", "solvers/start", "solvers/linearised", "solvers/statics", "solvers/dynamics",
                   "session", "analyses", "io", ""],
 }
 SHARED = ["common", "spectral", "superelement"]

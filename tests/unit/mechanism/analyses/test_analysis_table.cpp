@@ -3,6 +3,8 @@
 
 #include "mechanism/analyses/analysis_table.hpp"
 #include "mechanism/analyses/dynamic.hpp"
+#include "mechanism/analyses/eigen.hpp"
+#include "mechanism/analyses/frequency_response.hpp"
 #include "mechanism/analyses/static.hpp"
 #include "tests/support/messages.hpp"
 
@@ -30,7 +32,7 @@ TEST_CASE("each type of the table gives an analysis of its name") {
   CHECK(dynamic->duration() == 2);
   CHECK(dynamic->can_go_on());
   CHECK(dynamic_cast<const DynamicAnalysis&>(*dynamic).options().equilibrium);
-  CHECK(analysis_table().size() == 3);
+  CHECK(analysis_table().size() == 5);
 }
 
 TEST_CASE("keys of statics are read") {
@@ -47,7 +49,74 @@ TEST_CASE("keys of statics are read") {
 
 TEST_CASE("types that do not exist, or not yet, are refused") {
   CHECK_THAT(refusal("{type: dynamc}"), Contains("did you mean 'dynamic'"));
-  CHECK_THAT(refusal("{type: eigen}"),
-             Contains("the analysis 'eigen' is not in this version; there are assembly, static and dynamic"));
+  CHECK_THAT(refusal("{type: kinematic}"),
+             Contains("the analysis 'kinematic' is not in this version; there are assembly, static, dynamic, eigen and frequency_response"));
   CHECK_THAT(refusal("{type: assembly, steps: 2}"), Contains("'steps'") && Contains("the analysis 'assembly'"));
+}
+
+TEST_CASE("the analysis `eigen` reads how many modes, where, and about which rotation") {
+  const auto options = [&](const std::string& text) {
+    return dynamic_cast<const EigenAnalysis&>(*read(text)).options();
+  };
+  CHECK(options("{type: eigen}").search.count == 20);
+  CHECK_FALSE(options("{type: eigen}").rotation);
+  CHECK(options("{type: eigen, count: 5, near: 12.5}").search.near == 12.5);
+  CHECK(options("{type: eigen, below: 100}").search.below == 100);
+  const SteadyRotation turns =
+      *options("{type: eigen, rotation: {rate: 3, axis: [0, 0, 2], position: [1, 0, 0]}}").rotation;
+  CHECK(turns.omega == Vector3(0, 0, 3));
+  CHECK(turns.through == Vector3(1, 0, 0));
+  CHECK_FALSE(dynamic_cast<const EigenAnalysis&>(*read("{type: eigen, shapes: false}")).shapes());
+
+  CHECK_THAT(refusal("{type: eigen, modes: 3}"), Contains("'modes' is not a key of the analysis 'eigen'"));
+  CHECK_THAT(refusal("{type: eigen, count: 0}"), Contains("expected at least one mode"));
+  CHECK_THAT(refusal("{type: eigen, count: 2.5}"), Contains("count"));
+  CHECK_THAT(refusal("{type: eigen, near: 0}"), Contains("near"));
+  CHECK_THAT(refusal("{type: eigen, below: -1}"), Contains("below"));
+  CHECK_THAT(refusal("{type: eigen, near: 1, below: 2}"), Contains("either `near`") && Contains("or `below`"));
+  CHECK_THAT(refusal("{type: eigen, count: 1, below: 2}"), Contains("leave `count` out"));
+  CHECK_THAT(refusal("{type: eigen, shapes: 3}"), Contains("shapes"));
+  CHECK_THAT(refusal("{type: eigen, rotation: {rate: 0, axis: [0, 0, 1]}}"), Contains("other than 0"));
+  CHECK_THAT(refusal("{type: eigen, rotation: {rate: 1, axis: [0, 0, 0]}}"), Contains("axis"));
+  CHECK_THAT(refusal("{type: eigen, rotation: {rate: 1}}"), Contains("axis"));
+  CHECK_THAT(refusal("{type: eigen, rotation: {rate: 1, axis: [0, 0, 1], position: 3}}"), Contains("position"));
+  CHECK_THAT(refusal("{type: eigen, rotation: {speed: 1, axis: [0, 0, 1]}}"), Contains("'speed'"));
+}
+
+TEST_CASE("the analysis `frequency_response` says what it does not understand") {
+  const auto with = [](const std::string& inputs, const std::string& outputs, const std::string& frequencies) {
+    return refusal("{type: frequency_response, inputs: " + inputs + ", outputs: " + outputs +
+                   ", frequencies: " + frequencies + "}");
+  };
+  const std::string force = "[{node: ground, direction: x}]", moves = "[{node: ground, direction: [0, 3, 4]}]",
+                    some = "{from: 1, to: 10, count: 5}";
+  const auto read_all = [&](const std::string& frequencies) {
+    return dynamic_cast<const FrequencyResponseAnalysis&>(
+               *read("{type: frequency_response, inputs: " + force + ", outputs: " + moves +
+                     ", frequencies: " + frequencies + "}"))
+        .options();
+  };
+  CHECK(read_all(some).frequencies.size() == 5);
+  CHECK(read_all("{from: 1, to: 100, count: 3}").frequencies[1] == Approx(10));
+  CHECK(read_all("{from: 0, to: 100, count: 3, spacing: even}").frequencies[1] == Approx(50));
+  CHECK(read_all("{from: 1, to: 100}").frequencies.size() == 200);
+  CHECK(read_all("[3, 1]").frequencies == std::vector<double>{3, 1});
+  CHECK(read_all(some).outputs[0].direction.y() == Approx(0.6));
+  CHECK(read_all(some).inputs[0].name == "force x of node 'ground'");
+  CHECK_THAT(with("[psh]", moves, some), Contains("there is no input 'psh'"));
+  CHECK_THAT(with(force, "[psh]", some), Contains("there is no measure 'psh'"));
+  CHECK_THAT(with("[]", moves, some), Contains("at least one input"));
+  CHECK_THAT(with(force, "[]", some), Contains("at least one output"));
+  CHECK_THAT(with("[{node: gruond, direction: x}]", moves, some), Contains("did you mean 'ground'"));
+  CHECK_THAT(with("[{node: ground, direction: u}]", moves, some), Contains("direction"));
+  CHECK_THAT(with("[{node: ground, direction: x, quantity: displacement}]", moves, some), Contains("quantity"));
+  CHECK_THAT(with("[{node: ground}]", moves, some), Contains("direction"));
+  CHECK_THAT(with("[{node: ground, direction: x, at: 3}]", moves, some), Contains("'at'"));
+  CHECK_THAT(with(force, moves, "{from: 5, to: 1}"), Contains("expected more than `from`"));
+  CHECK_THAT(with(force, moves, "{from: 0, to: 1}"), Contains("from"));
+  CHECK_THAT(with(force, moves, "{from: -1, to: 1, spacing: even}"), Contains("0 or more"));
+  CHECK_THAT(with(force, moves, "{from: 1, to: 2, count: 1}"), Contains("at least 2"));
+  CHECK_THAT(with(force, moves, "{from: 1, to: 2, spacing: uneven}"), Contains("spacing"));
+  CHECK_THAT(with(force, moves, "[]"), Contains("at least one frequency"));
+  CHECK_THAT(with(force, moves, "[-1]"), Contains("0 or more"));
 }

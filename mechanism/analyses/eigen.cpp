@@ -1,0 +1,132 @@
+#include "mechanism/analyses/eigen.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "mechanism/analyses/analysis_table.hpp"
+#include "mechanism/analyses/mode_arrays.hpp"
+#include "mechanism/analyses/rotation_reader.hpp"
+#include "mechanism/analyses/summary_text.hpp"
+#include "reduce/common/counted.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+constexpr std::size_t most_listed = 50;
+constexpr double balanced = 1e-6;  // of the largest force: equilibria are found to 1e-9
+
+/// "element 'rod' 93 %, joint 'main' 6 %": what holds a twentieth of the energy or more, the largest first.
+std::string main_parts(const ModeParts& parts, Eigen::Index mode) {
+  std::vector<std::pair<double, std::string>> shares;
+  for (Eigen::Index k = 0; k < parts.share.rows(); ++k)
+    if (parts.share(k, mode) >= 0.05)
+      shares.emplace_back(parts.share(k, mode), parts.names[static_cast<std::size_t>(k)]);
+  std::stable_sort(shares.begin(), shares.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  constexpr std::size_t most = 3;
+  std::vector<std::string> words;
+  for (std::size_t k = 0; k < std::min(most, shares.size()); ++k)
+    words.push_back(fmt::format("{} {:.0f} %", shares[k].second, 100 * shares[k].first));
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+/// A number of the size of 1 as people read it.
+double without_rounding(double number) { return std::abs(number) < 1e-10 ? 0 : number; }
+
+std::string format_table(const ModesReport& report, const ModeParts& parts) {
+  std::string text =
+      fmt::format("  {:>4}  {:>13}  {:>11}  {:<11}  {}\n", "mode", "frequency", "damping", "kind", "energy in");
+  const std::vector<Mode>& modes = report.found.modes;
+  for (std::size_t k = 0; k < std::min(most_listed, modes.size()); ++k)
+    text += fmt::format("  {:>4}  {:>10.6g} Hz  {:>11.4g}  {:<11}  {}\n", k + 1, modes[k].frequency(),
+                        without_rounding(modes[k].damping_ratio()), mode_kind_name(modes[k].kind),
+                        main_parts(parts, static_cast<Eigen::Index>(k)));
+  if (modes.size() > most_listed) text += fmt::format("  and {} more\n", modes.size() - most_listed);
+  return text;
+}
+
+/// What a user should not overlook.
+std::string format_remarks(const ModesReport& report) {
+  std::string text;
+  std::vector<std::string> growing;
+  double fastest = 0;
+  long rigid = 0;
+  for (std::size_t k = 0; k < report.found.modes.size(); ++k) {
+    const Mode& mode = report.found.modes[k];
+    if (mode.kind == ModeKind::rigid) ++rigid;
+    if (mode.kind != ModeKind::growing) continue;
+    growing.push_back(fmt::format("{}", k + 1));
+    fastest = std::max(fastest, mode.s.real());
+  }
+  if (!growing.empty())
+    text += fmt::format("  UNSTABLE: {} {} {}, the fastest to twice its size within {:.3g} s\n",
+                        growing.size() == 1 ? "mode" : "modes", fmt::join(growing, ", "),
+                        growing.size() == 1 ? "grows" : "grow", std::numbers::ln2 / fastest);
+  if (rigid > 0) text += fmt::format("  {}: no force resists\n", counted(rigid, "rigid mode"));
+  if (report.unbalance > balanced)
+    text += fmt::format(
+        "  the state is at rest but no equilibrium: {} lacks {:.2g} of the largest force; modes are those of the "
+        "equations as they are there (a static analysis before this one finds the equilibrium)\n",
+        report.unbalanced, report.unbalance);
+  if (report.steadiness) {
+    const Steadiness& steadiness = *report.steadiness;
+    text += fmt::format("  in motion, seen in axes that {}\n",
+                        report.axes == ModeAxes::turning ? "turn with each node" : "do not turn");
+    if (!steadiness.steady())
+      text +=
+          "  the motion is not steady, or not in axes of these kinds: the equations change while it goes on, and modes "
+          "are "
+          "those of the equations as they are at this moment\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::unique_ptr<Analysis> read_eigen(const YamlValue& entry, const Model& /*model*/) {
+  entry.check_keys({"type", "count", "near", "below", "rotation", "shapes"}, "the analysis 'eigen'");
+  ModesOptions all;
+  ModeOptions& options = all.search;
+  if (const auto count = entry.find("count")) {
+    options.count = count->integer();
+    if (options.count < 1) count->fail("expected at least one mode");
+  }
+  if (const auto near = entry.find("near")) options.near = near->positive_number();
+  if (const auto below = entry.find("below")) {
+    if (options.near)
+      below->fail("give either `near`, a frequency around which modes are sought, or `below`, their limit");
+    if (entry.has("count")) below->fail("all modes below a frequency are found, however many: leave `count` out");
+    options.below = below->positive_number();
+  }
+  if (const auto rotation = entry.find("rotation")) all.rotation = read_rotation(*rotation);
+  const bool shapes = !entry.has("shapes") || entry.at("shapes").boolean();
+  return std::make_unique<EigenAnalysis>(std::move(all), shapes);
+}
+
+void EigenAnalysis::solve(Session& session, AnalysisSummary& summary) const {
+  const ModesReport report = session.modes(options_);
+  const ModeParts parts = mode_parts(session.model(), report);
+  const std::vector<Mode>& modes = report.found.modes;
+  write_modes(session, report, parts, shapes_);
+  for (const Mode& mode : modes) {
+    summary.numbers["frequency"].push_back(mode.frequency());
+    summary.numbers["damping_ratio"].push_back(mode.damping_ratio());
+    summary.numbers["real"].push_back(mode.s.real());
+    summary.numbers["imaginary"].push_back(mode.s.imag());
+  }
+  const Environment& environment = report.about.environment;
+  summary.text = fmt::format(
+      "eigen, {} about the state at t = {:.6g} s{}\n", counted(modes.size(), "mode"), report.about.state.time,
+      environment.load_factor == 1 ? "" : fmt::format(", load factor {:.6g}", environment.load_factor));
+  summary.text += format_start(report.about.start);
+  if (!modes.empty()) summary.text += format_table(report, parts);
+  if (report.found.all)
+    summary.text += modes.empty() ? "  nothing can move\n" : "  these are all modes of the mechanism\n";
+  summary.text += format_remarks(report);
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,153 @@
+#include "mechanism/analyses/frequency_response.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "mechanism/analyses/analysis_table.hpp"
+#include "mechanism/analyses/rotation_reader.hpp"
+#include "mechanism/measures/input_measure.hpp"
+#include "mechanism/reading/names.hpp"
+#include "reduce/common/counted.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+/// Names of entries that are read as measures.
+template <class Kind>
+std::string named_measure(const YamlValue& item, const Model& model, const char* of) {
+  const std::string name = item.text();
+  std::vector<std::string> names;
+  for (const Member& member : model.members()) {
+    if (member.entry.section == Section::measures && dynamic_cast<const Kind*>(member.component.get()))
+      names.push_back(member.entry.name);
+  }
+  if (std::find(names.begin(), names.end(), name) == names.end())
+    item.fail(fmt::format("there is no {} '{}'{}", of, name, did_you_mean(name, names)));
+  return name;
+}
+
+struct Directed {
+  int node;
+  bool turning;
+  Vector3 direction;
+  std::string name;
+};
+
+/// `{node: tip, direction: z}`. @param straight,turning  words of `quantity`
+Directed read_directed(const YamlValue& item, const Model& model, const char* straight, const char* turning,
+                       const char* what) {
+  item.check_keys({"node", "direction", "quantity"}, what);
+  Directed result;
+  result.node = node_named_by(item.at("node"), model);
+  const std::string quantity =
+      item.has("quantity") ? item.at("quantity").word({straight, turning}, "a quantity") : std::string(straight);
+  result.turning = quantity == turning;
+  const YamlValue direction = item.at("direction");
+  std::string axis;
+  if (direction.is_sequence()) {
+    result.direction = direction.direction();
+    axis = fmt::format("({:.3g}, {:.3g}, {:.3g})", result.direction.x(), result.direction.y(), result.direction.z());
+  } else {
+    axis = direction.word({"x", "y", "z"}, "a direction (x, y, z or a vector)");
+    result.direction = Vector3::Unit(axis[0] - 'x');
+  }
+  result.name = fmt::format("{} {} of node '{}'", quantity, axis, model.node(result.node).name);
+  return result;
+}
+
+/// `{from: 1, to: 100, count: 200, spacing: logarithmic}`, or a list.
+std::vector<double> read_frequencies(const YamlValue& entry) {
+  std::vector<double> frequencies;
+  if (entry.is_sequence()) {
+    for (const YamlValue& item : entry.items()) {
+      frequencies.push_back(item.number());
+      if (frequencies.back() < 0) item.fail("expected a frequency of 0 or more [Hz]");
+    }
+    if (frequencies.empty()) entry.fail("expected at least one frequency");
+    return frequencies;
+  }
+  entry.check_keys({"from", "to", "count", "spacing"}, "`frequencies`");
+  const bool even = entry.has("spacing") && entry.at("spacing").word({"logarithmic", "even"}, "a spacing") == "even";
+  const double from = even ? entry.at("from").number() : entry.at("from").positive_number();
+  const double to = entry.at("to").positive_number();
+  if (from < 0) entry.at("from").fail("expected a frequency of 0 or more [Hz]");
+  if (to <= from) entry.at("to").fail("expected more than `from`");
+  const int count = entry.has("count") ? entry.at("count").integer() : 200;
+  if (count < 2) entry.at("count").fail("expected at least 2 frequencies");
+  for (int k = 0; k < count; ++k) {
+    const double part = static_cast<double>(k) / (count - 1);
+    frequencies.push_back(even ? from + part * (to - from) : from * std::pow(to / from, part));
+  }
+  return frequencies;
+}
+
+}  // namespace
+
+std::unique_ptr<Analysis> read_frequency_response(const YamlValue& entry, const Model& model) {
+  entry.check_keys({"type", "inputs", "outputs", "frequencies", "rotation"}, "the analysis 'frequency_response'");
+  FrequencyResponseOptions options;
+  for (const YamlValue& item : entry.at("inputs").items()) {
+    if (item.is_map()) {
+      const Directed directed = read_directed(item, model, "force", "moment", "an input: a force on a node");
+      options.inputs.push_back({directed.name, directed.node, directed.turning, directed.direction});
+    } else {
+      options.inputs.push_back({named_measure<InputMeasure>(item, model, "input"), -1, false, Vector3::Zero()});
+    }
+  }
+  for (const YamlValue& item : entry.at("outputs").items()) {
+    if (item.is_map()) {
+      const Directed directed = read_directed(item, model, "displacement", "rotation", "an output: what a node does");
+      options.outputs.push_back({directed.name, directed.node, directed.turning, directed.direction});
+    } else {
+      options.outputs.push_back({named_measure<Measure>(item, model, "measure"), -1, false, Vector3::Zero()});
+    }
+  }
+  if (options.inputs.empty()) entry.at("inputs").fail("expected at least one input");
+  if (options.outputs.empty()) entry.at("outputs").fail("expected at least one output");
+  options.frequencies = read_frequencies(entry.at("frequencies"));
+  if (const auto rotation = entry.find("rotation")) options.rotation = read_rotation(*rotation);
+  return std::make_unique<FrequencyResponseAnalysis>(std::move(options));
+}
+
+void FrequencyResponseAnalysis::solve(Session& session, AnalysisSummary& summary) const {
+  const FrequencyResponse result = session.frequency_response(options_);
+  const std::size_t frequencies = options_.frequencies.size(), outputs = options_.outputs.size(),
+                    inputs = options_.inputs.size();
+  std::vector<double> numbers;
+  for (const Eigen::MatrixXcd& H : result.response)
+    for (Eigen::Index i = 0; i < H.rows(); ++i)
+      for (Eigen::Index j = 0; j < H.cols(); ++j) numbers.insert(numbers.end(), {H(i, j).real(), H(i, j).imag()});
+  std::vector<std::string> input_names, output_names;
+  for (const ResponseInput& input : options_.inputs) input_names.push_back(input.name);
+  for (std::size_t k = 0; k < outputs; ++k)
+    output_names.push_back(fmt::format("{} [{}]", options_.outputs[k].name, result.output_units[k]));
+  session.write({"frequency_response/frequency", {frequencies}, options_.frequencies, "Hz", ""});
+  session.write(
+      {"frequency_response/response",
+       {frequencies, outputs, inputs, 2},
+       numbers,
+       "-",
+       "complex amplitude of each output per unit of each input: real and imaginary part of Re(H exp(i w t))"});
+  session.write(ResultNames{"frequency_response/inputs", input_names});
+  session.write(ResultNames{"frequency_response/outputs", output_names});
+  summary.text =
+      fmt::format("frequency_response, {} from {:.6g} to {:.6g} Hz\n", counted(frequencies, "frequency", "frequencies"),
+                  options_.frequencies.front(), options_.frequencies.back());
+  for (std::size_t i = 0; i < outputs; ++i)
+    for (std::size_t j = 0; j < inputs; ++j) {
+      const auto size = [&](std::size_t k) {
+        return std::abs(result.response[k](static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
+      };
+      std::size_t most = 0;
+      for (std::size_t k = 1; k < frequencies; ++k)
+        if (size(k) > size(most)) most = k;
+      summary.numbers["peak"].push_back(size(most));
+      summary.numbers["peak_frequency"].push_back(options_.frequencies[most]);
+      summary.text += fmt::format("  {} per unit of {}: at most {:.6g}, at {:.6g} Hz\n", output_names[i],
+                                  input_names[j], size(most), options_.frequencies[most]);
+    }
+}
+
+}  // namespace bielle::mechanism

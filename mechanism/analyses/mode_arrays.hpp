@@ -1,0 +1,21 @@
+// Modes as results: arrays for the sinks, shares of energy by part.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mechanism/session/session.hpp"
+
+namespace bielle::mechanism {
+
+/// Energies of modes by the entries of the model file.
+struct ModeParts {
+  std::vector<std::string> names;     ///< "element 'rod'"
+  MatrixX kinetic, potential, share;  ///< (parts, modes); share: of the sum of T + |V|
+};
+ModeParts mode_parts(const Model& model, const ModesReport& report);
+
+/// The datasets `eigen/...` of the open analysis (mechanism/io/README.md).
+void write_modes(Session& session, const ModesReport& report, const ModeParts& parts, bool shapes);
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,12 @@
+// The key `rotation` of analyses of small motions.
+#pragma once
+
+#include "mechanism/solvers/linearised/steady_rotation.hpp"
+#include "reduce/common/yaml_file.hpp"
+
+namespace bielle::mechanism {
+
+/// `rotation: {rate: 12, axis: [0, 0, 1], position: [0, 0, 0]}`. @throws InputError
+SteadyRotation read_rotation(const YamlValue& entry);
+
+}  // namespace bielle::mechanism

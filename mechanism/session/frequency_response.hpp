@@ -1,0 +1,46 @@
+// Harmonic responses of small motions: what a session is asked, and what it answers.
+#pragma once
+
+#include <complex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mechanism/math/types.hpp"
+#include "mechanism/solvers/linearised/equations.hpp"
+#include "mechanism/solvers/linearised/steady_rotation.hpp"
+
+namespace bielle::mechanism {
+
+/// A force or moment on a node along an inertial direction, or the number of an input of the model.
+struct ResponseInput {
+  std::string name;  ///< of the model's input; of others as they are recorded: "force x at node 'tip'"
+  int node = -1;     ///< -1: an input of the model
+  bool moment = false;
+  Vector3 direction = Vector3::Zero();  ///< unit vector
+};
+
+/// A measure of the model, or the displacement (or rotation) of a node along an inertial direction.
+struct ResponseOutput {
+  std::string name;
+  int node = -1;  ///< -1: a measure
+  bool rotation = false;
+  Vector3 direction = Vector3::Zero();
+};
+
+struct FrequencyResponseOptions {
+  std::vector<ResponseInput> inputs;
+  std::vector<ResponseOutput> outputs;
+  std::vector<double> frequencies;  ///< [Hz] >= 0
+  std::optional<SteadyRotation> rotation = {};
+};
+
+struct FrequencyResponse {
+  /// Of each frequency (outputs, inputs): the output's complex amplitude per unit of the input, both as Re(x exp(i w
+  /// t)).
+  std::vector<Eigen::MatrixXcd> response;
+  std::vector<std::string> output_units;
+  ModeAxes axes = ModeAxes::inertial;
+};
+
+}  // namespace bielle::mechanism

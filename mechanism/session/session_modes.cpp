@@ -1,0 +1,84 @@
+// Modes about the state that a session shows.
+#include <fmt/format.h>
+
+#include "mechanism/session/session.hpp"
+#include "mechanism/solvers/constraints/redundancy.hpp"
+#include "mechanism/solvers/start/assemble_positions.hpp"
+#include "mechanism/solvers/start/consistent_start.hpp"
+#include "mechanism/solvers/start/consistent_velocities.hpp"
+#include "mechanism/solvers/start/start_rates.hpp"
+
+namespace bielle::mechanism {
+
+StandingState Session::standing() const {
+  StandingState standing{*shown_, acting_, {}};
+  State& state = standing.state;
+  Environment& environment = standing.environment;
+  const bool of_statics = environment.statics;
+  environment.statics = false;
+  state.held.clear();
+  if (of_statics) {
+    // At rest, whatever prescribed motions do at that time.
+    system_.begin_motion(state, environment, false);
+    system_.begin_branch(state, environment);
+    set_redundant_aside(system_, environment, state);
+    system_.begin_motion(state, environment, true);
+    return standing;
+  }
+  system_.begin_motion(state, environment, false);
+  if (const StartConditions conditions = start_conditions(); !conditions.empty()) {
+    assemble_positions(system_, environment, state, standing.start, conditions);
+    MassSaddle saddle(system_);
+    make_velocities_consistent(system_, environment, state, standing.start, saddle);
+    set_start_rates(system_, environment, state, conditions, saddle, standing.start);
+  }
+  standing.start.add(make_consistent(system_, environment, state));
+  return standing;
+}
+
+namespace {
+
+[[noreturn]] void throw_undetermined(const System& system, const LinearisedEquations& equations, int at) {
+  const int n = equations.unknowns();
+  const std::string what = at < 0   ? "some unknown"
+                           : at < n ? system.unknown_name(at)
+                                    : system.unknown_name(n + equations.multiplier[static_cast<std::size_t>(at - n)]);
+  throw ComputationError(
+      fmt::format("there are no modes: nothing determines {} whatever the frequency: it has neither mass nor "
+                  "stiffness, and nothing "
+                  "holds it, or constraints next to it are redundant",
+                  what));
+}
+
+}  // namespace
+
+ModesReport Session::modes(const ModesOptions& options) const {
+  ModesReport report;
+  report.about = standing();
+  if (options.rotation) settle_in_rotation(system_, report.about.environment, *options.rotation, report.about.state);
+  const State& state = report.about.state;
+  const Environment& environment = report.about.environment;
+  report.steadiness = find_steadiness(system_, environment, state);
+  if (report.steadiness) {
+    report.axes = report.steadiness->axes();
+  } else {
+    int equation = 0;
+    report.unbalance = unbalance(system_, environment, state, equation);
+    report.unbalanced = system_.equation_name(equation);
+  }
+  const LinearisedEquations equations = linearised_equations(system_, environment, state, report.axes);
+  try {
+    report.found = find_modes(equations, options.search);
+  } catch (const SingularEquations& singular) {
+    throw_undetermined(system_, equations, singular.at());
+  }
+  for (Mode& mode : report.found.modes) {
+    const std::complex<double> factor = unit_factor(system_, state, mode);
+    mode.u *= factor;
+    mode.w *= factor;
+  }
+  report.energies = member_energies(system_, environment, state, report.found.modes);
+  return report;
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,124 @@
+#include "mechanism/solvers/linearised/mode_parts.hpp"
+
+#include <cmath>
+
+#include "mechanism/solvers/linearised/variations.hpp"
+#include "mechanism/solvers/newton/model_length.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+using Complex = std::complex<double>;
+Variation variation_of(const System& system, const Mode& mode) {
+  Variation variation{mode.u, mode.s * mode.u, {}};
+  variation.rate.head(system.dofs()) = mode.w;
+  return variation;
+}
+
+}  // namespace
+
+NodeShapes node_shapes(const System& system, const State& state, const Mode& mode) {
+  const auto count = static_cast<Eigen::Index>(state.nodes.size());
+  NodeShapes shapes{Eigen::Matrix3Xcd::Zero(3, count), Eigen::Matrix3Xcd::Zero(3, count)};
+  const Variation variation = variation_of(system, mode);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const NodeVariation node = node_variation(system, state, variation, static_cast<int>(k));
+    shapes.displacement.col(k) = node.position.head<3>();
+    shapes.rotation.col(k) = state.nodes[static_cast<std::size_t>(k)].R.cast<Complex>() * node.position.tail<3>();
+  }
+  return shapes;
+}
+
+Complex unit_factor(const System& system, const State& state, const Mode& mode) {
+  const NodeShapes shapes = node_shapes(system, state, mode);
+  const double length = model_extent(state);
+  double size = 0, measure = 0;
+  Complex largest = 0;
+  const auto consider = [&](const Eigen::Matrix3Xcd& of_nodes, double weight) {
+    for (const Complex value : of_nodes.reshaped())
+      if (weight * std::abs(value) > measure * (1 + 1e-9)) {
+        measure = weight * std::abs(value);
+        largest = value;
+      }
+  };
+  consider(shapes.displacement, 1);
+  consider(shapes.rotation, length > 0 ? length : 1);
+  size = std::abs(largest);
+  if (size == 0)
+    for (int i = system.kinematics().unknowns(); i < mode.u.size(); ++i)
+      if (std::abs(mode.u[i]) > size * (1 + 1e-9)) {
+        size = std::abs(mode.u[i]);
+        largest = mode.u[i];
+      }
+  if (size == 0) return 1;
+  return std::conj(largest) / (size * size);
+}
+
+namespace {
+
+/// Variations of a member's own positions and rates by a mode.
+struct MemberVariation {
+  Eigen::VectorXcd u, w;
+};
+
+MemberVariation member_variation(const System& system, const Slots& slots, const Mode& mode,
+                                 const std::vector<NodeVariation>& nodes) {
+  const Eigen::Index positions = slots.first_order_row();
+  MemberVariation local{Eigen::VectorXcd(positions), Eigen::VectorXcd(positions)};
+  for (std::size_t k = 0; k < slots.nodes.size(); ++k) {
+    const NodeVariation& node = nodes[static_cast<std::size_t>(slots.nodes[k])];
+    local.u.segment<6>(6 * static_cast<Eigen::Index>(k)) = node.position;
+    local.w.segment<6>(6 * static_cast<Eigen::Index>(k)) = node.rate;
+  }
+  const int amplitude = system.kinematics().unknowns() + slots.amplitude_begin;
+  local.u.tail(slots.amplitudes) = mode.u.segment(amplitude, slots.amplitudes);
+  local.w.tail(slots.amplitudes) = mode.w.segment(amplitude, slots.amplitudes);
+  return local;
+}
+
+double mean_energy(const MatrixX& A, const Eigen::VectorXcd& x) {
+  const VectorX real = x.real(), imag = x.imag();
+  return 0.25 * (real.dot(A * real) + imag.dot(A * imag));
+}
+
+}  // namespace
+
+MemberEnergies member_energies(const System& system, const Environment& environment, const State& state,
+                               const std::vector<Mode>& modes) {
+  const auto& members = system.model().members();
+  const auto rows = static_cast<Eigen::Index>(members.size()), columns = static_cast<Eigen::Index>(modes.size());
+  MemberEnergies energies{MatrixX::Zero(rows, columns), MatrixX::Zero(rows, columns)};
+  std::vector<std::vector<NodeVariation>> nodes;
+  for (const Mode& mode : modes) {
+    std::vector<NodeVariation>& of_mode = nodes.emplace_back();
+    const Variation variation = variation_of(system, mode);
+    for (int k = 0; k < static_cast<int>(state.nodes.size()); ++k)
+      of_mode.push_back(node_variation(system, state, variation, k));
+  }
+  for (Eigen::Index m = 0; m < rows; ++m) {
+    const Component& component = *members[static_cast<std::size_t>(m)].component;
+    const Slots& slots = system.slots()[static_cast<std::size_t>(m)];
+    const int size = slots.size(), positions = slots.first_order_row();
+    Declaration declaration;
+    component.declare(declaration);
+    if (declaration.passive || positions == 0) continue;
+    const bool constrains = slots.multipliers > 0;
+    if (!declaration.stiffness && !declaration.mass && !constrains) continue;
+    MatrixX K = MatrixX::Zero(size, size), C = MatrixX::Zero(size, size), M = MatrixX::Zero(size, size);
+    LocalTangent tangent{LocalMatrix(K),      LocalMatrix(C),  LocalMatrix(M), declaration.stiffness || constrains,
+                         declaration.damping, declaration.mass};
+    component.add_tangent(LocalState(state, slots, environment), tangent);
+    K = K.topLeftCorner(positions, positions).eval();
+    M = M.topLeftCorner(positions, positions).eval();
+    for (Eigen::Index k = 0; k < columns; ++k) {
+      const auto j = static_cast<std::size_t>(k);
+      const MemberVariation local = member_variation(system, slots, modes[j], nodes[j]);
+      const bool rigid = modes[j].kind == ModeKind::rigid;
+      energies.kinetic(m, k) = mean_energy(M, rigid ? local.u : local.w);
+      if (!rigid) energies.potential(m, k) = mean_energy(K, local.u);
+    }
+  }
+  return energies;
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,184 @@
+#include "mechanism/solvers/linearised/shifted_operator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace bielle::mechanism {
+namespace {
+
+using Complex = ShiftedOperator::Complex;
+using SparseC = Eigen::SparseMatrix<Complex>;
+using VectorXc = ShiftedOperator::VectorXc;
+
+}  // namespace
+
+ShiftedOperator::ShiftedOperator(const LinearisedEquations& equations, Complex shift)
+    : equations_(equations), shift_(shift) {
+  build();
+}
+
+ShiftedOperator::~ShiftedOperator() = default;
+
+void ShiftedOperator::build() {
+  const LinearisedEquations& e = equations_;
+  const int n = e.unknowns(), m = e.constraints(), size = n + m;
+  SparseC shifted(n, n);
+  shifted.setIdentity();
+  shifted = SparseC(shifted * shift_ + e.W.cast<Complex>());
+  rates_ = SparseC(e.M.cast<Complex>() * shift_ + e.C.cast<Complex>());
+  if (is_real()) real_rates_ = rates_.real();
+  any_nonholonomic_ = std::any_of(e.nonholonomic.begin(), e.nonholonomic.end(), [](char each) { return each != 0; });
+  const SparseC D = SparseC(rates_ * shifted) + e.K.cast<Complex>();
+  const SparseC moving = SparseC(e.B.cast<Complex>() * shifted) + e.S.cast<Complex>();
+
+  // The whole matrix, of a complex shift with [a, -b; b, a] in place of each entry.
+  const int parts = is_real() ? 1 : 2;
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto add = [&](int row, int column, Complex value) {
+    if (parts == 1) {
+      entries.emplace_back(row, column, value.real());
+      return;
+    }
+    entries.emplace_back(2 * row, 2 * column, value.real());
+    entries.emplace_back(2 * row + 1, 2 * column + 1, value.real());
+    entries.emplace_back(2 * row, 2 * column + 1, -value.imag());
+    entries.emplace_back(2 * row + 1, 2 * column, value.imag());
+  };
+  for (int j = 0; j < n; ++j) {
+    for (SparseC::InnerIterator it(D, j); it; ++it) add(static_cast<int>(it.row()), j, it.value());
+    for (LinearisedEquations::Sparse::InnerIterator it(e.B, j); it; ++it) {
+      const int row = static_cast<int>(it.row());
+      add(j, n + row, it.value());
+      if (!e.nonholonomic[static_cast<std::size_t>(row)]) add(n + row, j, it.value());
+    }
+    for (SparseC::InnerIterator it(moving, j); it; ++it)
+      if (e.nonholonomic[static_cast<std::size_t>(it.row())]) add(n + static_cast<int>(it.row()), j, it.value());
+  }
+  for (int j = 0; j < m; ++j)
+    for (LinearisedEquations::Sparse::InnerIterator it(e.F, j); it; ++it)
+      add(static_cast<int>(it.row()), n + j, it.value());
+  Eigen::SparseMatrix<double> whole(parts * size, parts * size);
+  whole.setFromTriplets(entries.begin(), entries.end());
+  whole.makeCompressed();
+  pattern_ = std::make_unique<const SparsePattern>(
+      std::vector<int>(whole.outerIndexPtr(), whole.outerIndexPtr() + whole.outerSize() + 1),
+      std::vector<int>(whole.innerIndexPtr(), whole.innerIndexPtr() + whole.nonZeros()));
+  const std::vector<double> values(whole.valuePtr(), whole.valuePtr() + whole.nonZeros());
+
+  set_scale(D);
+  VectorX diagonal(parts * size);
+  for (int j = 0; j < n; ++j) diagonal.segment(parts * j, parts).setConstant(scale_[j]);
+  for (int k = 0; k < m; ++k) {
+    double most = 0;
+    const Eigen::SparseVector<double> row = e.B.row(k);
+    for (Eigen::SparseVector<double>::InnerIterator it(row); it; ++it)
+      most = std::max(most, std::abs(it.value()) * scale_[it.index()]);
+    diagonal.segment(parts * (n + k), parts).setConstant(most > 0 ? 1 / most : 1);
+  }
+  factors_ = std::make_unique<SparseLU>(*pattern_);
+  regular_ = factors_->factor(values, diagonal) == FactorStatus::good && factors_->reciprocal_condition() > 0;
+  if (factors_->singular_column() >= 0) singular_ = factors_->singular_column() / parts;
+}
+
+void ShiftedOperator::set_scale(const SparseC& D) {
+  const LinearisedEquations& e = equations_;
+  const int n = e.unknowns(), dofs = e.dofs;
+  const double rate = shift_ == 0.0 ? 1 : std::abs(shift_);
+  scale_ = VectorX::Zero(e.states());
+  const VectorX mass = e.M.diagonal();
+  const VectorX stiffness = D.diagonal().cwiseAbs();
+  // Without mass, by the stiffness; without either, as the others.
+  double sum = 0;
+  int known = 0;
+  for (int i = 0; i < dofs; ++i) {
+    if (mass[i] > 0)
+      scale_[i] = 1 / std::sqrt(mass[i]);
+    else if (stiffness[i] > 0)
+      scale_[i] = rate / std::sqrt(stiffness[i]);
+    if (scale_[i] == 0) continue;
+    sum += std::log(scale_[i]);
+    ++known;
+  }
+  const double usual = known > 0 ? std::exp(sum / known) : 1;
+  for (int i = 0; i < dofs; ++i)
+    if (scale_[i] == 0) scale_[i] = usual;
+  // A first-order unknown y, D_yy y = -D_yu u and D_uu u = -D_uy y, in scaled unknowns.
+  VectorX to = VectorX::Zero(n), from = VectorX::Zero(n);
+  for (int j = 0; j < n; ++j)
+    for (SparseC::InnerIterator it(D, j); it; ++it) {
+      const auto i = static_cast<int>(it.row());
+      const double size = std::norm(it.value());
+      if (i >= dofs && j < dofs && stiffness[i] > 0)
+        to[i] += size * scale_[j] * scale_[j] / (stiffness[i] * stiffness[i]);
+      if (i < dofs && j >= dofs) from[j] += size * scale_[i] * scale_[i] / std::pow(rate, 4);
+    }
+  for (int i = dofs; i < n; ++i) {
+    const double y = std::sqrt(to[i]), u = std::sqrt(from[i]);
+    scale_[i] = y > 0 && u > 0 ? std::sqrt(y / u) : y > 0 ? y : u > 0 ? 1 / u : 1;
+  }
+  scale_.tail(dofs) = rate * scale_.head(dofs);
+}
+
+VectorXc ShiftedOperator::solve(const VectorXc& right) const {
+  const auto size = right.size();
+  if (!is_real()) {
+    VectorX both(2 * size);
+    for (Eigen::Index k = 0; k < size; ++k) both.segment<2>(2 * k) << right[k].real(), right[k].imag();
+    factors_->solve(both);
+    VectorXc x(size);
+    for (Eigen::Index k = 0; k < size; ++k) x[k] = {both[2 * k], both[2 * k + 1]};
+    return x;
+  }
+  VectorX real = right.real(), imag = right.imag();
+  factors_->solve(real);
+  if (!imag.isZero(0)) factors_->solve(imag);
+  VectorXc x(size);
+  x.real() = real;
+  x.imag() = imag;
+  return x;
+}
+
+template <class Vector, class Matrix, class Solve>
+Vector ShiftedOperator::apply_with(const Vector& x, const Matrix& rates, typename Vector::Scalar shift,
+                                   const Solve& solution_of) const {
+  const LinearisedEquations& e = equations_;
+  const int n = e.unknowns();
+  const Vector in = scale_.template cast<typename Vector::Scalar>().cwiseProduct(x);
+  Vector w = Vector::Zero(n);
+  w.head(e.dofs) = in.tail(e.dofs);
+  Vector right(n + e.constraints());
+  right.head(n) = -(rates * in.head(n)) - e.M * w;
+  right.tail(e.constraints()).setZero();
+  if (any_nonholonomic_) {
+    const Vector of_constraints = e.B * in.head(n);
+    for (int k = 0; k < e.constraints(); ++k)
+      if (e.nonholonomic[static_cast<std::size_t>(k)]) right[n + k] = -of_constraints[k];
+  }
+  const Vector solution = solution_of(right);
+  Vector out(e.states());
+  out.head(n) = solution.head(n);
+  out.tail(e.dofs) = (shift * solution.head(n) + e.W * solution.head(n) + in.head(n)).head(e.dofs);
+  return out.cwiseQuotient(scale_.template cast<typename Vector::Scalar>());
+}
+
+VectorXc ShiftedOperator::apply(const VectorXc& x) const {
+  if (is_real()) {
+    VectorXc y(x.size());
+    y.real() = apply(VectorX(x.real()));
+    y.imag() = apply(VectorX(x.imag()));
+    return y;
+  }
+  return apply_with(x, rates_, shift_, [&](const VectorXc& right) { return solve(right); });
+}
+
+VectorX ShiftedOperator::apply(const VectorX& x) const {
+  if (!is_real()) throw std::logic_error("a complex shift makes complex vectors");
+  return apply_with(x, real_rates_, shift_.real(), [&](const VectorX& right) {
+    VectorX solution = right;
+    factors_->solve(solution);
+    return solution;
+  });
+}
+
+}  // namespace bielle::mechanism

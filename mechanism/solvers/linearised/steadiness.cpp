@@ -1,0 +1,138 @@
+#include "mechanism/solvers/linearised/steadiness.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "mechanism/solvers/linearised/modes.hpp"
+#include "mechanism/solvers/linearised/shifted_operator.hpp"
+#include "mechanism/solvers/newton/model_length.hpp"
+#include "mechanism/solvers/start/consistent_accelerations.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+/// Some state, the same in every run.
+VectorX some_state(Eigen::Index size, std::uint64_t seed) {
+  VectorX x(size);
+  for (double& value : x) {
+    seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
+    value = static_cast<double>(static_cast<std::int64_t>(seed)) * 0x1p-63;
+  }
+  return x;
+}
+
+/// Carries increments, or rates, of the dofs along from one instant to another with the axes.
+void carry(const System& system, const State& from, const State& to, ModeAxes axes, Eigen::Ref<VectorX> x) {
+  for (std::size_t k = 0; k < from.nodes.size(); ++k) {
+    const NodeFreedom& freedom = system.kinematics().freedom(static_cast<int>(k));
+    if (freedom.count == 0) continue;
+    const NodeState &a = from.nodes[k], &b = to.nodes[k];
+    const int translations = freedom.count - freedom.rotations;
+    if (axes == ModeAxes::inertial) {
+      if (freedom.rotations == 3)
+        x.segment<3>(freedom.begin + translations) =
+            (b.R.transpose() * a.R * x.segment<3>(freedom.begin + translations)).eval();
+      continue;
+    }
+    const MatrixX G = freedom.G.topLeftCorner(3, translations);
+    const MatrixX turned = b.R * a.R.transpose() * G;
+    const MatrixX kept = G.transpose() * turned;
+    if ((turned - G * kept).norm() < 1e-12)
+      x.segment(freedom.begin, translations) = (kept * x.segment(freedom.begin, translations)).eval();
+  }
+}
+
+struct Rates {
+  double velocity = 0, acceleration = 0;  ///< [1/s]
+};
+
+Rates rates_of(const State& state) {
+  Rates rates;
+  const double length = model_length(state);
+  for (const NodeState& node : state.nodes) {
+    rates.velocity = std::max({rates.velocity, node.Omega.norm(), node.v.norm() / length});
+    rates.acceleration =
+        std::max({rates.acceleration, std::sqrt(node.Omegadot.norm()), std::sqrt(node.a.norm() / length)});
+  }
+  return rates;
+}
+
+State moved_on(const System& system, const Environment& environment, const State& state, double h) {
+  VectorX v(system.dofs()), a(system.dofs());
+  system.get_rates(state, v, a);
+  State later = state;
+  later.time = state.time + h;
+  later.first_order += h * state.first_order_rate;
+  system.displace(later, state, h * v + 0.5 * h * h * a);
+  system.set_rates(later, v + h * a, a);
+  make_accelerations_consistent(system, environment, later);
+  return later;
+}
+
+double change(const System& system, const Environment& environment, const State& state, const State& later, double rate,
+              ModeAxes axes) {
+  const LinearisedEquations now = linearised_equations(system, environment, state, axes),
+                            then = linearised_equations(system, environment, later, axes);
+  const double h = later.time - state.time;
+  constexpr int tries = 4;
+  for (int k = 0; k < tries; ++k, rate *= 1.37) {
+    const ShiftedOperator T(now, rate), T_later(then, rate);
+    if (!T.regular() || !T_later.regular()) continue;
+    double most = 0;
+    constexpr std::uint64_t seeds[] = {1, 2};
+    for (const std::uint64_t seed : seeds) {
+      VectorX x = T.apply(T.apply(T.apply(some_state(now.states(), seed))));
+      const VectorX answer = T.apply(x);
+      const auto carried = [&](const VectorX& scaled) {
+        VectorX physical = T.scale().cwiseProduct(scaled);
+        carry(system, state, later, axes, physical.head(now.dofs));
+        carry(system, state, later, axes, physical.tail(now.dofs));
+        return VectorX(physical.cwiseQuotient(T_later.scale()));
+      };
+      const VectorX expected = carried(answer);
+      most = std::max(most, (T_later.apply(carried(x)) - expected).norm() / expected.norm());
+    }
+    return most / h;
+  }
+  return 0;  // the search for modes will say what is wrong
+}
+
+}  // namespace
+
+ModeAxes Steadiness::axes() const {
+  constexpr double clearly = 0.3;
+  return turning < clearly * inertial && inertial > 1e-3 * rate ? ModeAxes::turning : ModeAxes::inertial;
+}
+
+std::optional<Steadiness> find_steadiness(const System& system, const Environment& environment, const State& state) {
+  Steadiness steadiness;
+  const Rates rates = rates_of(state);
+  constexpr double negligible = 1e-7;  // its square is that of rounding
+  if (rates.velocity <= negligible * slowest_rate(linearised_equations(system, environment, state, ModeAxes::inertial)))
+    return std::nullopt;
+  steadiness.rate = std::max(rates.velocity, rates.acceleration);
+  constexpr double part = 1e-5;  // of the time for a radian: half of the digits
+  const State later = moved_on(system, environment, state, part / steadiness.rate);
+  steadiness.inertial = change(system, environment, state, later, steadiness.rate, ModeAxes::inertial);
+  steadiness.turning = change(system, environment, state, later, steadiness.rate, ModeAxes::turning);
+  return steadiness;
+}
+
+double unbalance(const System& system, const Environment& environment, const State& state, int& equation) {
+  State still = state;
+  system.set_rates(still, VectorX::Zero(system.dofs()), VectorX::Zero(system.dofs()));
+  VectorX r(system.size());
+  ResidualScale scale;
+  system.residual(still, environment, r, &scale);
+  double most = 0;
+  for (int i = 0; i < system.dofs(); ++i) {
+    const double forces = scale[system.kind(i)];
+    if (forces == 0 || std::abs(r[i]) <= most * forces) continue;
+    most = std::abs(r[i]) / forces;
+    equation = i;
+  }
+  return most;
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,46 @@
+// Eigenpairs of largest magnitude of an unsymmetric linear operator: by ARPACK's implicitly restarted Arnoldi method,
+// or of a small one by dense algebra (LAPACK's geev).
+//
+// The operator is given by what it makes of a vector: a shift-inverted pencil, say. Of multiple eigenvalues all copies
+// are found as far as they have eigenvectors of their own. Reference: R. B. Lehoucq, D. C. Sorensen, C. Yang, ARPACK
+// Users' Guide, SIAM 1998.
+#pragma once
+
+#include <complex>
+#include <functional>
+
+#include <Eigen/Core>
+
+namespace bielle {
+
+/// y = T x on vectors of a size. @tparam Scalar  double or std::complex<double>
+template <class Scalar>
+struct LinearOperator {
+  using Vector = Eigen::Vector<Scalar, Eigen::Dynamic>;
+  Eigen::Index size = 0;
+  std::function<Vector(const Vector& x)> apply;
+};
+
+struct OperatorEigenOptions {
+  Eigen::Index dense = 300;  ///< up to this size all eigenpairs are computed densely
+  double tolerance = 1e-13;  ///< asked of ARPACK, relative to the eigenvalue
+  int restarts = 300;        ///< before giving up
+  bool copies = true;        ///< whether copies of multiple eigenvalues that ARPACK has missed are looked for
+};
+
+/// Descending in magnitude. Of a real operator both of a conjugate pair are there, or none.
+struct OperatorEigenpairs {
+  Eigen::VectorXcd values;
+  Eigen::MatrixXcd vectors;   ///< columns of length one
+  Eigen::VectorXd residuals;  ///< |T x - mu x| / |mu|, by a new application of T
+  bool all = false;           ///< there are no others
+};
+
+/// At least the `count` eigenpairs of largest magnitude, as far as there are so many.
+/// @throws ComputationError when ARPACK does not converge
+OperatorEigenpairs largest_eigenpairs(const LinearOperator<double>& T, Eigen::Index count,
+                                      const OperatorEigenOptions& options = {});
+OperatorEigenpairs largest_eigenpairs(const LinearOperator<std::complex<double>>& T, Eigen::Index count,
+                                      const OperatorEigenOptions& options = {});
+
+}  // namespace bielle

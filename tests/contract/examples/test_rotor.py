@@ -1,0 +1,100 @@
+"""mechanism/examples/rotor.yaml: whirl frequencies over the speed, against Euler-Bernoulli elements and a gyroscopic disc."""
+
+import os
+import subprocess
+import tempfile
+import unittest
+
+import h5py
+import numpy as np
+
+REPOSITORY = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", ".."))
+PROGRAM = os.path.join(os.environ["BIELLE_PROGRAMS"], "bielle-mechanism")
+MODEL = os.path.join(REPOSITORY, "mechanism", "examples", "rotor.yaml")
+
+HEIGHT, ARM, YOUNG, DENSITY, WIDTH_X, WIDTH_Y = 1.2, 0.1, 2.1e11, 7850, 0.03, 0.02
+RADIUS, THICKNESS = 0.25, 0.02
+
+
+def bending(stiffness, mass, elements=20):
+    """K and M of a clamped cantilever of cubic elements: displacement and slope of each node but the first."""
+    h = HEIGHT / elements
+    k = stiffness / h**3 * np.array([[12, 6*h, -12, 6*h], [6*h, 4*h*h, -6*h, 2*h*h], [-12, -6*h, 12, -6*h], [6*h, 2*h*h, -6*h, 4*h*h]])
+    m = mass * h / 420 * np.array([[156, 22*h, 54, -13*h], [22*h, 4*h*h, 13*h, -3*h*h], [54, 13*h, 156, -22*h], [-13*h, -3*h*h, -22*h, 4*h*h]])
+    K, M = (np.zeros((2 * elements + 2, 2 * elements + 2)) for _ in range(2))
+    for e in range(elements):
+        K[2*e:2*e+4, 2*e:2*e+4] += k
+        M[2*e:2*e+4, 2*e:2*e+4] += m
+    return K[2:, 2:], M[2:, 2:]
+
+
+def whirl(speed):
+    """Frequencies [Hz] of bending in both planes, coupled by the disc: slopes a = x', b = y', tilts (-b, a)."""
+    disc = np.pi * RADIUS**2 * THICKNESS * DENSITY
+    across, along = disc * (RADIUS**2 / 4 + THICKNESS**2 / 12), disc * RADIUS**2 / 2
+    area = WIDTH_X * WIDTH_Y
+    planes = [bending(YOUNG * WIDTH_Y * WIDTH_X**3 / 12, DENSITY * area), bending(YOUNG * WIDTH_X * WIDTH_Y**3 / 12, DENSITY * area)]
+    n = len(planes[0][0])
+    K, M, G = (np.zeros((2 * n, 2 * n)) for _ in range(3))
+    for p, (k, m) in enumerate(planes):
+        m[-2:, -2:] += disc * np.array([[1, ARM], [ARM, ARM**2]]) + np.array([[0, 0], [0, across]])
+        K[p*n:(p+1)*n, p*n:(p+1)*n], M[p*n:(p+1)*n, p*n:(p+1)*n] = k, m
+    # Euler's equations of a disc that tilts by (-b, a): J_t a'' - J_p Om (-b)' ..., antisymmetric.
+    G[n-1, 2*n-1], G[2*n-1, n-1] = along * speed, -along * speed
+    inverse = np.linalg.inv(M)
+    A = np.block([[np.zeros_like(K), np.eye(2 * n)], [-inverse @ K, -inverse @ G]])
+    s = np.linalg.eigvals(A)
+    return np.sort(s.imag[s.imag > 0]) / (2 * np.pi)
+
+
+class Rotor(unittest.TestCase):
+    def modes(self, speed):
+        with tempfile.TemporaryDirectory() as folder:
+            target = os.path.join(folder, "run.h5")
+            done = subprocess.run([PROGRAM, MODEL, "-o", target, "--set", f"speed={speed}"], capture_output=True, text=True, timeout=100)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            with h5py.File(target) as file:
+                modes = file["/eigen"]
+                kinds = list(modes["kind"].asstr())
+                return kinds, modes["frequency"][:], modes["damping_ratio"][:], done.stdout
+
+    def test_frequencies_of_whirl_split_with_the_speed(self):
+        for speed in (0, 30, 120):
+            kinds, frequencies, ratios, summary = self.modes(speed)
+            oscillating = [f for f, kind in zip(frequencies, kinds) if kind == "oscillating"][:5]
+            # Shear and axial motion are left out of the reference: 3e-3 in the sixth.
+            np.testing.assert_allclose(oscillating, whirl(speed)[:5], rtol=3e-3, err_msg=str(speed))
+            self.assertEqual(kinds[:2], ["rigid", "decaying"])  # the disc's angle, and its speed against the bearing
+            self.assertTrue(np.all(ratios[2:] > 0))
+            self.assertEqual("axes that do not turn" in summary, speed > 0)
+            self.assertNotIn("not steady", summary)
+
+    def test_a_study_over_the_speed_is_a_campbell_diagram(self):
+        with tempfile.TemporaryDirectory() as folder:
+            table, target = os.path.join(folder, "speeds.csv"), os.path.join(folder, "speeds.h5")
+            with open(table, "w") as file:
+                file.write("speed\n10\n80\n")
+            subprocess.run([os.path.join(REPOSITORY, "tools", "study"), MODEL, table, "-o", target], check=True, capture_output=True,
+                           env={**os.environ, "BIELLE_BIN": os.environ["BIELLE_PROGRAMS"]}, timeout=100)
+            with h5py.File(target) as file:
+                for k, speed in enumerate(file["/parameters/speed"], start=1):
+                    frequencies = file[f"/runs/{k}/eigen/frequency"][:]
+                    np.testing.assert_allclose(frequencies[2:6], whirl(float(speed))[:4], rtol=3e-3)
+
+    def test_the_shapes_are_those_of_whirls(self):
+        with tempfile.TemporaryDirectory() as folder:
+            target = os.path.join(folder, "run.h5")
+            subprocess.run([PROGRAM, MODEL, "-o", target, "--set", "speed=120"], check=True, capture_output=True, timeout=100)
+            with h5py.File(target) as file:
+                modes = file["/eigen"]
+                disc = list(modes["nodes"].asstr()).index("disc")
+                shapes = modes["displacement"][:, disc] @ [1, 1j]
+                turns = modes["rotation"][:, disc] @ [1, 1j]
+        # Sense of rotation of x + i y: from the phase between the two.
+        senses = [np.sign((turn[0].conjugate() * turn[1]).imag) for turn in turns[2:6]]
+        self.assertEqual(len(shapes), 8)
+        self.assertEqual(sorted(senses), [-1, -1, 1, 1])
+
+
+if __name__ == "__main__":
+    unittest.main()

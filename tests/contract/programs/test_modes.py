@@ -1,0 +1,83 @@
+"""What `bielle-mechanism` says of modes: instability, states that do not stay, what cannot be computed."""
+
+import os
+import unittest
+
+import h5py
+
+from command import CommandTest
+
+PENDULUM = """\
+gravity: [0, 0, -9.81]
+nodes: {{rod: {{position: [{x}, 0, {z}]}}}}
+elements: {{rod: {{type: rigid_body, node: rod, mass: 2, inertia: [0.1, 0.1, 0.1]}}}}
+joints: {{pivot: {{type: hinge, nodes: [ground, rod], position: [0, 0, 0], axis: [0, 1, 0]}}}}
+analysis: {analysis}
+"""
+EIGEN = "[{type: eigen}]"
+
+
+class Modes(CommandTest):
+    program = "bielle-mechanism"
+
+    def summary(self, model):
+        self.write("model.yaml", model)
+        done = self.run_program("model.yaml")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout
+
+    def test_a_hanging_pendulum_swings(self):
+        text = self.summary(PENDULUM.format(x=0, z=-1, analysis=EIGEN))
+        self.assertIn("eigen, 1 mode about the state at t = 0 s", text)
+        self.assertIn("oscillating", text)
+        self.assertIn("these are all modes of the mechanism", text)
+        for word in ("UNSTABLE", "no equilibrium", "rigid", "not steady"):
+            self.assertNotIn(word, text)
+
+    def test_a_standing_pendulum_is_unstable(self):
+        text = self.summary(PENDULUM.format(x=0, z=1, analysis=EIGEN))
+        # s = sqrt(2 g / 2.1): doubled within ln 2 / s.
+        self.assertRegex(text, r"UNSTABLE: mode [12] grows, the fastest to twice its size within 0\.227 s")
+        self.assertNotIn("no equilibrium", text)
+
+    def test_a_state_at_rest_that_does_not_stay_is_told(self):
+        text = self.summary(PENDULUM.format(x=1, z=0, analysis=EIGEN))
+        self.assertIn("the state is at rest but no equilibrium: moment y at node 'rod'", text)
+
+    def test_the_state_and_earlier_results_stay(self):
+        text = self.summary(PENDULUM.format(x=0, z=-1, analysis="[{type: dynamic, duration: 0.1, step: 0.01}, {type: eigen}, "
+                                                                "{type: dynamic, duration: 0.1, step: 0.01}, {type: eigen, shapes: false}]"))
+        self.assertEqual(text.count("eigen, 1 mode"), 2)
+        with h5py.File(os.path.join(self.folder, "model.h5")) as file:
+            self.assertEqual(file.attrs["complete"], 1)
+            self.assertAlmostEqual(file["/time"][-1], 0.2)            # of the motion before
+            self.assertAlmostEqual(file["/eigen/frequency"][0], (2 * 9.81 / 2.1)**0.5 / 6.283185307179586, places=9)
+            self.assertIn("displacement", file["/analysis_2/eigen"])
+            self.assertNotIn("displacement", file["/eigen"])
+            self.assertNotIn("time", file["/analysis_2"])
+
+    def test_what_nothing_determines_is_named(self):
+        # Forces on a node without mass, stiffness or constraint.
+        self.write("model.yaml", """\
+nodes: {m: {position: [1, 0, 0], fixed: [rx, ry, rz]}, lost: {position: [2, 0, 0], fixed: [x, y, rx, ry, rz]}}
+elements: {m: {type: point_mass, node: m, mass: 1}, s: {type: spring_damper, nodes: [m, lost], stiffness: 1}}
+analysis: [{type: eigen}]
+""")
+        self.expect_refusal(2, "model.yaml", says=("displacement z of node 'lost'",))
+
+    def test_a_rotation_that_supports_do_not_allow_is_refused(self):
+        self.write("model.yaml", PENDULUM.format(
+            x=0, z=-1, analysis="[{type: eigen, rotation: {rate: 3, axis: [0, 0, 1]}}]"))
+        self.expect_refusal(2, "model.yaml", says=("cannot turn as a whole", "joint 'pivot'"))
+
+    def test_wrong_keys_are_refused(self):
+        for analysis, says in (("{type: eigen, cuont: 3}", ("'cuont'", "did you mean 'count'")),
+                               ("{type: eigen, near: -3}", ("analysis[1].near",)),
+                               ("{type: eigen, near: 3, below: 4}", ("either `near`",)),
+                               ("{type: eigen, rotation: 3}", ("rotation",))):
+            self.write("model.yaml", PENDULUM.format(x=0, z=-1, analysis=f"[{analysis}]"))
+            self.expect_refusal(1, "model.yaml", says=("model.yaml:5", *says))
+
+
+if __name__ == "__main__":
+    unittest.main()
