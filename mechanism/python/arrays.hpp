@@ -15,7 +15,7 @@ inline pybind11::array_t<double> take_array(std::vector<double>&& values, const 
   const double* data = held->data();
   const pybind11::capsule owner(held.get(), [](void* pointer) { delete static_cast<std::vector<double>*>(pointer); });
   held.release();
-  return {shape, data, owner};
+  return pybind11::array_t<double>(shape, data, owner);
 }
 
 /// A number where the shape is {}, an array otherwise.

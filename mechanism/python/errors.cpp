@@ -1,6 +1,8 @@
 // The exceptions of the package, with the sentences of the programs.
 #include <typeinfo>
 
+#include <pybind11/stl.h>
+
 #include "mechanism/python/bind.hpp"
 #include "mechanism/python/texts.hpp"
 #include "reduce/common/error.hpp"
@@ -49,6 +51,9 @@ void bind_errors(pybind11::module_& module) {
                           "which element, which time.",
                           error);
   pybind11::register_local_exception_translator(translate);
+  module.def("did_you_mean", [](const std::string& name, const std::vector<std::string>& candidates) {
+    return did_you_mean(name, candidates);
+  });
 }
 
 }  // namespace bielle::python

@@ -1,4 +1,6 @@
 // Models: read, described, never changed.
+#include <algorithm>
+
 #include <pybind11/stl.h>
 
 #include "mechanism/io/describe_model.hpp"
@@ -43,6 +45,12 @@ std::map<std::string, std::vector<std::string>> entry_names(const Model& model) 
   for (const Section section : {Section::elements, Section::joints, Section::drives, Section::loads, Section::states,
                                 Section::measures, Section::hydraulics})
     names[section_name(section)] = model.names_in(section);
+  // (Formulas make measures as well: "main.angle".)
+  std::erase_if(names[section_name(Section::measures)], [&](const std::string& name) {
+    const std::vector<std::size_t>& members = model.members_of({Section::measures, name});
+    return std::all_of(members.begin(), members.end(),
+                       [&](std::size_t m) { return model.members()[m].recorded == Recorded::no; });
+  });
   return names;
 }
 
