@@ -22,14 +22,14 @@ struct KeptNotes : Notes {
 
 /// Recorder, [(summary, numbers, rows) of each analysis], notes.
 py::tuple run(const std::shared_ptr<MechanismFile>& file, const std::string& output, const std::string& restart,
-              int threads, bool progress) {
+              int threads, bool progress, bool memory) {
   if (file->analyses.empty())
     throw InputError("nothing to do: the model has no `analysis`");
   if (threads < 1) throw InputError("threads: expected a whole number of at least 1");
   const auto recorder = std::make_shared<Recorder>(file, nullptr);
   KeptNotes notes;
   Interruptible interruptible;
-  const RunListener listener{&recorder->memory, &notes, [&](Session&) { interruptible.step(); }};
+  const RunListener listener{memory ? &recorder->memory : nullptr, &notes, [&](Session&) { interruptible.step(); }};
   std::vector<AnalysisSummary> summaries;
   {
     const SingleBlasThread one;

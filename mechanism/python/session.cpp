@@ -112,7 +112,7 @@ void restore(WorkingSession& working, const Numbers& saved) {
 }
 
 std::shared_ptr<Recorder> record(WorkingSession& working, const std::string& path, std::optional<int> every,
-                                 std::optional<std::vector<double>> times) {
+                                 std::optional<std::vector<double>> times, bool memory) {
   Session& session = working.idle();
   Recording recording = session.recording();
   if (every) {
@@ -132,7 +132,7 @@ std::shared_ptr<Recorder> record(WorkingSession& working, const std::string& pat
     recorder->file = std::make_unique<ResultsFile>(path, file.model, file.text, file.output.layout);
     recorder->file->name_equations(session.system());
   }
-  working.attach(recorder, std::move(recording));
+  working.attach(recorder, std::move(recording), memory);
   return recorder;
 }
 

@@ -41,7 +41,7 @@ void WorkingSession::KeptNotes::note(const std::string& sentence) {
   if (std::find(sentences.begin(), sentences.end(), shown) == sentences.end()) sentences.push_back(std::move(shown));
 }
 
-void WorkingSession::attach(const std::shared_ptr<Recorder>& recorder, Recording recording) {
+void WorkingSession::attach(const std::shared_ptr<Recorder>& recorder, Recording recording, bool memory) {
   const Callbacks none;
   compute(none, [&](Session& session) {
     close_motion(session);
@@ -49,7 +49,7 @@ void WorkingSession::attach(const std::shared_ptr<Recorder>& recorder, Recording
     session.set_recording(std::move(recording));
     recorders_.emplace_back(recorder, before);
     if (recorder->file) session.add_sink(*recorder->file);
-    session.add_sink(recorder->memory);
+    if (memory) session.add_sink(recorder->memory);
     if (session.moving()) open_motion(session, 0);
   });
 }

@@ -51,7 +51,8 @@ class WorkingSession {
   }
 
   /// Sends what follows to a recorder as well; a motion under way is recorded from its next step on.
-  void attach(const std::shared_ptr<Recorder>& recorder, mechanism::Recording recording);
+  /// @param memory  rows are kept there, not only written to a file
+  void attach(const std::shared_ptr<Recorder>& recorder, mechanism::Recording recording, bool memory);
   /// Ends what is being recorded, and a file as complete.
   void detach(const std::shared_ptr<Recorder>& recorder);
   bool recording() const { return !recorders_.empty(); }

@@ -26,6 +26,28 @@ class Event(NamedTuple):
     name: str
 
 
+class NothingKept:
+    """In place of what was recorded: an analysis whose rows are not in memory."""
+
+    def __init__(self, type_: str):
+        self._type = type_
+
+    def type(self, _: int) -> str:
+        return self._type
+
+    def rows(self, _: int) -> int:
+        return 0
+
+    def read(self, _: int, name: str) -> np.ndarray:
+        raise _core.InputError(f"'{name}' was not kept in memory: that was not asked for")
+
+    def datasets(self, _: int) -> dict:
+        return {}
+
+    def events(self, _: int) -> list:
+        return []
+
+
 class Results(Mapping):
     """What one analysis recorded, by the names of a results file: results["joints/main/coordinate"].
 
@@ -34,7 +56,7 @@ class Results(Mapping):
     they are copies of what there is so far.) Others are arrays or numbers: "peaks/rod/all/von_mises/value".
     """
 
-    def __init__(self, recorder: _core.Recorder, number: int, found: tuple[str, dict, int] | None = None):
+    def __init__(self, recorder: _core.Recorder | NothingKept, number: int, found: tuple[str, dict, int] | None = None):
         self._recorder = recorder
         self._number = number
         self._summary, self._numbers = (found[0], found[1]) if found else ("", {})

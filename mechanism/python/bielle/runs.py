@@ -10,12 +10,12 @@ import numpy as np
 
 from . import _core
 from .models import Model, Parameters, load, read
-from .results import Event, Results
+from .results import Event, NothingKept, Results
 
 
 def run(model: Model | str | os.PathLike | Mapping[str, Any], output: str | os.PathLike | None = None, *,
         parameters: Parameters | None = None, restart: str | os.PathLike | None = None, threads: int = 1,
-        progress: bool = False) -> Run:
+        progress: bool = False, memory: bool = True) -> Run:
     """Runs all analyses of a model as `bielle-mechanism` does: the numbers are the same to the last bit.
 
     model: a Model, the path of a model file, or a dictionary (see `read`).
@@ -24,6 +24,7 @@ def run(model: Model | str | os.PathLike | Mapping[str, Any], output: str | os.P
     restart: a results file to go on from; with `output` only. Rows from before are in the file alone.
     threads: that evaluate costly components; results do not depend on them.
     progress: shows a bar on standard error.
+    memory: rows are kept there, not only written to `output`: for runs whose results are larger than it.
     Raises InputError, ComputationError; the file then holds every row so far. Ctrl-C ends it after the step under way.
     """
     if isinstance(model, Model):
@@ -34,7 +35,7 @@ def run(model: Model | str | os.PathLike | Mapping[str, Any], output: str | os.P
     else:
         model = load(model, parameters)
     recorder, found, notes = _core.run(model._core, "" if output is None else os.fspath(output),
-                                       "" if restart is None else os.fspath(restart), threads, progress)
+                                       "" if restart is None else os.fspath(restart), threads, progress, memory)
     return Run(model, recorder, found, notes)
 
 
@@ -46,8 +47,10 @@ class Run(Sequence):
 
     def __init__(self, model: Model, recorder: _core.Recorder, found: list[tuple], notes: list[str]):
         self.model: Model = model
-        first = len(recorder) - len(found)  # a restarted run has fewer
-        self.analyses: list[Results] = [Results(recorder, first + k, each) for k, each in enumerate(found)]
+        first = len(model.analyses) - len(found)  # a run that goes on begins later
+        self.analyses: list[Results] = [
+            Results(recorder, k, each) if len(recorder) else Results(NothingKept(model.analyses[first + k]), 0, each)
+            for k, each in enumerate(found)]
         self.notes: list[str] = notes
         """Sentences that the user should read."""
 

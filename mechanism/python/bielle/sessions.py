@@ -10,7 +10,7 @@ import numpy as np
 
 from . import _core
 from .motions import Motion
-from .results import Dataset, Results
+from .results import Dataset, NothingKept, Results
 from .yaml_text import yaml_text
 
 if TYPE_CHECKING:
@@ -86,15 +86,17 @@ class Session:
             if not -len(self._model.analyses) <= analysis < len(self._model.analyses):
                 raise _core.InputError(f"the model lists {len(self._model.analyses)} analyses; there is no number {analysis}")
             number = analysis % len(self._model.analyses)
-            return self._recorded(record, lambda: self._core.run_listed(number, self._callbacks))
+            type_ = self._model.analyses[number]
+            return self._recorded(record, type_, lambda: self._core.run_listed(number, self._callbacks))
         text = yaml_text(analysis, "Session.run")
-        name = "Session.run" if "type" not in analysis else f"analysis {analysis['type']}"
-        return self._recorded(record, lambda: self._core.run_keys(text, name, self._callbacks))
+        type_ = str(analysis.get("type", ""))
+        name = f"analysis {type_}" if type_ else "Session.run"
+        return self._recorded(record, type_, lambda: self._core.run_keys(text, name, self._callbacks))
 
-    def _recorded(self, record: bool, compute: Callable[[], tuple]) -> Results:
+    def _recorded(self, record: bool, type_: str, compute: Callable[[], tuple]) -> Results:
         if not record:
-            return Results(_NOTHING, 0, compute())
-        recorder = self._core.record("", None, None)
+            return Results(NothingKept(type_), 0, compute())
+        recorder = self._core.record("", None, None, True)
         try:
             found = compute()
         finally:
@@ -235,7 +237,7 @@ class Session:
     # -- recording
 
     def record(self, output: str | os.PathLike | None = None, *, every: int | None = None,
-               times: Sequence[float] | None = None) -> Recording:
+               times: Sequence[float] | None = None, memory: bool = True) -> Recording:
         """Records what is computed in a `with` block: each analysis and motion by itself.
 
             with session.record() as recording:
@@ -243,9 +245,9 @@ class Session:
             recording[-1]["joints/main/coordinate"]
 
         output: a results file to write as well, which is complete at the end of the block. every, times: which rows of
-        motions; as the model's `output` says, unless given.
+        motions; as the model's `output` says, unless given. memory: rows are kept there, not only written to a file.
         """
-        return Recording(self, output, every, times)
+        return Recording(self, output, every, times, memory)
 
     def __repr__(self) -> str:
         return f"<bielle.Session of {self._model!r} at t = {self.time:.6g} s>"
@@ -284,10 +286,11 @@ class Inputs(MutableMapping):
 class Recording(Sequence):
     """What is recorded in a block of `Session.record`: Results of one analysis or motion after the other."""
 
-    def __init__(self, session: Session, output: str | os.PathLike | None, every: int | None, times: Sequence[float] | None):
+    def __init__(self, session: Session, output: str | os.PathLike | None, every: int | None,
+                 times: Sequence[float] | None, memory: bool):
         self._session = session
         self._arguments = ("" if output is None else os.fspath(output), every,
-                           None if times is None else [float(time) for time in times])
+                           None if times is None else [float(time) for time in times], memory)
         self._recorder: _core.Recorder | None = None
 
     def __enter__(self) -> Recording:
@@ -308,31 +311,6 @@ class Recording(Sequence):
         if not -len(self) <= number < len(self):
             raise IndexError(f"{len(self)} analyses are recorded")
         return Results(self._recorder, number % len(self))
-
-
-class _Nothing:
-    """In place of a recorder: nothing was recorded."""
-
-    def __len__(self) -> int:
-        return 0
-
-    def type(self, _: int) -> str:
-        return ""
-
-    def rows(self, _: int) -> int:
-        return 0
-
-    def read(self, _: int, name: str):
-        raise _core.InputError(f"nothing was recorded as '{name}': the analysis was run with record=False")
-
-    def datasets(self, _: int) -> dict:
-        return {}
-
-    def events(self, _: int) -> list:
-        return []
-
-
-_NOTHING = _Nothing()
 
 
 def _given(**keys: Any) -> dict[str, Any]:
