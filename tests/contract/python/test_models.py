@@ -142,7 +142,7 @@ class Models(unittest.TestCase):
         self.assertTrue(doubts[0].startswith("model: gravity: "), doubts[0])
 
     def test_files_are_relative_to_the_folder(self):
-        self.write("-9 0\n9 1\n", "way.csv")
+        self.write("0 0\n1 1\n", "way.csv")
         keys = {"nodes": {"p": {"motion": {"x": "table('way.csv', t)"}}},
                 "elements": {"m": {"type": "point_mass", "node": "p", "mass": 1}}}
         bielle.read(keys, folder=self.folder)
