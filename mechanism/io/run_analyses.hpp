@@ -12,9 +12,9 @@ namespace bielle::mechanism {
 
 /// What a program that runs a file wants to have of it, besides its results file.
 struct RunListener {
-  ResultSink* sink = nullptr;              ///< gets what the file gets
-  Notes* notes = nullptr;                  ///< gets what the user is told
-  std::function<void(Session&)> on_step;   ///< if any, it is in charge of interruptions: signals stay as they are
+  ResultSink* sink = nullptr;             ///< gets what the file gets
+  Notes* notes = nullptr;                 ///< gets what the user is told
+  std::function<void(Session&)> on_step;  ///< if any, it is in charge of interruptions: signals stay as they are
 };
 
 /// Runs all analyses and writes the results file.

@@ -1,4 +1,5 @@
-// The parts of the module `bielle._core`, each in a source of its own. The package bielle/ gives them their form for users.
+// The parts of the module `bielle._core`, each in a source of its own. The package bielle/ gives them their form for
+// users.
 #pragma once
 
 #include <pybind11/pybind11.h>

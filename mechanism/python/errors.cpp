@@ -42,14 +42,16 @@ PyObject* add(pybind11::module_& module, const char* name, const char* doc, PyOb
 void bind_errors(pybind11::module_& module) {
   error = add(module, "Error", "What Bielle cannot do: an InputError, a ComputationError, or a call at the wrong time.",
               PyExc_Exception);
-  input_error = add(module, "InputError",
-                    "The input is wrong. The sentence names the file or text, the line and key, what was expected and the "
-                    "nearest valid name.",
-                    error);
-  computation_error = add(module, "ComputationError",
-                          "A correct input led to a computation that failed. The sentence names the cause: which joint, "
-                          "which element, which time.",
-                          error);
+  input_error =
+      add(module, "InputError",
+          "The input is wrong. The sentence names the file or text, the line and key, what was expected and the "
+          "nearest valid name.",
+          error);
+  computation_error =
+      add(module, "ComputationError",
+          "A correct input led to a computation that failed. The sentence names the cause: which joint, "
+          "which element, which time.",
+          error);
   pybind11::register_local_exception_translator(translate);
   module.def("did_you_mean", [](const std::string& name, const std::vector<std::string>& candidates) {
     return did_you_mean(name, candidates);

@@ -45,7 +45,8 @@ class Gate {
   /// @throws std::logic_error unless the session may be asked to compute
   void check_idle() const {
     check_readable();
-    if (computing_) throw std::logic_error("the session is computing: a callback may read it, set its inputs and stop it");
+    if (computing_)
+      throw std::logic_error("the session is computing: a callback may read it, set its inputs and stop it");
   }
   /// @throws std::logic_error unless the session may be read by this thread
   void check_readable() const {

@@ -18,7 +18,8 @@ struct Callbacks {
 class Interruptible {
  public:
   /// @param gate  of the session that computes, or nullptr @param callbacks  nullptr: none; must outlive this object
-  explicit Interruptible(Gate* gate = nullptr, const Callbacks* callbacks = nullptr) : gate_(gate), callbacks_(callbacks) {}
+  explicit Interruptible(Gate* gate = nullptr, const Callbacks* callbacks = nullptr)
+      : gate_(gate), callbacks_(callbacks) {}
 
   /// Called without the lock, which is taken only for callbacks and now and then for signals.
   /// @throws pybind11::error_already_set what a callback or the handler of a signal raises (KeyboardInterrupt)

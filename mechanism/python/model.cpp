@@ -81,11 +81,11 @@ void bind_model(pybind11::module_& module) {
                   [](const std::string& path, const Overrides& parameters) {
                     return read_model([&] { return read_mechanism_file(path, parameters); });
                   })
-      .def_static("read_text",
-                  [](const std::string& text, const std::string& name, bool seen, const Overrides& parameters) {
-                    return read_model(
-                        [&] { return read_mechanism_text(text, seen ? name : name + unseen, parameters); });
-                  })
+      .def_static(
+          "read_text",
+          [](const std::string& text, const std::string& name, bool seen, const Overrides& parameters) {
+            return read_model([&] { return read_mechanism_text(text, seen ? name : name + unseen, parameters); });
+          })
       .def_property_readonly("title", [](const MechanismFile& file) { return file.model.title; })
       .def_readonly("text", &MechanismFile::text)
       .def_readonly("path", &MechanismFile::path)

@@ -43,7 +43,8 @@ py::object read(const HeldRecorder& recorder, std::size_t k, const std::string& 
     return number_or_array(std::vector<double>(array->second.values), array->second.shape);
   const std::optional<ResultsColumn> column = recorder->memory.find(dataset);
   if (!column)
-    throw InputError("nothing was recorded as '" + dataset + "'" + did_you_mean(dataset, names_of(*recorder, analysis)));
+    throw InputError("nothing was recorded as '" + dataset + "'" +
+                     did_you_mean(dataset, names_of(*recorder, analysis)));
   std::vector<std::size_t> shape = column->shape, strides = packed_strides(column->shape);
   shape.insert(shape.begin(), count);
   strides.insert(strides.begin(), recorder->memory.row_size());
@@ -55,7 +56,8 @@ py::dict datasets(const Recorder& recorder, std::size_t k) {
   const Recorded& analysis = recorded(recorder, k);
   py::dict found;
   for (const ResultsColumn& column : recorder.memory.columns())
-    found[py::str(column.dataset)] = py::make_tuple(py::tuple(py::cast(column.shape)), column.units, column.description, true);
+    found[py::str(column.dataset)] =
+        py::make_tuple(py::tuple(py::cast(column.shape)), column.units, column.description, true);
   for (const auto& [name, array] : analysis.arrays)
     found[py::str(name)] = py::make_tuple(py::tuple(py::cast(array.shape)), array.units, array.description, false);
   return found;

@@ -23,7 +23,8 @@ class RecorderMemory final : public mechanism::MemorySink {
 };
 
 struct Recorder {
-  Recorder(HeldModel of, std::shared_ptr<const Gate> by) : model(std::move(of)), gate(std::move(by)), memory(model->model) {}
+  Recorder(HeldModel of, std::shared_ptr<const Gate> by)
+      : model(std::move(of)), gate(std::move(by)), memory(model->model) {}
   HeldModel model;
   std::shared_ptr<const Gate> gate;  ///< of the session that writes; nullptr: nobody writes any more
   RecorderMemory memory;

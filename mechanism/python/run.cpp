@@ -23,8 +23,7 @@ struct KeptNotes : Notes {
 /// Recorder, [(summary, numbers, rows) of each analysis], notes.
 py::tuple run(const std::shared_ptr<MechanismFile>& file, const std::string& output, const std::string& restart,
               int threads, bool progress, bool memory) {
-  if (file->analyses.empty())
-    throw InputError("nothing to do: the model has no `analysis`");
+  if (file->analyses.empty()) throw InputError("nothing to do: the model has no `analysis`");
   if (threads < 1) throw InputError("threads: expected a whole number of at least 1");
   const auto recorder = std::make_shared<Recorder>(file, nullptr);
   KeptNotes notes;

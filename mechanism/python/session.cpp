@@ -71,7 +71,8 @@ py::object read_dataset(WorkingSession& working, const std::string& dataset) {
 py::dict datasets_of(WorkingSession& working) {
   py::dict found;
   for (const ResultsColumn& column : working.readable().datasets())
-    found[py::str(column.dataset)] = py::make_tuple(py::tuple(py::cast(column.shape)), column.units, column.description, true);
+    found[py::str(column.dataset)] =
+        py::make_tuple(py::tuple(py::cast(column.shape)), column.units, column.description, true);
   return found;
 }
 
@@ -157,14 +158,13 @@ void bind_session(py::module_& module) {
       .def("dynamics", start_motion)
       .def("read", read_dataset)
       .def("measure", [](WorkingSession& working, const std::string& name) { return working.readable().measure(name); })
-      .def("set_input",
-           [](WorkingSession& working, const std::string& name, double value, bool smooth) {
-             working.readable().set_input(name, value, smooth);
-           })
+      .def("set_input", [](WorkingSession& working, const std::string& name, double value,
+                           bool smooth) { working.readable().set_input(name, value, smooth); })
       .def("datasets", datasets_of)
       .def("state", [](WorkingSession& working) { return std::make_shared<State>(working.readable().state()); })
       .def("set_state", set_state)
-      .def("node", [](WorkingSession& working, const std::string& name) { return NodeState(working.readable().node(name)); })
+      .def("node",
+           [](WorkingSession& working, const std::string& name) { return NodeState(working.readable().node(name)); })
       .def("energy", [](WorkingSession& working) { return energies(working.readable().energy()); })
       .def("balance", [](WorkingSession& working) { return working.readable().balance(); })
       .def("time", [](WorkingSession& working) { return working.readable().time(); })

@@ -8,8 +8,8 @@
 
 namespace bielle::python {
 
-/// NumPy may share the BLAS and wants its threads. Several of these objects may live at the same time: the first sets one
-/// thread, the last gives the others back.
+/// NumPy may share the BLAS and wants its threads. Several of these objects may live at the same time: the first sets
+/// one thread, the last gives the others back.
 class SingleBlasThread {
  public:
   SingleBlasThread() {

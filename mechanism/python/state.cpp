@@ -1,7 +1,8 @@
 // States as arrays: views of one copy.
+#include "mechanism/model/state.hpp"
+
 #include "mechanism/python/arrays.hpp"
 #include "mechanism/python/bind.hpp"
-#include "mechanism/model/state.hpp"
 
 namespace bielle::python {
 namespace {
@@ -56,10 +57,12 @@ void bind_state(py::module_& module) {
       .def(py::init<const State&>(), "A copy of another state.")
       .def_readwrite("time", &State::time, "[s]")
       .def_property_readonly("positions", vectors_of_nodes(&NodeState::x), "(nodes, 3) [m], inertial.")
-      .def_property_readonly("axes", axes_of_nodes,
-                             "(nodes, 3, 3) rotation matrices: node axes -> inertial axes; they have to stay rotations.")
+      .def_property_readonly(
+          "axes", axes_of_nodes,
+          "(nodes, 3, 3) rotation matrices: node axes -> inertial axes; they have to stay rotations.")
       .def_property_readonly("velocities", vectors_of_nodes(&NodeState::v), "(nodes, 3) [m/s], inertial.")
-      .def_property_readonly("angular_velocities", vectors_of_nodes(&NodeState::Omega), "(nodes, 3) [rad/s], node axes.")
+      .def_property_readonly("angular_velocities", vectors_of_nodes(&NodeState::Omega),
+                             "(nodes, 3) [rad/s], node axes.")
       .def_property_readonly("accelerations", vectors_of_nodes(&NodeState::a), "(nodes, 3) [m/s^2], inertial.")
       .def_property_readonly("angular_accelerations", vectors_of_nodes(&NodeState::Omegadot),
                              "(nodes, 3) [rad/s^2], node axes.")

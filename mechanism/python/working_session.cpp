@@ -55,8 +55,8 @@ void WorkingSession::attach(const std::shared_ptr<Recorder>& recorder, Recording
 }
 
 void WorkingSession::detach(const std::shared_ptr<Recorder>& recorder) {
-  const auto found = std::find_if(recorders_.begin(), recorders_.end(),
-                                  [&](const auto& each) { return each.first == recorder; });
+  const auto found =
+      std::find_if(recorders_.begin(), recorders_.end(), [&](const auto& each) { return each.first == recorder; });
   if (found == recorders_.end()) return;
   const Callbacks none;
   compute(none, [&](Session& session) {

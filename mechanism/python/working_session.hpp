@@ -82,7 +82,8 @@ class WorkingSession {
   std::shared_ptr<Gate> gate_ = std::make_shared<Gate>();
   KeptNotes notes_;
   Interruptible* listener_ = nullptr;
-  std::vector<std::pair<std::shared_ptr<Recorder>, mechanism::Recording>> recorders_;  ///< and the recording before each
+  std::vector<std::pair<std::shared_ptr<Recorder>, mechanism::Recording>>
+      recorders_;      ///< and the recording before each
   bool open_ = false;  ///< an analysis, for a motion
   std::unique_ptr<mechanism::Session> session_;
   std::vector<std::unique_ptr<mechanism::Motion>> ended_;  ///< to be destroyed before the session

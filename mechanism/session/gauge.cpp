@@ -59,7 +59,8 @@ std::unique_ptr<const Measure> make_dotted_measure(const Model& model, const std
                                  did_you_mean(subject, measurable_names(model))));
   }
   if (offered.empty()) throw InputError(fmt::format("'{}' has nothing that can be measured", known_subject));
-  if (name == known_subject) throw InputError(fmt::format("'{}' alone is no measure{}", name, did_you_mean("", offered)));
+  if (name == known_subject)
+    throw InputError(fmt::format("'{}' alone is no measure{}", name, did_you_mean("", offered)));
   const std::string wanted = name.substr(known_subject.size() + 1);
   throw InputError(fmt::format("'{}' has no '{}'{}", known_subject, wanted, did_you_mean(wanted, offered)));
 }

@@ -56,9 +56,7 @@ void Session::set_state(State state) {
   started_ = true;
 }
 
-StartConditions Session::start_conditions() const {
-  return started_ ? StartConditions() : conditions_of_file(system_);
-}
+StartConditions Session::start_conditions() const { return started_ ? StartConditions() : conditions_of_file(system_); }
 
 // -- computing
 

@@ -25,7 +25,8 @@ def run(model: Model | str | os.PathLike | Mapping[str, Any], output: str | os.P
     threads: that evaluate costly components; results do not depend on them.
     progress: shows a bar on standard error.
     memory: rows are kept there, not only written to `output`: for runs whose results are larger than it.
-    Raises InputError, ComputationError; the file then holds every row so far. Ctrl-C ends it after the step under way.
+    Raises InputError, ComputationError; the file then holds every row so far, memory none (a session that records keeps
+    them: Session.record). Ctrl-C ends the run after the step under way.
     """
     if isinstance(model, Model):
         if parameters:

@@ -1,5 +1,6 @@
 """Models from files, texts and dictionaries; wrong ones are refused with the sentences of the program."""
 
+import ast
 import os
 import subprocess
 import tempfile
@@ -156,6 +157,23 @@ class Models(unittest.TestCase):
         with self.assertRaisesRegex(bielle.InputError, "no results file"):
             with session.record(path):
                 pass
+
+    def test_the_stub_is_that_of_the_compiled_part(self):
+        with open(os.path.join(os.path.dirname(bielle.__file__), "_core.pyi"), encoding="utf-8") as file:
+            stub = ast.parse(file.read())
+        described = {}
+        for item in stub.body:
+            if isinstance(item, ast.ClassDef):
+                described[item.name] = {part.name for part in item.body if isinstance(part, ast.FunctionDef)}
+                described[item.name].update(part.target.id for part in item.body if isinstance(part, ast.AnnAssign))
+            elif isinstance(item, (ast.FunctionDef, ast.AnnAssign)):
+                described[item.name if isinstance(item, ast.FunctionDef) else item.target.id] = None
+        core = bielle.models._core
+        self.assertEqual(set(described), {name for name in vars(core) if not name.startswith("__")})
+        for name, members in described.items():
+            if members:
+                there = {part for part in vars(getattr(core, name)) if not part.startswith("__")}
+                self.assertEqual({part for part in members if not part.startswith("__")}, there, name)
 
     def test_everything_has_a_docstring(self):
         for name in bielle.__all__:
