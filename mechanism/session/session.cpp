@@ -1,6 +1,7 @@
 #include "mechanism/session/session.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -231,6 +232,7 @@ void Session::note(const Event& event) {
 }
 
 void Session::set_input(const std::string& name, double value, bool smooth) {
+  if (!std::isfinite(value)) throw InputError(fmt::format("input '{}': expected a finite number, found {}", name, value));
   for (const Component* component : model_.components_of({Section::measures, name})) {
     const auto* input = dynamic_cast<const InputMeasure*>(component);
     if (!input) continue;

@@ -36,6 +36,8 @@ def read(model: str | Mapping[str, Any], parameters: Parameters | None = None, *
     Raises InputError; of a dictionary with the path of the key, of a text with its line as well.
     """
     place = os.path.join(os.fspath(folder), name) if folder is not None else name
+    if isinstance(model, os.PathLike) or isinstance(model, str) and model.endswith((".yaml", ".yml")):
+        raise _core.InputError(f"{name}: '{os.fspath(model)}' is the name of a file, which bielle.load reads")
     if isinstance(model, str):
         return Model(_core.Model.read_text(model, place, True, _overrides(parameters)))
     given = dict(model) if isinstance(model, Mapping) else model

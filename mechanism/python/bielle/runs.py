@@ -33,6 +33,8 @@ def run(model: Model | str | os.PathLike | Mapping[str, Any], output: str | os.P
             raise _core.InputError("parameters: the model has been read with its own; give them to load or read")
     elif isinstance(model, Mapping):
         model = read(model, parameters)
+    elif isinstance(model, str) and "\n" in model:
+        raise _core.InputError("model: this is a text, and a name of a file was expected; bielle.read reads texts")
     else:
         model = load(model, parameters)
     recorder, found, notes = _core.run(model._core, "" if output is None else os.fspath(output),

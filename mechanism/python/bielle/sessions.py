@@ -187,7 +187,7 @@ class Session:
         self._core.set_input(name, value, smooth)
 
     def stop(self) -> None:
-        """Ends the present computation after the current step: for callbacks."""
+        """Ends what is computing (`finish`, `advance_to`, an analysis) after the current step: for callbacks."""
         self._core.stop()
 
     def on_step(self, callback: Callable[[Session], Any]) -> Callable[[Session], Any]:

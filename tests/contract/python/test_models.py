@@ -2,6 +2,7 @@
 
 import ast
 import os
+import pathlib
 import subprocess
 import tempfile
 import unittest
@@ -100,6 +101,14 @@ class Models(unittest.TestCase):
         self.assertEqual(self.refusal(lambda: bielle.read("nodes:\n  pin: {positon: [0, 0, 0]}\n")),
                          "model:2: nodes.pin: 'positon' is not a key of a node; did you mean 'position'?")
         self.assertIn("no valid YAML", self.refusal(lambda: bielle.read("nodes: [")))
+
+    def test_files_and_texts_are_told_apart(self):
+        self.assertEqual(self.refusal(lambda: bielle.read("engine.yaml")),
+                         "model: 'engine.yaml' is the name of a file, which bielle.load reads")
+        self.assertIn("bielle.load reads", self.refusal(lambda: bielle.read(pathlib.Path("engine"))))
+        self.assertIn("bielle.read reads texts", self.refusal(lambda: bielle.run(PENDULUM)))
+        path = self.write(PENDULUM)
+        self.assertEqual(bielle.load(pathlib.Path(path)).path, path)
 
     def test_words_of_yaml_in_dictionaries_stay_texts(self):
         def titled(title):

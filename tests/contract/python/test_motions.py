@@ -33,6 +33,24 @@ class Motions(unittest.TestCase):
         angular = motion.interpolated(0.05).angular_velocities[1, 2]
         self.assertAlmostEqual(angular, 0.05, places=12)
         self.assertAlmostEqual(motion.state.time, 0.1)
+        self.assertEqual(motion.interpolated(motion.time).time, motion.time)
+
+    def test_there_is_no_state_outside_of_the_last_step(self):
+        session = bielle.read(WHEEL).session()
+        motion = session.dynamics(1, 0.1)
+        self.assertEqual(motion.interpolated(0).time, 0)
+
+        def refusal(time):
+            with self.assertRaises(bielle.InputError) as caught:
+                motion.interpolated(time)
+            return str(caught.exception)
+
+        self.assertEqual(refusal(0.05), "t = 0.05 s is not within the last step, of which there is none yet")
+        motion.advance_to(0.2)
+        for time in (0.05, 0.25, float("nan")):
+            self.assertIn("is not within the last step, from 0.1 to 0.2 s", refusal(time))
+        session.restore(session.save())
+        self.assertIn("none yet", refusal(0.15))
 
     def test_a_motion_that_was_ended_says_so(self):
         session = bielle.read(BEAM).session()

@@ -32,6 +32,9 @@ class Sessions(unittest.TestCase):
         for sentence, call in said.items():
             self.assertEqual(self.refusal(call), sentence)
         self.assertEqual(self.refusal(lambda: wheel.inputs["torqe"]), "there is no input 'torqe'; did you mean 'torque'?")
+        for value in (np.nan, np.inf):
+            self.assertEqual(self.refusal(lambda: wheel.set_input("torque", value)),
+                             f"input 'torque': expected a finite number, found {value}")
         self.assertEqual(self.refusal(lambda: session.inputs["x"]), "there is no input 'x'")
         self.assertIn("'elbow' alone is no measure; expected one of 'angle'", self.refusal(lambda: session.measure("elbow")))
         self.assertIn("reported", self.refusal(lambda: session.run({"type": "reported"})))
