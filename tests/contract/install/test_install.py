@@ -47,7 +47,7 @@ class Install(unittest.TestCase):
         if not os.path.exists(os.path.join(BUILD, "python", "bielle")):
             self.skipTest("this build has no Python package")
         package, = glob.glob(self.installed("lib", "python3*", "dist-packages"))
-        model = {"nodes": {"stone": {"velocity": [0, 0, 4]}}, "gravity": [0, 0, -10],
+        model = {"nodes": {"stone": {"velocity": [0, 0, 4], "fixed": ["rx", "ry", "rz"]}}, "gravity": [0, 0, -10],
                  "elements": {"stone": {"type": "point_mass", "node": "stone", "mass": 1}},
                  "analysis": [{"type": "dynamic", "duration": 0.5, "step": 0.01}]}
         script = f"import bielle; run = bielle.run({model!r}); print(bielle.__file__); print(round(run['nodes/stone/position'][-1, 2], 9))"

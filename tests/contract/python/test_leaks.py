@@ -50,7 +50,7 @@ class Leaks(unittest.TestCase):
         grown = sum(each.size_diff for each in tracemalloc.take_snapshot().compare_to(first, "filename"))
         tracemalloc.stop()
         self.assertLess(grown, 50_000)  # bytes of Python; a session has some thousands
-        # Beyond Python: one session of this model takes about 100 kB, and 1000 of them would be 100 MB.
+        # Beyond Python: one session of this model takes 45 kB, and 1000 of them would be 45 MB.
         self.assertLess(resident() - before, 10_000)
 
     def test_circles_are_collected(self):
