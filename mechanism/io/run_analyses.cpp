@@ -19,12 +19,19 @@ namespace {
 /// What a session says goes to the user.
 class ShownNotes : public Notes {
  public:
-  explicit ShownNotes(Progress& progress) : progress_(progress) {}
-  void progress(double done, const std::string& where) override { progress_.update(done, where); }
-  void note(const std::string& sentence) override { progress_.note(sentence); }
+  ShownNotes(Progress& progress, Notes* others) : progress_(progress), others_(others) {}
+  void progress(double done, const std::string& where) override {
+    progress_.update(done, where);
+    if (others_) others_->progress(done, where);
+  }
+  void note(const std::string& sentence) override {
+    progress_.note(sentence);
+    if (others_) others_->note(sentence);
+  }
 
  private:
   Progress& progress_;
+  Notes* others_;
 };
 
 /// A run that was killed at its very beginning leaves the head of an HDF5 file.
@@ -36,17 +43,6 @@ bool holds_results(const std::string& path) {
   } catch (const InputError&) {
     return false;  // no HDF5 file at all, or none of ours
   }
-}
-
-/// What stands where the results will go may be results only: never a model, a superelement or a table.
-void check_may_be_replaced(const std::string& path) {
-  namespace fs = std::filesystem;
-  std::error_code none;
-  if (!fs::exists(path, none) || fs::file_size(path, none) == 0) return;
-  if (fs::file_size(path, none) <= bare_head && Hdf5File::begins_like_one(path)) return;
-  if (holds_results(path)) return;
-  throw InputError(fmt::format(
-      "{}: exists and is no results file; the results would replace it: choose another name with -o", path));
 }
 
 /// What a run that fails leaves where there was nothing is removed if it holds no results: a full disk cuts files off.
@@ -93,17 +89,34 @@ Checkpoint take_checkpoint(const MechanismFile& file, const std::string& restart
 
 std::unique_ptr<ResultsFile> open_results(const MechanismFile& file, const std::string& path,
                                           const std::optional<Checkpoint>& checkpoint) {
+  if (path.empty()) return nullptr;
   return checkpoint ? std::make_unique<ResultsFile>(path, file.model, file.text, *checkpoint, file.output.layout)
                     : std::make_unique<ResultsFile>(path, file.model, file.text, file.output.layout);
 }
 
 }  // namespace
 
+void check_may_be_replaced(const std::string& results_path) {
+  namespace fs = std::filesystem;
+  std::error_code none;
+  if (!fs::exists(results_path, none) || fs::file_size(results_path, none) == 0) return;
+  if (fs::file_size(results_path, none) <= bare_head && Hdf5File::begins_like_one(results_path)) return;
+  if (holds_results(results_path)) return;
+  throw InputError(fmt::format(
+      "{}: exists and is no results file; the results would replace it: choose another name with -o", results_path));
+}
+
 std::vector<AnalysisSummary> run_analyses(const MechanismFile& file, const std::string& results_path,
-                                          Progress& progress, const std::string& restart, int threads) {
-  check_output_file(results_path);
-  check_may_be_replaced(results_path);
-  const Remains remains(results_path);
+                                          Progress& progress, const std::string& restart, int threads,
+                                          const RunListener& listener) {
+  std::optional<Remains> remains;
+  if (!results_path.empty()) {
+    check_output_file(results_path);
+    check_may_be_replaced(results_path);
+    remains.emplace(results_path);
+  } else if (!restart.empty()) {
+    throw InputError("a run that goes on from a results file needs one for its own results");
+  }
   std::optional<Checkpoint> checkpoint;
   if (!restart.empty()) checkpoint = take_checkpoint(file, restart, results_path);
   std::optional<Session> session;
@@ -114,19 +127,28 @@ std::vector<AnalysisSummary> run_analyses(const MechanismFile& file, const std::
     throw;
   }
   const std::unique_ptr<ResultsFile> results = open_results(file, results_path, checkpoint);
-  results->name_equations(session->system());
-  session->add_sink(*results);
+  if (results) {
+    results->name_equations(session->system());
+    session->add_sink(*results);
+  }
+  if (listener.sink) session->add_sink(*listener.sink);
   session->set_recording(file.output.recording);
-  ShownNotes notes(progress);
+  ShownNotes notes(progress, listener.notes);
   session->set_notes(&notes);
   std::optional<StepLog> log;
-  if (file.output.log) {
+  if (file.output.log && !results) notes.note("`log`: there is no results file to write the log of steps next to");
+  if (file.output.log && results) {
     log.emplace(results_path, session->system(), checkpoint.has_value());
     session->on_attempt([&](const Attempt& attempt) { log->write(attempt); });
   }
-  const InterruptGuard guard;
+  std::optional<InterruptGuard> guard;
   std::string advice;  // how to go on after an interruption
-  session->on_step([&](Session& at) { guard.check(at.time(), advice); });
+  if (listener.on_step) {
+    session->on_step(listener.on_step);
+  } else {
+    guard.emplace();
+    session->on_step([&](Session& at) { guard->check(at.time(), advice); });
+  }
 
   std::vector<AnalysisSummary> summaries;
   for (std::size_t k = 0; k < file.analyses.size(); ++k) {
@@ -142,7 +164,7 @@ std::vector<AnalysisSummary> run_analyses(const MechanismFile& file, const std::
                             : analysis.run(*session));
   }
   progress.finish();
-  results->complete();
+  if (results) results->complete();
   return summaries;
 }
 

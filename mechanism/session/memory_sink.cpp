@@ -1,5 +1,7 @@
 #include "mechanism/session/memory_sink.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "reduce/common/error.hpp"
@@ -8,8 +10,11 @@ namespace bielle::mechanism {
 
 void MemorySink::begin_analysis(const std::string& type, std::size_t expected_rows) {
   analyses_.push_back({type, {}, {}, {}, {}, {}});
-  analyses_.back().time.reserve(expected_rows);
-  analyses_.back().values.reserve(expected_rows * rows_.size());
+  // A long run may be ended long before: what is more than this grows as it comes.
+  constexpr std::size_t most_numbers = 1'000'000;
+  const std::size_t rows = std::min(expected_rows, most_numbers / std::max<std::size_t>(rows_.size(), 1));
+  analyses_.back().time.reserve(rows);
+  analyses_.back().values.reserve(rows * rows_.size());
   rows_.restart();
 }
 

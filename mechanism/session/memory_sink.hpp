@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,8 @@ class MemorySink : public ResultSink {
   /// @param analysis  from 0. @throws InputError when there is none of that name
   std::vector<double> read(std::size_t analysis, const std::string& dataset) const;
   std::vector<ResultsColumn> columns() const { return rows_.columns(); }
+  std::optional<ResultsColumn> find(const std::string& dataset) const { return rows_.find(dataset); }
+  std::size_t row_size() const { return rows_.size(); }  ///< numbers in a row, without the time
 
   void begin_analysis(const std::string& type, std::size_t expected_rows) override;
   void record(const State& state, const std::vector<Slots>& slots, const Environment& environment,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -116,6 +117,7 @@ Motion::~Motion() {
 }
 
 void Motion::show() {
+  last_begin_ = std::numeric_limits<double>::infinity();
   session_->motion_ = this;
   session_->started_ = true;
   session_->shown_ = &state();
@@ -222,8 +224,10 @@ bool Motion::step() {
   Session& session = alive();
   if (done()) return false;
   const double before = time();
+  last_begin_ = std::numeric_limits<double>::infinity();  // should it fail
   const EnergyBalance books_before = parts_.books;
   const MarchStep step = parts_.march->advance();
+  last_begin_ = before;
   saved_ = false;
   if (!cautioned_)
     if (const std::string caution = parts_.integration->caution(); !caution.empty()) {
@@ -246,6 +250,15 @@ bool Motion::step() {
     session.notes_->progress((time() - begin()) / (end() - begin()), fmt::format("t = {:.4g} s", time()));
   session.call_back();
   return true;
+}
+
+State Motion::interpolated(double at) const {
+  if (at == time()) return state();
+  if (!(at >= last_begin_ && at < time()))
+    throw InputError(fmt::format("t = {:.6g} s is not within the last step, {}", at,
+                                 last_begin_ < time() ? fmt::format("from {:.6g} to {:.6g} s", last_begin_, time())
+                                                      : std::string("of which there is none yet")));
+  return parts_.integration->interpolated(at);
 }
 
 void Motion::set_memory(int place, double value, bool smooth) {

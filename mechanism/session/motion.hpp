@@ -53,8 +53,8 @@ class Motion {
   double time() const { return state().time; }                   ///< [s]
 
   const State& state() const { return parts_.integration->state(); }
-  /// @param time  within the last step [s]
-  State interpolated(double time) const { return parts_.integration->interpolated(time); }
+  /// @param time  within the last step [s]. @throws InputError when it is not
+  State interpolated(double time) const;
   /// Stored energies now, input and dissipation since the start [J].
   const Energy& energy() const { return parts_.books.totals(); }
   double balance() const { return parts_.books.balance(); }  ///< what is missing [J]
@@ -92,6 +92,7 @@ class Motion {
   Session* session_;  ///< nullptr: ended
   DynamicsOptions options_;
   double end_ = 0;
+  double last_begin_ = 0;  ///< of the last step [s]; infinite where there is none
   Parts parts_;
   StartReport start_;
   std::string last_event_;

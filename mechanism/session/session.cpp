@@ -1,6 +1,7 @@
 #include "mechanism/session/session.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -198,15 +199,27 @@ const std::vector<ResultsColumn>& Session::datasets() const {
   return datasets_;
 }
 
+ResultsColumn Session::column(const std::string& dataset) const {
+  if (std::optional<ResultsColumn> column = readable().find(dataset)) return *std::move(column);
+  std::vector<std::string> names = {"time"};
+  for (const ResultsColumn& each : datasets()) names.push_back(each.dataset);
+  throw InputError(fmt::format("there is no dataset '{}'{}", dataset, did_you_mean(dataset, names)));
+}
+
+std::vector<double> Session::read(const ResultsColumn& column) const {
+  return readable().read(column, reported(*shown_, acting_), system_.slots(), acting_, report());
+}
+
 std::vector<double> Session::read(const std::string& dataset) const {
   if (dataset == "time") return {report().time.value_or(time())};
-  const std::optional<ResultsColumn> column = readable().find(dataset);
-  if (!column) {
-    std::vector<std::string> names = {"time"};
-    for (const ResultsColumn& each : datasets()) names.push_back(each.dataset);
-    throw InputError(fmt::format("there is no dataset '{}'{}", dataset, did_you_mean(dataset, names)));
-  }
-  return readable().read(*column, reported(*shown_, acting_), system_.slots(), acting_, report());
+  return read(column(dataset));
+}
+
+double Session::measure(const std::string& name) const {
+  auto found = gauges_.find(name);
+  if (found == gauges_.end()) found = gauges_.emplace(name, Gauge(name, system_)).first;
+  const Gauge& gauge = found->second;
+  return gauge.value(gauge.reads_reactions() ? reported(*shown_, acting_) : *shown_, acting_);
 }
 
 // -- calling back
@@ -222,6 +235,7 @@ void Session::note(const Event& event) {
 }
 
 void Session::set_input(const std::string& name, double value, bool smooth) {
+  if (!std::isfinite(value)) throw InputError(fmt::format("input '{}': expected a finite number, found {}", name, value));
   for (const Component* component : model_.components_of({Section::measures, name})) {
     const auto* input = dynamic_cast<const InputMeasure*>(component);
     if (!input) continue;
@@ -243,6 +257,8 @@ void Session::note(const std::string& sentence) const {
 }
 
 // -- recording
+
+void Session::remove_sink(const ResultSink& sink) { std::erase(sinks_, &sink); }
 
 void Session::set_recording(Recording recording) {
   if (recording.every < 1) throw InputError("rows are recorded every 1, 2, ... steps");

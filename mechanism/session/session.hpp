@@ -17,11 +17,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "mechanism/session/assembly_options.hpp"
 #include "mechanism/session/frequency_response.hpp"
 #include "mechanism/session/gatherers.hpp"
+#include "mechanism/session/gauge.hpp"
 #include "mechanism/session/kinematics_options.hpp"
 #include "mechanism/session/modes_report.hpp"
 #include "mechanism/session/motion.hpp"
@@ -90,6 +92,7 @@ class Session {
   // -- reading
   const State& state() const { return *shown_; }  ///< of the motion, while one is under way
   double time() const { return shown_->time; }    ///< [s]
+  bool moving() const { return motion_ != nullptr; }
   void set_state(State state);                    ///< of this model's numbers; ends a motion
   /// Position, axes, velocities and accelerations of a node. @throws InputError with the nearest name
   const NodeState& node(const std::string& name) const;
@@ -97,6 +100,12 @@ class Session {
   /// "time". What `only` leaves out of the rows can be read as well. Quaternions have w >= 0.
   /// @throws InputError with the nearest name
   std::vector<double> read(const std::string& dataset) const;
+  /// The same of one that was found before. Any dataset but "time" has a column, which knows its shape.
+  std::vector<double> read(const ResultsColumn& column) const;
+  ResultsColumn column(const std::string& dataset) const;  ///< @throws InputError with the nearest name
+  /// What formulas call by this name, at the state: "main.angle", "main.angle.rate", "pin.position.x", or a measure,
+  /// input or state of the model. @throws InputError with the nearest name
+  double measure(const std::string& name) const;
   const std::vector<ResultsColumn>& datasets() const;  ///< that can be read: names, shapes, units
   /// Stored energies now; input and dissipation since the start of the motion [J].
   Energy energy() const { return report().energy; }
@@ -127,6 +136,7 @@ class Session {
 
   // -- recording
   void add_sink(ResultSink& sink) { sinks_.push_back(&sink); }  ///< which must outlive its use
+  void remove_sink(const ResultSink& sink);                     ///< which gets nothing more
   void set_recording(Recording recording);
   const Recording& recording() const { return recording_; }
   /// What follows is recorded under this name, until the analysis ends or, where it failed, another begins.
@@ -135,6 +145,7 @@ class Session {
   void write(const ResultArray& array);  ///< a result that is no row
   void write(const ResultNames& names);
   void end_analysis();                   ///< writes what components have gathered
+  void abandon_analysis() { open_ = false; }  ///< it has failed: nothing more is recorded of it
   /// What components have gathered over the steps of this analysis, in lines for the user.
   std::string gathered() { return gatherers_.summary(); }
   long rows() const { return rows_; }  ///< recorded in this analysis
@@ -176,6 +187,7 @@ class Session {
   mutable std::vector<ResultsColumn> datasets_;    ///< likewise
   mutable std::unique_ptr<ReactionNorm> norm_;     ///< made where constraints are redundant
   mutable State reported_;
+  mutable std::unordered_map<std::string, Gauge> gauges_;  ///< of the measures that were asked for
 
   Recording recording_;
   std::vector<ResultSink*> sinks_;

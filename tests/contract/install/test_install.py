@@ -1,5 +1,6 @@
 """Installs Bielle into a folder and uses it from there: programs, tools, and the libraries from another project."""
 
+import glob
 import math
 import os
 import re
@@ -41,6 +42,21 @@ class Install(unittest.TestCase):
         for tool in "bielle-plot", "bielle-animate", "bielle-paraview", "bielle-study":
             self.assertIn("usage", run(self.installed("bin", tool), "--help").lower())
         self.assertTrue(os.access(self.installed("share", "bielle", "tools", "convert_mesh.py"), os.X_OK))
+
+    def test_the_python_package_runs_from_there(self):
+        if not os.path.exists(os.path.join(BUILD, "python", "bielle")):
+            self.skipTest("this build has no Python package")
+        package, = glob.glob(self.installed("lib", "python3*", "dist-packages"))
+        model = {"nodes": {"stone": {"velocity": [0, 0, 4], "fixed": ["rx", "ry", "rz"]}}, "gravity": [0, 0, -10],
+                 "elements": {"stone": {"type": "point_mass", "node": "stone", "mass": 1}},
+                 "analysis": [{"type": "dynamic", "duration": 0.5, "step": 0.01}]}
+        script = f"import bielle; run = bielle.run({model!r}); print(bielle.__file__); print(round(run['nodes/stone/position'][-1, 2], 9))"
+        done = subprocess.run(["/usr/bin/python3", "-c", script], capture_output=True, text=True, check=True, cwd=self.folder.name,
+                              env={**os.environ, "PYTHONPATH": package})
+        self.assertEqual(done.stdout.split(), [os.path.join(package, "bielle", "__init__.py"), "0.75"])
+        self.assertEqual(sorted(os.listdir(os.path.join(package, "bielle"))), sorted(
+            name for name in os.listdir(os.path.join(BUILD, "python", "bielle")) if name != "__pycache__"))
+        self.assertFalse(os.path.exists(self.installed("include", "bielle", "mechanism", "python")))
 
     def test_headers_keep_their_folders(self):
         self.assertTrue(os.path.exists(self.installed("include", "bielle", "reduce", "common", "error.hpp")))

@@ -17,7 +17,7 @@ FOLDERS = {
                   "joints", "joints/friction", "joints/actions", "joints/cables", "joints/couplings", "joints/flexible", "joints/gears", "joints/pairs", "joints/cams", "joints/contacts",
                   "hydraulics/circuit", "hydraulics/lines", "hydraulics/actuators", "hydraulics/reading",
                   "system", "solvers/newton", "solvers/constraints", "solvers/start", "solvers/linearised", "solvers/statics", "solvers/dynamics",
-                  "session", "analyses", "io", ""],
+                  "session", "analyses", "io", "python", ""],
 }
 SHARED = ["common", "spectral", "superelement"]
 COMPONENTS = [f for f in FOLDERS["mechanism"] if f.split("/")[0] in ("contact_laws", "measures", "elements", "joints", "hydraulics")]

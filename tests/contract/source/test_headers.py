@@ -17,6 +17,7 @@ from includes import sources
 
 ROOT = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", ".."))
 BUILD = os.environ["BIELLE_BUILD"]
+OPTIONAL = {"mechanism/python"}  # built where pybind11 is
 
 
 def compilers():
@@ -59,7 +60,8 @@ def errors_of(header, call, folder):
 class Headers(unittest.TestCase):
     def test_every_header_compiles_alone(self):
         calls = compilers()
-        headers = [path for path in sources(ROOT) if path.endswith(".hpp")]
+        left_out = OPTIONAL - set(calls)
+        headers = [path for path in sources(ROOT) if path.endswith(".hpp") and os.path.dirname(path) not in left_out]
         self.assertGreater(len(headers), 20)
         self.assertEqual({os.path.dirname(h) for h in headers} - set(calls), set(), "folders that are not built")
         with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:

@@ -24,7 +24,7 @@ class Includes(unittest.TestCase):
                    ("reduce/main.cpp", "reduce/reduction/a.hpp"), ("mechanism/io/a.cpp", "mechanism/math/so3.hpp"),
                    ("mechanism/elements/beam/a.cpp", "reduce/superelement/superelement.hpp"),
                    ("mechanism/solvers/start/a.cpp", "reduce/spectral/a.hpp"), ("mechanism/analyses/a.cpp", "mechanism/session/session.hpp"),
-                   ("mechanism/io/a.cpp", "mechanism/analyses/analysis.hpp"),
+                   ("mechanism/io/a.cpp", "mechanism/analyses/analysis.hpp"), ("mechanism/python/a.cpp", "mechanism/io/a.hpp"),
                    ("mechanism/joints/a.cpp", "mechanism/measures/a.hpp"),
                    ("mechanism/joints/pairs/a.cpp", "mechanism/joints/actions/a.hpp"),
                    ("mechanism/solvers/dynamics/a.cpp", "mechanism/solvers/start/a.hpp"),
@@ -32,7 +32,7 @@ class Includes(unittest.TestCase):
                    ("mechanism/io/a.cpp", "mechanism/elements/beam/beam.hpp")]
         refused = [("reduce/common/a.hpp", "reduce/mesh/mesh.hpp"), ("reduce/mesh/a.hpp", "reduce/body_file.hpp"),
                    ("mechanism/model/a.cpp", "mechanism/elements/beam/beam.hpp"), ("mechanism/io/a.cpp", "reduce/fe/a.hpp"),
-                   ("mechanism/session/a.cpp", "mechanism/io/results_file.hpp"),
+                   ("mechanism/session/a.cpp", "mechanism/io/results_file.hpp"), ("mechanism/io/a.cpp", "mechanism/python/a.hpp"),
                    ("mechanism/session/a.cpp", "mechanism/analyses/analysis.hpp"),
                    ("mechanism/joints/a.cpp", "reduce/body_file.hpp"), ("reduce/fe/a.cpp", "mechanism/math/so3.hpp"),
                    ("mechanism/solvers/start/a.cpp", "mechanism/joints/a.hpp"),

@@ -7,6 +7,7 @@
 
 #include "mechanism/io/describe_model.hpp"
 #include "mechanism/io/run_analyses.hpp"
+#include "mechanism/session/memory_sink.hpp"
 #include "reduce/common/hdf5_file.hpp"
 #include "tests/support/messages.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -338,4 +339,37 @@ TEST_CASE("slips in `only` are told") {
   CHECK_THAT(message("only: {nods: [lower]}"), Catch::Contains("did you mean 'nodes'"));
   CHECK_THAT(message("only: {joints: [elbow, elbow]}"), Catch::Contains("is named twice"));
   CHECK_THAT(message("only: {elements: [upper]}, fields: {lower: [stress]}"), Catch::Contains("leaves out 'lower'"));
+}
+
+TEST_CASE("a run without a file tells its listener all that a file would hold") {
+  const test::TemporaryFolder folder;
+  const MechanismFile file = read_mechanism_text(R"yaml(
+nodes: {arm: {}}
+elements: {arm: {type: rigid_body, node: arm, mass: 1, inertia: [0.3, 0.3, 0.5]}}
+joints: {axle: {type: hinge, nodes: [ground, arm], axis: [0, 0, 1], stiffness: 3, start: 0.2}}
+analysis: [{type: dynamic, duration: 1, step: 0.3}]
+output: {log: true}
+)yaml",
+                                                 "wheel.yaml");
+  struct Said : Notes {
+    void note(const std::string& sentence) override { sentences.push_back(sentence); }
+    std::vector<std::string> sentences;
+  } said;
+  MemorySink memory(file.model);
+  int steps = 0;
+  Progress quiet(true);
+  const std::vector<AnalysisSummary> summaries =
+      run_analyses(file, "", quiet, "", 1, {&memory, &said, [&](Session&) { ++steps; }});
+  const std::string path = folder / "wheel.h5";
+  run_analyses(file, path, quiet);
+  const Eigen::MatrixXd written = Hdf5File::open(path).read_matrix("/joints/axle/coordinate");
+  const std::vector<double> kept = memory.read(0, "joints/axle/coordinate");
+  REQUIRE(kept.size() == static_cast<std::size_t>(written.size()));
+  for (std::size_t k = 0; k < kept.size(); ++k) CHECK(kept[k] == written(static_cast<Eigen::Index>(k), 0));
+  CHECK(steps == 4);
+  CHECK(summaries.at(0).records == 5);
+  REQUIRE(said.sentences.size() == 2);
+  CHECK_THAT(said.sentences[0], Catch::Contains("no results file to write the log"));
+  CHECK_THAT(said.sentences[1], Catch::Contains("0.25 s in place of 0.3 s"));
+  CHECK_THROWS_AS(run_analyses(file, "", quiet, path), InputError);
 }

@@ -1,0 +1,35 @@
+"""Bielle: flexible mechanisms by finite elements, driven from Python.
+
+A model is the same as in a file of bielle-mechanism: a YAML file, a text, or a dictionary with the same names and keys.
+
+    import bielle
+
+    model = bielle.load("engine.yaml", parameters={"speed": 50})
+    session = model.session()
+    session.statics(steps=5)
+    for motion in session.dynamics(duration=2, step=1e-3):
+        session.inputs["torque"] = controller(session.measure("arm.angle"), motion.time)
+    session["joints/main/coordinate"]                  # of now
+
+    run = bielle.run("engine.yaml")                    # all analyses of the file; results in memory, no files
+    run.time, run["nodes/pin/position"]                # arrays of NumPy, row by row
+
+`load` and `read` make a `Model`, `Model.session` a `Session`, `Session.dynamics` a `Motion`; `run` gives a `Run` of
+`Results`. Units are SI and radians. What cannot be done raises `InputError` or `ComputationError`, with the sentences of
+the programs. mechanism/README.md describes the model, mechanism/io/README.md the names of results.
+"""
+
+from ._core import ComputationError, Error, InputError, Node, State
+from ._core import version as __version__
+from .models import Model, load, read
+from .motions import Motion
+from .results import Dataset, Event, Results
+from .runs import Run, run
+from .sessions import Inputs, Recording, Session
+
+__all__ = ["ComputationError", "Dataset", "Error", "Event", "InputError", "Inputs", "Model", "Motion", "Node", "Recording",
+           "Results", "Run", "Session", "State", "load", "read", "run", "__version__"]
+
+for _each in (Node, State):
+    _each.__module__ = "bielle"
+del _each

@@ -1,0 +1,123 @@
+"""Models: read from a file, a text or a dictionary."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from . import _core
+from .yaml_text import yaml_text
+
+if TYPE_CHECKING:
+    from .runs import Run
+    from .sessions import Session
+
+Parameters = Mapping[str, "float | str"]
+
+
+def load(path: str | os.PathLike, parameters: Parameters | None = None) -> Model:
+    """Reads a model file.
+
+    parameters: values of the file's `parameters`, numbers or formulas, in place of those in the file (as `--set` does).
+    Raises InputError with file, line and key.
+    """
+    return Model(_core.Model.read_file(os.fspath(path), _overrides(parameters)))
+
+
+def read(model: str | Mapping[str, Any], parameters: Parameters | None = None, *, name: str = "model",
+         folder: str | os.PathLike | None = None) -> Model:
+    """Reads a model from a YAML text or from a dictionary with the same names and keys as a file.
+
+    In a dictionary numbers may be those of NumPy, lists tuples and arrays; formulas are texts. Numbers arrive to the last bit.
+    parameters: as of `load`.
+    name: stands for the file in messages.
+    folder: that names of files in the model are relative to; the working folder, unless given.
+    Raises InputError; of a dictionary with the path of the key, of a text with its line as well.
+    """
+    place = os.path.join(os.fspath(folder), name) if folder is not None else name
+    if isinstance(model, os.PathLike) or isinstance(model, str) and model.endswith((".yaml", ".yml")):
+        raise _core.InputError(f"{name}: '{os.fspath(model)}' is the name of a file, which bielle.load reads")
+    if isinstance(model, str):
+        return Model(_core.Model.read_text(model, place, True, _overrides(parameters)))
+    given = dict(model) if isinstance(model, Mapping) else model
+    return Model(_core.Model.read_text(yaml_text(given, place), place, False, _overrides(parameters)))
+
+
+def _overrides(parameters: Parameters | None) -> dict[str, str]:
+    def text(value: float | str) -> str:
+        return value if isinstance(value, str) else repr(float(value))
+
+    return {name: text(value) for name, value in (parameters or {}).items()}
+
+
+class Model:
+    """A mechanism as described: made by `load` or `read`, never changed. Any number of sessions may share it."""
+
+    def __init__(self, core: _core.Model):
+        self._core = core
+
+    def session(self, threads: int = 1) -> Session:
+        """A session: the model at work.
+
+        threads: that evaluate costly components at the same time; results do not depend on them.
+        """
+        from .sessions import Session
+        return Session(self, threads)
+
+    def run(self, output: str | os.PathLike | None = None, **options: Any) -> Run:
+        """Runs all analyses of the model: see `bielle.run`."""
+        from .runs import run
+        return run(self, output, **options)
+
+    def describe(self) -> str:
+        """What `bielle-mechanism --check` prints: counts, degrees of freedom, every entry and what became of it."""
+        return self._core.describe()
+
+    @property
+    def title(self) -> str:
+        """The key `mechanism`."""
+        return self._core.title
+
+    @property
+    def text(self) -> str:
+        """The YAML text; of a dictionary the one that was made of it."""
+        return self._core.text
+
+    @property
+    def path(self) -> str:
+        """Of the file; empty where there is none."""
+        return self._core.path
+
+    @property
+    def parameters(self) -> dict[str, float]:
+        """Values of the parameters, those that were given included."""
+        return self._core.parameters
+
+    @property
+    def doubts(self) -> list[str]:
+        """Sentences on values that are possible and probably not meant."""
+        return self._core.doubts
+
+    @property
+    def nodes(self) -> list[str]:
+        """Names of all nodes in the order of a State: the ground, those of the model, those inside of elements."""
+        return self._core.nodes
+
+    @property
+    def inputs(self) -> list[str]:
+        """Names of the inputs."""
+        return self._core.inputs
+
+    @property
+    def entries(self) -> dict[str, list[str]]:
+        """Names in the sections `elements`, `joints`, `drives`, `loads`, `states`, `measures`, `hydraulics`."""
+        return self._core.entries
+
+    @property
+    def analyses(self) -> list[str]:
+        """Types of the analyses that the model lists."""
+        return self._core.analyses
+
+    def __repr__(self) -> str:
+        return f"<bielle.Model {self.title or self.path or 'without a title'!r}>"

@@ -1,0 +1,108 @@
+"""Results of an analysis, in memory."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import NamedTuple
+
+import numpy as np
+
+from . import _core
+
+
+class Dataset(NamedTuple):
+    """What a dataset holds."""
+
+    shape: tuple[int, ...]  # of one row, or of the whole where it has none
+    units: str
+    description: str
+    rows: bool  # whether it has one entry per row
+
+
+class Event(NamedTuple):
+    """A crossing that a motion has met: the end of a contact, an event of the model."""
+
+    time: float  # [s]
+    name: str
+
+
+class NothingKept:
+    """In place of what was recorded: an analysis whose rows are not in memory."""
+
+    def __init__(self, type_: str):
+        self._type = type_
+
+    def type(self, _: int) -> str:
+        return self._type
+
+    def rows(self, _: int) -> int:
+        return 0
+
+    def read(self, _: int, name: str) -> np.ndarray:
+        raise _core.InputError(f"'{name}' was not kept in memory: that was not asked for")
+
+    def datasets(self, _: int) -> dict:
+        return {}
+
+    def events(self, _: int) -> list:
+        return []
+
+
+class Results(Mapping):
+    """What one analysis recorded, by the names of a results file: results["joints/main/coordinate"].
+
+    Datasets over time have one row per recorded instant: "time" (rows), "nodes/pin/position" (rows, 3). They are arrays of
+    NumPy that are not to be written: views of the recorded numbers, without a copy. (While the analysis is still under way,
+    they are copies of what there is so far.) Others are arrays or numbers: "peaks/rod/all/von_mises/value".
+    """
+
+    def __init__(self, recorder: _core.Recorder | NothingKept, number: int, found: tuple[str, dict, int] | None = None):
+        self._recorder = recorder
+        self._number = number
+        self._summary, self._numbers = (found[0], found[1]) if found else ("", {})
+
+    @property
+    def type(self) -> str:
+        """As in a model: "dynamic"."""
+        return self._recorder.type(self._number)
+
+    @property
+    def time(self) -> np.ndarray:
+        """(rows) [s]; of a static analysis the load factors."""
+        return self["time"]
+
+    @property
+    def summary(self) -> str:
+        """What the program prints of the analysis. Empty for motions that were stepped by hand."""
+        return self._summary
+
+    @property
+    def numbers(self) -> dict[str, list[float]]:
+        """What the summary says in numbers: "steps", "load_factor", "limit_points"."""
+        return self._numbers
+
+    @property
+    def events(self) -> list[Event]:
+        """Crossings, in the order of time."""
+        return [Event(*event) for event in self._recorder.events(self._number)]
+
+    @property
+    def datasets(self) -> dict[str, Dataset]:
+        """What there is, besides "time": shapes and units by name."""
+        return {name: Dataset(*about) for name, about in self._recorder.datasets(self._number).items()}
+
+    def __getitem__(self, name: str) -> np.ndarray | float:
+        """A dataset. Raises InputError with the nearest name."""
+        return self._recorder.read(self._number, name)
+
+    def __contains__(self, name: object) -> bool:
+        return name == "time" or name in self._recorder.datasets(self._number)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(["time", *self._recorder.datasets(self._number)])
+
+    def __len__(self) -> int:
+        return 1 + len(self._recorder.datasets(self._number))
+
+    def __repr__(self) -> str:
+        return f"<bielle.Results of an analysis '{self.type}': {self._recorder.rows(self._number)} rows>"

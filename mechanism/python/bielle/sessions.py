@@ -1,0 +1,317 @@
+"""Sessions: a model at work."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator, MutableMapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import _core
+from .motions import Motion
+from .results import Dataset, NothingKept, Results
+from .yaml_text import yaml_text
+
+if TYPE_CHECKING:
+    from .models import Model
+
+_SILENT = _core.Callbacks(None, None)
+
+
+class Session:
+    """A model at work: assemble it, bring it into equilibrium, move it, read it, save it. Made by `Model.session`.
+
+    What is asked for one after the other starts where the last thing ended. Nothing is printed and no file written.
+
+        session.statics(steps=5)
+        motion = session.dynamics(duration=2, step=1e-3)
+        motion.advance_to(0.5)
+        session["nodes/pin/position"], session.measure("main.angle"), session.energy["kinetic"]
+
+    While it computes, other threads of Python run; they may compute with other sessions, of the same model as well. A
+    session itself works for one thread at a time and refuses others with an Error.
+    """
+
+    def __init__(self, model: Model, threads: int = 1):
+        self._model = model
+        self._core = _core.Session(model._core, threads)
+        self._on_step: list[Callable[[Session], Any]] = []
+        self._on_event: list[Callable[[Session, float, str], Any]] = []
+
+    @property
+    def model(self) -> Model:
+        """That is at work."""
+        return self._model
+
+    # -- computing
+
+    def assemble(self, *, record: bool = True, **keys: Any) -> Results:
+        """Makes positions and velocities consistent: the analysis `assembly`, with its keys (keep=...)."""
+        return self.run({"type": "assembly", **keys}, record=record)
+
+    def statics(self, *, steps: int | str | None = None, arc_length: dict | None = None, newton: dict | None = None,
+                record: bool = True) -> Results:
+        """Equilibrium under the whole load, or along a path: the analysis `static`, with its keys.
+
+        steps: equal increments of the load, or "auto". arc_length: {"until": {...}, "points": n}, past limit points.
+        newton: {"tolerance": ..., "iterations": ..., "line_search": ...}.
+        Raises ComputationError where there is none near; the session then stands in the last equilibrium.
+        """
+        return self.run(_given(type="static", steps=steps, arc_length=arc_length, newton=newton), record=record)
+
+    def dynamics(self, duration: float | str, step: float | str | None = None, *, tolerance: float | None = None,
+                 largest_step: float | None = None, scheme: str | None = None, rho: float | None = None,
+                 alpha: float | None = None, constraints: str | None = None, start: str | None = None,
+                 newton: dict | None = None, saved: np.ndarray | None = None) -> Motion:
+        """A motion from where the session stands: the analysis `dynamic`, with its keys and defaults, not yet moved.
+
+        duration, step: [s]; with a tolerance steps are adaptive and `step` is the first.
+        scheme: "generalized_alpha" (rho), "hht" (alpha) or "newmark". constraints: "corrected", "position", "stabilized".
+        start: "as_given" or "equilibrium". newton: {"tolerance": ..., "tangent": "reused" or "renewed", ...}.
+        saved: what `save` gave in a motion of this model: the motion goes on from there, to the last bit.
+        """
+        keys = _given(type="dynamic", duration=duration, step=step, tolerance=tolerance, largest_step=largest_step,
+                      scheme=scheme, rho=rho, alpha=alpha, constraints=constraints, start=start, newton=newton)
+        return Motion(self, self._core.dynamics(yaml_text(keys, "Session.dynamics"), saved, self._callbacks))
+
+    def run(self, analysis: dict | int, *, record: bool = True) -> Results:
+        """Does one analysis, from where the session stands.
+
+        analysis: its keys as in a model file, {"type": "static", "steps": 5}, of any type; or the number of one that the
+        model lists, from 0.
+        record: rows in memory (Results); otherwise there are the summary and its numbers alone.
+        """
+        if isinstance(analysis, int):
+            if not -len(self._model.analyses) <= analysis < len(self._model.analyses):
+                raise _core.InputError(f"the model lists {len(self._model.analyses)} analyses; there is no number {analysis}")
+            number = analysis % len(self._model.analyses)
+            type_ = self._model.analyses[number]
+            return self._recorded(record, type_, lambda: self._core.run_listed(number, self._callbacks))
+        text = yaml_text(analysis, "Session.run")
+        type_ = str(analysis.get("type", ""))
+        name = f"analysis {type_}" if type_ else "Session.run"
+        return self._recorded(record, type_, lambda: self._core.run_keys(text, name, self._callbacks))
+
+    def _recorded(self, record: bool, type_: str, compute: Callable[[], tuple]) -> Results:
+        if not record:
+            return Results(NothingKept(type_), 0, compute())
+        recorder = self._core.record("", None, None, True)
+        try:
+            found = compute()
+        finally:
+            self._core.end_record(recorder)
+        return Results(recorder, len(recorder) - 1, found)
+
+    # -- reading
+
+    def __getitem__(self, dataset: str) -> np.ndarray | float:
+        """A dataset of the results file as it is now: an array, or a number. Raises InputError with the nearest name."""
+        return self._core.read(dataset)
+
+    def measure(self, name: str) -> float:
+        """What formulas call by this name: "arm.angle", "arm.angle.rate", "arm.reaction.x", "pin.position.x", or a measure,
+        an input or a state of the model. Raises InputError with the nearest name."""
+        return self._core.measure(name)
+
+    @property
+    def datasets(self) -> dict[str, Dataset]:
+        """What can be read, besides "time": shapes and units by name."""
+        return {name: Dataset(*about) for name, about in self._core.datasets().items()}
+
+    @property
+    def time(self) -> float:
+        """[s]"""
+        return self._core.time()
+
+    @property
+    def moving(self) -> bool:
+        """Whether a motion is under way."""
+        return self._core.moving()
+
+    def node(self, name: str) -> _core.Node:
+        """Position, axes, velocities and accelerations of a node. Raises InputError with the nearest name."""
+        return self._core.node(name)
+
+    @property
+    def state(self) -> _core.State:
+        """A copy of all numbers that move. To set one (session.state = changed) ends a motion."""
+        return self._core.state()
+
+    @state.setter
+    def state(self, state: _core.State) -> None:
+        self._core.set_state(state)
+
+    @property
+    def energy(self) -> dict[str, float]:
+        """[J]: "kinetic", "elastic", "gravity" now; "dissipated" and "input" since the start of the motion."""
+        return self._core.energy()
+
+    @property
+    def balance(self) -> float:
+        """What is missing in the balance of energy [J]."""
+        return self._core.balance()
+
+    @property
+    def redundant(self) -> list[str]:
+        """Constraints that repeat others and were set aside, by joint."""
+        return self._core.redundant()
+
+    @property
+    def mobility(self) -> dict[str, Any]:
+        """Where the model starts: "degrees" of freedom, "independent" constraints, "nearly_redundant" ones by joint."""
+        return self._core.mobility()
+
+    @property
+    def notes(self) -> list[str]:
+        """Sentences that the user should read, each once."""
+        return self._core.notes()
+
+    def forget_notes(self) -> None:
+        """Begins a new list of them."""
+        self._core.forget_notes()
+
+    # -- steering
+
+    @property
+    def inputs(self) -> Inputs:
+        """The model's inputs by name: session.inputs["torque"] = 2."""
+        return Inputs(self)
+
+    def set_input(self, name: str, value: float, *, smooth: bool = False) -> None:
+        """Sets an input of the model, which holds from here on. Raises InputError with the nearest name.
+
+        In a motion forces jump, and the motion is restarted with its next step. smooth: the value is one of a smooth
+        function of time that is seen once a step: nothing jumps, and the step costs no restart.
+        """
+        self._core.set_input(name, value, smooth)
+
+    def stop(self) -> None:
+        """Ends what is computing (`finish`, `advance_to`, an analysis) after the current step: for callbacks."""
+        self._core.stop()
+
+    def on_step(self, callback: Callable[[Session], Any]) -> Callable[[Session], Any]:
+        """Calls callback(session) after each step of a motion and each point of statics. It may read the session, set its
+        inputs and stop it; what it raises ends the computation. Can decorate a function."""
+        self._on_step.append(callback)
+        return callback
+
+    def on_event(self, callback: Callable[[Session, float, str], Any]) -> Callable[[Session, float, str], Any]:
+        """Calls callback(session, time, name) for each crossing of a motion, after the step that ends on it."""
+        self._on_event.append(callback)
+        return callback
+
+    def remove_callback(self, callback: Callable) -> None:
+        """Calls it no more."""
+        for callbacks in (self._on_step, self._on_event):
+            while callback in callbacks:
+                callbacks.remove(callback)
+
+    @property
+    def _callbacks(self) -> _core.Callbacks:
+        if not self._on_step and not self._on_event:
+            return _SILENT
+        return _core.Callbacks(self._step if self._on_step else None, self._event if self._on_event else None)
+
+    def _step(self) -> None:
+        for callback in tuple(self._on_step):
+            callback(self)
+
+    def _event(self, time: float, name: str) -> None:
+        for callback in tuple(self._on_event):
+            callback(self, time, name)
+
+    # -- saving
+
+    def save(self) -> np.ndarray:
+        """Everything that the session needs to continue, as numbers."""
+        return self._core.save()
+
+    def restore(self, saved: np.ndarray) -> None:
+        """Goes back to what was saved, by this session or another one of the same model, to the last bit.
+
+        What was saved in motion needs a motion under way, or `dynamics(..., saved=saved)`.
+        """
+        self._core.restore(saved)
+
+    # -- recording
+
+    def record(self, output: str | os.PathLike | None = None, *, every: int | None = None,
+               times: Sequence[float] | None = None, memory: bool = True) -> Recording:
+        """Records what is computed in a `with` block: each analysis and motion by itself.
+
+            with session.record() as recording:
+                session.dynamics(duration=2, step=1e-3).finish()
+            recording[-1]["joints/main/coordinate"]
+
+        output: a results file to write as well, which is complete at the end of the block. every, times: which rows of
+        motions; as the model's `output` says, unless given. memory: rows are kept there, not only written to a file.
+        """
+        return Recording(self, output, every, times, memory)
+
+    def __repr__(self) -> str:
+        return f"<bielle.Session of {self._model!r} at t = {self.time:.6g} s>"
+
+
+class Inputs(MutableMapping):
+    """The inputs of a session by name: inputs["torque"] = 2 sets (Session.set_input), inputs["torque"] reads."""
+
+    def __init__(self, session: Session):
+        self._session = session
+
+    def __setitem__(self, name: str, value: float) -> None:
+        self._session._core.set_input(name, value, False)
+
+    def __getitem__(self, name: str) -> float:
+        if name not in self._session.model.inputs:
+            raise _core.InputError(f"there is no input '{name}'{_core.did_you_mean(name, list(self))}")
+        return self._session._core.measure(name)
+
+    def __delitem__(self, name: str) -> None:
+        raise TypeError("inputs belong to the model and stay")
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._session.model.inputs)
+
+    def __len__(self) -> int:
+        return len(self._session.model.inputs)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._session.model.inputs
+
+    def __repr__(self) -> str:
+        return f"<bielle.Inputs {dict(self)}>"
+
+
+class Recording(Sequence):
+    """What is recorded in a block of `Session.record`: Results of one analysis or motion after the other."""
+
+    def __init__(self, session: Session, output: str | os.PathLike | None, every: int | None,
+                 times: Sequence[float] | None, memory: bool):
+        self._session = session
+        self._arguments = ("" if output is None else os.fspath(output), every,
+                           None if times is None else [float(time) for time in times], memory)
+        self._recorder: _core.Recorder | None = None
+
+    def __enter__(self) -> Recording:
+        if self._recorder:
+            raise _core.Error("a recording is made once: ask the session for another one")
+        self._recorder = self._session._core.record(*self._arguments)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._session._core.end_record(self._recorder)
+
+    def __len__(self) -> int:
+        return len(self._recorder) if self._recorder else 0
+
+    def __getitem__(self, number):
+        if isinstance(number, slice):
+            return [self[k] for k in range(*number.indices(len(self)))]
+        if not -len(self) <= number < len(self):
+            raise IndexError(f"{len(self)} analyses are recorded")
+        return Results(self._recorder, number % len(self))
+
+
+def _given(**keys: Any) -> dict[str, Any]:
+    return {key: value for key, value in keys.items() if value is not None}

@@ -1,0 +1,34 @@
+// Results that a session hands over: in memory, and in a file where one is wanted.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "mechanism/io/results_file.hpp"
+#include "mechanism/python/gate.hpp"
+#include "mechanism/python/held_model.hpp"
+#include "mechanism/session/memory_sink.hpp"
+
+namespace bielle::python {
+
+/// Knows which of its analyses are complete: only their numbers stay where they are.
+class RecorderMemory final : public mechanism::MemorySink {
+ public:
+  using MemorySink::MemorySink;
+  void end_analysis() override { ended_ = analyses().size(); }
+  bool stays(std::size_t analysis) const { return analysis < ended_ || analysis + 1 < analyses().size(); }
+
+ private:
+  std::size_t ended_ = 0;
+};
+
+struct Recorder {
+  Recorder(HeldModel of, std::shared_ptr<const Gate> by)
+      : model(std::move(of)), gate(std::move(by)), memory(model->model) {}
+  HeldModel model;
+  std::shared_ptr<const Gate> gate;  ///< of the session that writes; nullptr: nobody writes any more
+  RecorderMemory memory;
+  std::unique_ptr<mechanism::ResultsFile> file;
+};
+
+}  // namespace bielle::python

@@ -1,0 +1,32 @@
+// BLAS by one thread while anything of Bielle computes, as in the programs; afterwards as before.
+#pragma once
+
+#include <memory>
+#include <mutex>
+
+#include "reduce/spectral/blas.hpp"
+
+namespace bielle::python {
+
+/// NumPy may share the BLAS and wants its threads. Several of these objects may live at the same time: the first sets
+/// one thread, the last gives the others back.
+class SingleBlasThread {
+ public:
+  SingleBlasThread() {
+    const std::lock_guard<std::mutex> lock(guard_);
+    if (living_++ == 0) one_ = std::make_unique<BlasThreads>(1);
+  }
+  ~SingleBlasThread() {
+    const std::lock_guard<std::mutex> lock(guard_);
+    if (--living_ == 0) one_.reset();
+  }
+  SingleBlasThread(const SingleBlasThread&) = delete;
+  SingleBlasThread& operator=(const SingleBlasThread&) = delete;
+
+ private:
+  static inline std::mutex guard_;
+  static inline int living_ = 0;
+  static inline std::unique_ptr<BlasThreads> one_;
+};
+
+}  // namespace bielle::python

@@ -1,0 +1,181 @@
+"""Python reproduces runs of bielle-mechanism to the last bit, whichever way it is asked."""
+
+import os
+import subprocess
+import tempfile
+import unittest
+
+import h5py
+import numpy as np
+
+import bielle
+from samples import BEAM, PENDULUM
+
+PROGRAM = os.path.join(os.environ["BIELLE_PROGRAMS"], "bielle-mechanism")
+EXAMPLES = os.path.abspath(os.path.join(os.path.dirname(__file__), *[os.pardir] * 3, "mechanism", "examples"))
+
+
+def recorded(group):
+    """Datasets of an analysis in a results file, without rows that do not count and without events."""
+    rows = len(group["time"])
+    found = {}
+
+    def visit(name, item):
+        if isinstance(item, h5py.Dataset) and not name.startswith("events/"):
+            grows = item.maxshape and item.maxshape[0] is None
+            found[name] = item[:rows] if grows else item[()]
+
+    group.visititems(visit)
+    return found
+
+
+class AgainstTheProgram(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def write(self, text, name="model.yaml"):
+        path = os.path.join(self.folder, name)
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        return path
+
+    def run_program(self, model, *arguments):
+        output = os.path.join(self.folder, "program.h5")
+        subprocess.run([PROGRAM, model, "-o", output, "--quiet", *arguments], check=True, stdin=subprocess.DEVNULL)
+        return output
+
+    def expect_equal(self, expected, results):
+        """All of an analysis of a results file, and nothing else."""
+        expected = recorded(expected)
+        self.assertEqual(set(expected), {"time", *results.datasets})
+        for name, values in expected.items():
+            found = np.asarray(results[name])
+            self.assertEqual((found.shape, found.dtype), (values.shape, np.float64), name)
+            self.assertTrue(np.array_equal(found, values, equal_nan=True), name)
+
+    def expect_same_run(self, model):
+        """As a whole in memory, with a file, and analysis by analysis in a session."""
+        written = os.path.join(self.folder, "python.h5")
+        whole, with_file = bielle.run(model), bielle.run(model, written)
+        session = bielle.load(model).session()
+        with h5py.File(self.run_program(model)) as program, h5py.File(written) as python:
+            self.assertEqual(python.attrs["complete"], 1)
+            for k, type_ in enumerate(bielle.load(model).analyses):
+                group = program[f"analysis_{k + 1}"]
+                self.assertGreater(len(group["time"]), 1)
+                self.assertEqual(whole[k].type, type_)
+                for results in whole[k], with_file[k], session.run(k):
+                    self.expect_equal(group, results)
+                    events = group["events/time"][:] if "events" in group else []
+                    self.assertEqual([event.time for event in results.events], list(events))
+                expected, found = recorded(group), recorded(python[f"analysis_{k + 1}"])
+                self.assertEqual(set(expected), set(found))
+                for name in expected:
+                    self.assertTrue(np.array_equal(expected[name], found[name], equal_nan=True), name)
+
+    def test_fixed_steps(self):
+        self.expect_same_run(self.write(PENDULUM))
+
+    def test_adaptive_steps(self):
+        self.expect_same_run(self.write(PENDULUM.replace("step: 2e-3", "tolerance: 1e-6")))
+
+    def test_statics_and_dynamics_of_a_beam(self):
+        self.expect_same_run(self.write(BEAM))
+
+    def test_states_events_and_equilibrium_of_an_example(self):
+        self.expect_same_run(os.path.join(EXAMPLES, "servo.yaml"))
+
+    def test_a_path_past_limit_points(self):
+        self.expect_same_run(os.path.join(EXAMPLES, "snap_through.yaml"))
+
+    def test_contacts(self):
+        self.expect_same_run(os.path.join(EXAMPLES, "contacts.yaml"))
+
+    def test_a_motion_step_by_step(self):
+        model = self.write(PENDULUM)
+        session = bielle.load(model).session()
+        names = ("nodes/lower/position", "nodes/lower/rotation", "joints/elbow/coordinate", "joints/elbow/reaction",
+                 "measures/reach", "energy/kinetic", "solver/newton_iterations")
+        motion = session.dynamics(duration=1.2, step=2e-3)
+        rows = {name: [session[name]] for name in names}
+        measured = [session.measure("reach")]
+        for _ in motion:
+            for name in names:
+                rows[name].append(session[name])
+            measured.append(session.measure("reach"))
+        with h5py.File(self.run_program(model)) as program:
+            expected = recorded(program["analysis_1"])
+        self.assertTrue(np.array_equal(expected["measures/reach"], measured))
+        for name in names:
+            # Alone, a quaternion has w >= 0; in rows it continues the row before.
+            signs = np.where(expected[name][:, :1] < 0, -1, 1) if name.endswith("rotation") else 1
+            self.assertTrue(np.array_equal(expected[name] * signs, np.array(rows[name])), name)
+
+    def test_a_motion_that_is_recorded(self):
+        model, output = self.write(PENDULUM), os.path.join(self.folder, "motion.h5")
+        session = bielle.load(model).session()
+        with session.record(output) as recording:
+            motion = session.dynamics(duration=1.2, step=2e-3)
+            for motion in motion:
+                if motion.time > 0.5:
+                    break
+            self.assertTrue(motion.finish())
+        self.assertEqual(len(recording), 1)
+        with h5py.File(self.run_program(model)) as program, h5py.File(output) as written:
+            self.expect_equal(program["analysis_1"], recording[0])
+            self.expect_equal(written["analysis_1"], recording[0])
+            self.assertEqual(written.attrs["complete"], 1)
+            self.assertEqual(written["input"][()], program["input"][()])
+
+    def test_a_dictionary_is_the_same_model(self):
+        third = 1 / 3
+        keys = {
+            "gravity": (0, 0, -9.81),
+            "nodes": {"arm": {"position": np.array([third, 0, 0])}},
+            "elements": {"arm": {"type": "rigid_body", "node": "arm", "mass": np.float64(2.1), "inertia": [0.1, 0.1, 0.1]}},
+            "joints": {"main": {"type": "hinge", "nodes": ["ground", "arm"], "position": [0, 0, 0], "axis": [0, 1, 0],
+                                "damping": 0.1}},
+            "drives": {"motor": {"joint": "main", "torque": "sin(3*t)"}},
+            "analysis": [{"type": "dynamic", "duration": 0.5, "step": 1e-3}],
+        }
+        text = f"""\
+gravity: [0, 0, -9.81]
+nodes: {{arm: {{position: [{third!r}, 0, 0]}}}}
+elements: {{arm: {{type: rigid_body, node: arm, mass: 2.1, inertia: [0.1, 0.1, 0.1]}}}}
+joints: {{main: {{type: hinge, nodes: [ground, arm], position: [0, 0, 0], axis: [0, 1, 0], damping: 0.1}}}}
+drives: {{motor: {{joint: main, torque: "sin(3*t)"}}}}
+analysis: [{{type: dynamic, duration: 0.5, step: 1e-3}}]
+"""
+        with h5py.File(self.run_program(self.write(text))) as program:
+            self.expect_equal(program["analysis_1"], bielle.read(keys).run()[0])
+            self.expect_equal(program["analysis_1"], bielle.read(text).run()[0])
+        # The text that the dictionary has become is a file.
+        with h5py.File(self.run_program(self.write(bielle.read(keys).text))) as program:
+            self.expect_equal(program["analysis_1"], bielle.run(keys)[0])
+
+    def test_a_sweep_equals_single_runs(self):
+        model = self.write(PENDULUM.replace("duration: 1.2", "duration: 0.2"))
+        ends = set()
+        for mass in np.linspace(0.5, 4, 20):
+            run = bielle.run(model, parameters={"mass": mass})
+            with h5py.File(self.run_program(model, "--set", f"mass={float(mass)!r}")) as program:
+                self.expect_equal(program["analysis_1"], run[0])
+            ends.add(run["joints/elbow/coordinate"][-1, 0])
+        self.assertEqual(len(ends), 20)
+
+    def test_a_restarted_run_goes_on(self):
+        model = self.write(PENDULUM + "output: {checkpoint: 100}\n")
+        whole = bielle.run(model)
+        first = self.write(PENDULUM.replace("duration: 1.2", "duration: 0.6") + "output: {checkpoint: 100}\n", "first.yaml")
+        output, rest = os.path.join(self.folder, "first.h5"), os.path.join(self.folder, "rest.h5")
+        bielle.run(first, output)
+        run = bielle.run(model, rest, restart=output)
+        with h5py.File(rest) as file:
+            self.expect_equal(file["analysis_1"], whole[0])
+        np.testing.assert_array_equal(run["joints/elbow/coordinate"], whole["joints/elbow/coordinate"][301:])
+
+
+if __name__ == "__main__":
+    unittest.main()
