@@ -52,10 +52,28 @@ PathOptions read_path(const YamlValue& entry, int steps, const Model& model) {
   return path;
 }
 
+/// Where stability changed, and what is left of it.
+std::string format_stability(const StaticsLog& log, bool path) {
+  std::string text;
+  for (const CriticalPoint& point : log.critical)
+    text += fmt::format("  {} at load factor {:.9g}: the stiffness {} along {}, most at {}{}\n",
+                        path                         ? "bifurcation"
+                        : point.after > point.before ? "instability"
+                                                     : "stability again",
+                        point.factor, point.after > point.before ? "becomes negative" : "is positive again",
+                        counted(std::abs(point.after - point.before), "motion"), point.motion,
+                        point.left ? "; the branch that leaves there was followed" : "");
+  if (log.unstable.value_or(0) > 0)
+    text += fmt::format("  the equilibrium at the end is unstable: its stiffness is negative along {}{}\n",
+                        counted(*log.unstable, "motion"),
+                        log.critical.empty() || path ? "" : "; `branch: 1e-3` follows the branch that leaves there");
+  return text;
+}
+
 }  // namespace
 
 std::unique_ptr<Analysis> read_static(const YamlValue& entry, const Model& model) {
-  entry.check_keys({"type", "steps", "arc_length", "newton"}, "the analysis 'static'");
+  entry.check_keys({"type", "steps", "branch", "arc_length", "newton"}, "the analysis 'static'");
   StaticsOptions options;
   const auto path = entry.find("arc_length");
   if (path) options.steps = 0;
@@ -65,6 +83,11 @@ std::unique_ptr<Analysis> read_static(const YamlValue& entry, const Model& model
     if (!automatic && options.steps < 1) steps->fail("expected at least one load step, or auto");
   }
   if (path) options.path = read_path(*path, options.steps, model);
+  if (const auto branch = entry.find("branch")) {
+    if (path) branch->fail("belongs to load steps; a path of `arc_length` goes on as it comes");
+    options.branch = branch->positive_number();
+    if (options.branch > 0.5) branch->fail("expected at most 0.5: it is relative to the mechanism's size");
+  }
   options.newton = read_newton(entry, false);
   return std::make_unique<StaticAnalysis>(std::move(options));
 }
@@ -80,6 +103,12 @@ void StaticAnalysis::solve(Session& session, AnalysisSummary& summary) const {
   summary.text += format_start(report.start) + format_mobility(session);
   if (report.points == 0) return;
   summary.text += format_steps(report.points, report.iterations, summary.records) + "\n";
+  if (report.log.refused > 0)
+    summary.text += fmt::format("  {} refused ({} in all); the last, to load factor {:.6g}: {}\n",
+                                counted(report.log.refused, "increment"), counted(report.log.solves, "iteration"),
+                                report.log.refused_at, report.log.why_refused);
+  summary.text += format_stability(report.log, options_.path.has_value());
+  for (const CriticalPoint& point : report.log.critical) summary.numbers["critical_points"].push_back(point.factor);
   for (const double factor : report.limit_points)
     summary.text += fmt::format("  limit point at load factor {:.9g}\n", factor);
 }

@@ -53,6 +53,10 @@ std::string format_start(const StartReport& start) {
   text += format_moved(start);
   if (start.settled > 0)
     text += fmt::format("  static equilibrium moved node '{}' by {:.3g} m\n", start.settled_node, start.settled);
+  if (start.unstable > 0)
+    text += fmt::format(
+        "  the static equilibrium is unstable: its stiffness is negative along {}, most at {}. It stands as on its tip\n",
+        counted(start.unstable, "motion"), start.unstable_motion);
   if (!start.held.empty()) text += fmt::format("  {}\n", describe_held(start.held));
   if (start.balanced > 1e-9)
     text += fmt::format(

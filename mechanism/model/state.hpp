@@ -45,6 +45,11 @@ struct Environment {
   Vector3 gravity = Vector3::Zero();  ///< [m/s^2], inertial, already multiplied by the load factor
   double load_factor = 1;             ///< on loads and forces of drives: 1 except in a static analysis
   bool statics = false;               ///< the load factor takes the place of time, in messages as well
+  /// Newton's method at rest: the iterate from which one linear step led to the present state; otherwise nullptr. A
+  /// stiffness that depends on stress may take the stress that the step predicted in place of the present one. At the
+  /// solution they are the same; far from it the present one holds errors of second order, which stiff directions
+  /// magnify (D. Magisano, L. Leonetti, G. Garcea, CMAME 313 (2017) 986).
+  const State* before = nullptr;
 };
 
 /// Where a component's unknowns stand in the State. Nodes may repeat; the scalars are contiguous.

@@ -140,14 +140,17 @@ StaticsReport Session::statics(const StaticsOptions& options) {
       loaded_ = follow_path(system_, statics, begin, *options.path, options.newton, state_,
                             [&](const State& state, const PathPoint& at) {
                               if (at.limit) report.limit_points.push_back(at.load_factor);
+                              if (at.bifurcation) report.log.critical.push_back(*at.bifurcation);
+                              report.log.unstable = at.unstable;
                               point(state, at.load_factor, at.iterations, at.done);
                             });
     } else {
-      solve_statics(system_, statics, LoadSteps(options.steps, begin), options.newton, state_,
-                    [&](const State& state, double factor, int iterations) {
-                      point(state, factor, iterations,
-                            begin.factor == 1 ? 1 : (factor - begin.factor) / (1 - begin.factor));
-                    });
+      LoadSteps steps(options.steps, begin);
+      steps.branch = options.branch;
+      report.log = solve_statics(
+          system_, statics, steps, options.newton, state_, [&](const State& state, double factor, int iterations) {
+            point(state, factor, iterations, begin.factor == 1 ? 1 : (factor - begin.factor) / (1 - begin.factor));
+          });
       loaded_ = {1, 1};
     }
   } catch (const Stopped&) {

@@ -23,6 +23,7 @@
 #include "mechanism/session/assembly_options.hpp"
 #include "mechanism/session/gatherers.hpp"
 #include "mechanism/session/gauge.hpp"
+#include "mechanism/session/kinematics_options.hpp"
 #include "mechanism/session/motion.hpp"
 #include "mechanism/session/notes.hpp"
 #include "mechanism/session/recording.hpp"
@@ -68,6 +69,10 @@ class Session {
   /// Equilibrium under the whole load, or along a path. The state is at rest afterwards.
   /// @throws ComputationError when there is none near; the state is then the last equilibrium
   StaticsReport statics(const StaticsOptions& options = {});
+  /// A mechanism whose every motion is driven: positions, velocities, accelerations and the forces that belong to them,
+  /// time after time, without integration. @throws InputError when something is free, ComputationError naming what
+  /// cannot be satisfied
+  KinematicsReport kinematics(const KinematicsOptions& options);
   /// A motion from the state, made consistent. It must not outlive the session.
   Motion dynamics(const DynamicsOptions& options);
   /// Goes on with a motion as `save` left it: its numbers are those of a motion that was not interrupted. Steps may be

@@ -189,10 +189,24 @@ void BeamElement::add_stiffness(const Deformation& D, Eigen::Ref<MatrixX> K) con
   K.block<3, 3>(6, 9) -= D.R_B * skew(F.segment<3>(6)) * R_B_.transpose();
 }
 
+// f = C (eps + P h/L), h the step in body increments of the section frames.
+Vector6 BeamElement::predicted_resultants(const LocalState& before, const LocalState& state) const {
+  const Deformation D = deformation(before);
+  Vector12 h;
+  for (int k = 0; k < 2; ++k) {
+    const Matrix3 &R_S = k == 0 ? D.R_A : D.R_B, &R_k = k == 0 ? R_A_ : R_B_;
+    h.segment<3>(6 * k) = R_S.transpose() * (state.node(k).x - before.node(k).x);
+    h.segment<3>(6 * k + 3) = R_k.transpose() * log_so3(before.node(k).R.transpose() * state.node(k).R);
+  }
+  return stiffness_ * (D.eps + D.P * h / L_);
+}
+
 void BeamElement::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   const bool wants_damping = tangent.wants_C && damping_ > 0;
   if (tangent.wants_K || wants_damping) {
-    const Deformation D = deformation(state);
+    Deformation D = deformation(state);
+    if (const State* before = state.environment().before; before && tangent.wants_K)
+      D.f = predicted_resultants(LocalState(*before, state.slots(), state.environment()), state);
     if (tangent.wants_K) add_stiffness(D, tangent.K.dense());
     if (wants_damping) {
       const Matrix6x12 f_gradient = damping_ / L_ * stiffness_ * D.P;

@@ -20,6 +20,10 @@ void StartReport::add(const StartReport& later) {
     settled = later.settled;
     settled_node = later.settled_node;
   }
+  if (later.unstable > 0) {
+    unstable = later.unstable;
+    unstable_motion = later.unstable_motion;
+  }
   if (later.balanced > balanced) {
     balanced = later.balanced;
     balanced_node = later.balanced_node;

@@ -30,6 +30,8 @@ struct StartReport {
   double impulse_work = 0;             ///< of drives and supports that bring about such a change [J]
   double settled = 0;                  ///< largest displacement of a node by static equilibrium, if asked for [m]
   std::string settled_node;            ///< that node's name
+  int unstable = 0;                    ///< motions along which that equilibrium has a negative stiffness
+  std::string unstable_motion;         ///< what moves most in one of them: "x at node 'tip'"
   double balanced = 0;                 ///< largest displacement of a node without mass, to where its forces balance [m]
   std::string balanced_node;           ///< that node's name
   std::string unbalanced;              ///< an unknown without mass whose forces could not be balanced; empty: none

@@ -9,6 +9,7 @@
 #include "mechanism/solvers/statics/equilibrium.hpp"
 #include "mechanism/solvers/statics/held_states.hpp"
 #include "mechanism/solvers/statics/path_step.hpp"
+#include "mechanism/solvers/statics/stability.hpp"
 #include "reduce/common/counted.hpp"
 
 namespace bielle::mechanism {
@@ -77,10 +78,12 @@ class Path {
         state_(in_equilibrium(ramp, options, state)),
         factor_(ramp.begin()),
         step_(ramp, options, state),
+        stability_(ramp.system()),
         end_(path.end, ramp, step_),
         gap_(end_.gap(state, factor_)),
         whole_(std::abs(gap_)) {
     set_off();
+    unstable_ = stability_.count(state_, ramp_.environment(factor_));
   }
 
   bool ended() const { return gap_ == 0; }
@@ -215,6 +218,62 @@ class Path {
     return true;
   }
 
+  double softest(const PathTrial& trial, std::string* motion = nullptr) {
+    const auto mode = stability_.softest(trial.state, ramp_.environment(trial.factor));
+    if (mode && motion) *motion = stability_.describe(*mode);
+    return mode ? mode->stiffness : 0;
+  }
+
+  /// Between the base and the trial, an arc `length` away, the number of unstable motions changes from that of the
+  /// base: by regula falsi of the smallest stiffness (after Illinois), within the bracket of the counts. The trial
+  /// stays as it is.
+  CriticalPoint locate_bifurcation(int after, double length) {
+    constexpr int most = 40;
+    constexpr double accurate = 1e-7;
+    const PathTrial far = trial_;
+    CriticalPoint point;
+    point.before = *unstable_;
+    point.after = after;
+    PathTrial near{VectorX::Zero(far.delta.size()), factor_, state_};
+    double low = 0, high = length, k_low = softest(near), k_high = softest(far);
+    point.factor = factor_;
+    for (int i = 0, side = 0; i < most && high - low > accurate * length; ++i) {
+      double arc = k_low * k_high < 0 ? (low * k_high - high * k_low) / (k_high - k_low) : 0.5 * (low + high);
+      const double margin = 0.25 * accurate * length;
+      arc = std::clamp(arc, low + margin, high - margin);
+      trial_.delta = arc / length * far.delta;
+      trial_.factor = factor_ + arc / length * (far.factor - factor_);
+      const bool met = correct(ArcCondition(step_, arc), arc);
+      const std::optional<int> here =
+          met ? stability_.count(trial_.state, ramp_.environment(trial_.factor)) : std::nullopt;
+      point.factor = trial_.factor;
+      if (!here) break;  // singular, or nearly: this is the place
+      near = trial_;
+      const bool before = *here == point.before;
+      (before ? low : high) = arc;
+      (before ? k_low : k_high) = softest(trial_);
+      if (side == (before ? 1 : -1)) (before ? k_high : k_low) /= 2;
+      side = before ? 1 : -1;
+    }
+    softest(near, &point.motion);
+    trial_ = far;
+    return point;
+  }
+
+  /// Stability at the trial that is about to be accepted.
+  void judge(bool limit, double length, PathPoint& point) {
+    if (limit) {
+      ++limits_;
+      return;
+    }
+    point.unstable = stability_.count(trial_.state, ramp_.environment(trial_.factor));
+    // Past a limit point another motion is unstable, or one less.
+    if (unstable_ && point.unstable && limits_ == 0 && *point.unstable != *unstable_)
+      point.bifurcation = locate_bifurcation(*point.unstable, length);
+    unstable_ = point.unstable;
+    limits_ = 0;
+  }
+
   void refuse() {
     arc_ /= 2;
     if (arc_ < least_part * first_arc_)
@@ -225,6 +284,8 @@ class Path {
   }
 
   PathPoint accept(double gap, bool limit, const Tangent& after, double length) {
+    PathPoint point;
+    judge(limit, length, point);
     const Environment loaded = ramp_.environment(trial_.factor);
     try {
       check_set_aside(system_, loaded, trial_.state);
@@ -243,7 +304,11 @@ class Path {
     // A step that was cut at a limit point says nothing against the arc that led there.
     if (!limit) arc_ = length * std::clamp(std::sqrt(easy_iterations / std::max(1, trial_.iterations)), 0.5, 2.0);
     arc_ = std::min(arc_, most_arc_);
-    return {factor_, trial_.iterations, limit, std::clamp(1 - std::abs(gap) / whole_, 0.0, 1.0)};
+    point.load_factor = factor_;
+    point.iterations = trial_.iterations;
+    point.limit = limit;
+    point.done = std::clamp(1 - std::abs(gap) / whole_, 0.0, 1.0);
+    return point;
   }
 
   const LoadRamp& ramp_;
@@ -252,6 +317,7 @@ class Path {
   State& state_;
   double factor_;
   PathStep step_;
+  Stability stability_;
   EndCondition end_;
   double gap_, whole_;
   double first_arc_ = 0, most_arc_ = 0, arc_ = 0;
@@ -259,6 +325,8 @@ class Path {
   double going_ = 1;  ///< sign of the load factor's slope after the last point
   bool at_limit_ = false;
   PathTrial trial_;
+  std::optional<int> unstable_;  ///< motions of negative stiffness at the last point that is no limit point
+  int limits_ = 0;               ///< since then
   std::string why_;
 };
 

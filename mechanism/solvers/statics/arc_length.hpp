@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "mechanism/solvers/newton/convergence.hpp"
+#include "mechanism/solvers/statics/critical_point.hpp"
 #include "mechanism/solvers/statics/load_ramp.hpp"
 
 namespace bielle::mechanism {
@@ -46,6 +47,10 @@ struct PathPoint {
   int iterations = 0;
   bool limit = false;  ///< a maximum or minimum of the load factor
   double done = 0;     ///< part of the way to the end, 0..1
+  /// Motions of negative stiffness; none: not known, as at a limit point.
+  std::optional<int> unstable;
+  /// A bifurcation on the way here: stability changed, and no limit point tells why. The path goes straight on.
+  std::optional<CriticalPoint> bifurcation;
 };
 
 /// Follows the path from the state to its end, which is reached exactly. It starts with a growing load factor; from a

@@ -13,7 +13,9 @@
 namespace bielle::mechanism {
 namespace {
 
-constexpr double longest = 0.3;  // step of `relax`: of the mechanism's size, or [rad]
+constexpr double longest = 0.3;       // step of `relax`: of the mechanism's size, or [rad]
+constexpr double longest_turn = 2.0;  // step of Newton's method [rad]
+constexpr double least_part = 0.1;    // of a step that is shortened
 
 }  // namespace
 
@@ -27,14 +29,16 @@ Equilibrium::Equilibrium(const LoadRamp& ramp, const NewtonOptions& options)
       r_(system_.size()),
       delta_(system_.size()) {}
 
-int Equilibrium::find(double factor, State& state) { return attempt(&Equilibrium::iterate, factor, state); }
+int Equilibrium::find(double factor, State& state) { return attempt(&Equilibrium::iterate_stepping, factor, state); }
+
+int Equilibrium::search(double factor, State& state) { return attempt(&Equilibrium::iterate_searching, factor, state); }
 
 int Equilibrium::relax(double factor, State& state) { return attempt(&Equilibrium::iterate_relaxing, factor, state); }
 
 /// A component that refuses a wild iterate (a beam whose ends turn too far) makes the attempt fail, not the analysis.
 int Equilibrium::attempt(int (Equilibrium::*iterations)(double, State&), double factor, State& state) {
   const State start = state;
-  judged_ = false;
+  judged_ = stepped_ = false;
   why_.clear();
   environment_ = ramp_.environment(factor);
   int count = -1;
@@ -75,6 +79,16 @@ void Equilibrium::accept(double factor, State& state) const {
   }
 }
 
+int Equilibrium::iterate_stepping(double factor, State& state) {
+  searching_ = false;
+  return iterate(factor, state);
+}
+
+int Equilibrium::iterate_searching(double factor, State& state) {
+  searching_ = true;
+  return iterate(factor, state);
+}
+
 int Equilibrium::iterate(double factor, State& state) {
   const bool followed = ramp_.motion(factor) != state.motion_factor && follow_motions(factor, state);
   evaluate(state);
@@ -83,7 +97,7 @@ int Equilibrium::iterate(double factor, State& state) {
     judged_ = true;
     if (iteration > 0 && reached) return iteration + (followed ? 1 : 0);
     if (iteration == options_.iterations || !r_.allFinite()) return -1;
-    improve(state);
+    searching_ ? search(state) : step(state);
   }
 }
 
@@ -114,14 +128,20 @@ int Equilibrium::iterate_relaxing(double factor, State& state) {
   return -1;
 }
 
-/// The last solution's largest turn [rad], or displacement relative to the mechanism's size.
-double Equilibrium::extent(const State& state) const {
-  double turn = 0, displacement = 0;
-  for (int i = 0; i < system_.dofs(); ++i) {
+/// The last solution's largest turn [rad].
+double Equilibrium::largest_turn() const {
+  double turn = 0;
+  for (int i = 0; i < system_.dofs(); ++i)
     if (system_.kind(i) == Kind::rotation) turn = std::max(turn, std::abs(delta_[i]));
+  return turn;
+}
+
+/// Its largest turn, or displacement relative to the mechanism's size.
+double Equilibrium::extent(const State& state) const {
+  double displacement = 0;
+  for (int i = 0; i < system_.dofs(); ++i)
     if (system_.kind(i) == Kind::translation) displacement = std::max(displacement, std::abs(delta_[i]));
-  }
-  return std::max(turn, displacement / model_length(state));
+  return std::max(largest_turn(), displacement / model_length(state));
 }
 
 /// In which the accelerations of rest lead through a part of `longest`.
@@ -145,13 +165,32 @@ bool Equilibrium::follow_motions(double factor, State& state) {
   this->factor(state);
   r_ += (ramp_.motion(factor) - state.motion_factor) * by_motion;
   solve();
-  const State base = state;
+  before_ = state;
+  stepped_ = true;
   state.motion_factor = ramp_.motion(factor);
-  move(state, base, 1);
+  move(state, before_, 1);
   return true;
 }
 
-void Equilibrium::improve(State& state) {
+void Equilibrium::step(State& state) {
+  factor(state);
+  solve();
+  before_ = state;
+  stepped_ = true;
+  const double turn = largest_turn();
+  for (double part = turn > longest_turn ? longest_turn / turn : 1;; part /= 2) {
+    try {
+      move(state, before_, part);
+      evaluate(state);
+      if (r_.allFinite() || part < least_part) return;
+    } catch (const ComputationError&) {
+      if (!options_.line_search || part < least_part) throw;  // refused by a component
+    }
+  }
+}
+
+void Equilibrium::search(State& state) {
+  stepped_ = false;
   factor(state);
   const double before = convergence_.size_of(r_);
   solve();
@@ -168,18 +207,23 @@ void Equilibrium::improve(State& state) {
       return false;  // refused by a component
     }
   };
-  for (double part = 1; options_.line_search && part > 0.1; part /= 2)
+  for (double part = 1; options_.line_search && part > least_part; part /= 2)
     if (smaller(part)) return;
   size_at(1);  // Newton's method may have to pass over a hill
 }
 
 void Equilibrium::factor(const State& state, double inertia) {
+  environment_.before = stepped_ ? &before_ : nullptr;
   linear_.factor(state, environment_, TangentWeights{1, 0, inertia, 0, 1, true}, nullptr);
+  environment_.before = nullptr;
   convergence_.measure_rounding(linear_, state);
   convergence_.measure_by(scale_);
 }
 
-void Equilibrium::solve() { linear_.solve(r_, delta_); }
+void Equilibrium::solve() {
+  ++solves_;
+  linear_.solve(r_, delta_);
+}
 
 void Equilibrium::move(State& state, const State& base, double part) const {
   system_.displace(state, base, part * delta_.head(system_.dofs()));
@@ -190,6 +234,7 @@ void Equilibrium::move(State& state, const State& base, double part) const {
 void Equilibrium::evaluate(State& state) {
   reactions_.balance(environment_, state);
   residual_at_rest(system_, environment_, state, r_, &scale_);
+  if (push_.size() > 0) r_.head(push_.size()) -= push_;
 }
 
 }  // namespace bielle::mechanism

@@ -14,13 +14,21 @@ class Equilibrium {
   Equilibrium(const LoadRamp& ramp, const NewtonOptions& options);
 
   /// Brings a state at rest into equilibrium under a load factor. Prescribed motions are taken along in the first
-  /// iteration: the free nodes follow them by the tangent.
+  /// iteration: the free nodes follow them by the tangent. Stiffness comes from predicted stress (Environment::before);
+  /// steps are shortened that turn a node by more than two radians, or that a component refuses.
   /// @returns the iterations, or -1 with the state as it was; then `why` tells
   int find(double factor, State& state);
+  /// The same with exact tangents, and steps that are shortened where they make the largest residual larger: slower
+  /// where both find it, and now and then the only way.
+  int search(double factor, State& state);
   /// Goes down to an equilibrium from afar, also where nothing but inertia resists at first (an arm that is to hang):
   /// pseudo-transient continuation, (K + M/tau^2) dq = -r with tau growing as the residual falls, from steps of a tenth
   /// of the mechanism's size on (C. T. Kelley, D. E. Keyes, SIAM J. Numer. Anal. 35 (1998) 508). Returns as `find`.
   int relax(double factor, State& state);
+  /// Forces (dofs) that are added to the loads until others are given, or none (size 0).
+  void push(const VectorX& forces) { push_ = forces; }
+  /// Linear solves so far, those of attempts that failed included.
+  long solves() const { return solves_; }
   /// Why the last attempt failed: what a component refused, what is singular, or where Newton's method stalled.
   const std::string& why() const { return why_; }
   /// Hands an equilibrium to the components, constraints set aside included.
@@ -29,15 +37,19 @@ class Equilibrium {
 
  private:
   int iterate(double factor, State& state);
+  int iterate_stepping(double factor, State& state);
+  int iterate_searching(double factor, State& state);
   int iterate_relaxing(double factor, State& state);
   int attempt(int (Equilibrium::*iterations)(double, State&), double factor, State& state);
   std::string what_is_open(const State& state) const;
-  double extent(const State& state) const;
   double first_tau_squared(const State& state);
   /// An iteration of Newton's method that takes prescribed motions along. @returns false where nothing is prescribed
   bool follow_motions(double factor, State& state);
-  void improve(State& state);
+  void step(State& state);
+  void search(State& state);
   void solve();
+  double largest_turn() const;
+  double extent(const State& state) const;
   void factor(const State& state, double inertia = 0);
   void move(State& state, const State& base, double part) const;
   void evaluate(State& state);
@@ -49,6 +61,11 @@ class Equilibrium {
   Convergence convergence_;
   ReadReactions reactions_;
   Environment environment_;  ///< of the load factor in hand
+  State before_;             ///< the last step led from it to the state in hand
+  bool stepped_ = false;     ///< there was such a step
+  bool searching_ = false;
+  VectorX push_;
+  long solves_ = 0;
   VectorX r_, delta_;
   ResidualScale scale_;
   bool judged_ = false;  ///< a residual of this attempt has been compared with its tolerances

@@ -78,6 +78,7 @@ bool PathStep::correct(const State& base, const PathCondition& condition, double
 bool PathStep::iterate(const State& base, const PathCondition& condition, double longest, PathTrial& trial) {
   VectorX r(system_.size()), by_factor(system_.size()), a(system_.size()), b(system_.size());
   ResidualScale scale;
+  State before = base;  // the trial is a linear step away from it
   for (trial.iterations = 0;; ++trial.iterations) {
     const Environment environment = ramp_.environment(trial.factor);
     place(base, trial);
@@ -92,12 +93,15 @@ bool PathStep::iterate(const State& base, const PathCondition& condition, double
       return false;
     }
     const VectorX increment = trial.delta.head(system_.dofs());
-    linear_.factor(trial.state, environment, at_rest, &increment);
+    Environment predicted = environment;
+    predicted.before = &before;
+    linear_.factor(trial.state, predicted, at_rest, &increment);
     convergence_.measure_rounding(linear_, trial.state);
     linear_.solve(r, a);
     ramp_.factor_derivative(trial.state, trial.factor, by_factor);
     linear_.solve(by_factor, b);
     const double change = -(g + condition.slope(trial, a, 0)) / condition.slope(trial, b, 1);
+    before = trial.state;
     trial.delta += a + change * b;
     trial.factor += change;
     if (!(length(trial.delta) <= longest)) {

@@ -63,7 +63,7 @@ class Examples(unittest.TestCase):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         lines = done.stdout.splitlines()
         self.assertGreater(len(lines), 500)  # a step of 2 ms that meets the limit of the torque is two
-        self.assertRegex(lines[-1], r"^2\.4 0\.8\d+ \[Event\(time=0\.8")
+        self.assertRegex(lines[-1], r"^2\.4 0\.8\d+ \[Event\(time=0\.\d+, name=\"event 'arrived'\"\)\]$")
 
 
 if __name__ == "__main__":

@@ -1,0 +1,47 @@
+// Whether an equilibrium is stable: the inertia of its stiffness along the motions that the constraints allow.
+//
+// The number of negative eigenvalues of K on the null space of B is that of
+//     [ K    B^T          ]
+//     [ B  -eps/k         ]
+// less one for each constraint (Sylvester; the Schur complement of the lower block is K + k/eps B^T B), k the size of
+// the stiffness: constraints give by 1e-4 of what the stiffest part of the mechanism does, which soft motions do not
+// notice. It is read off the pivots of a symmetric factorisation. The sign of a determinant would miss two eigenvalues
+// that change sign together, as of a square column.
+//
+// Where the tangent is not symmetric (forces that follow, moments about fixed axes, friction, hydraulics) stability is
+// a question of motion, and nothing is counted.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "mechanism/solvers/newton/linear_step.hpp"
+
+namespace bielle::mechanism {
+
+class Stability {
+ public:
+  explicit Stability(const System& system) : system_(system), linear_(system) {}
+
+  /// How many independent small motions meet a negative stiffness at a state at rest; none where that is not known.
+  /// @param environment  in which it is in equilibrium
+  std::optional<int> count(const State& state, const Environment& environment);
+
+  /// The motion of the smallest stiffness, whatever its sign.
+  struct Mode {
+    VectorX shape;         ///< (dofs), the largest displacement relative to the mechanism's size, or turn, is 1
+    VectorX force;         ///< (dofs), of unit stiffness along the shape: K shape = stiffness force
+    double stiffness = 0;  ///< its sign says whether the equilibrium is stable along it
+    int largest = -1;      ///< the unknown that moves most
+  };
+  /// By inverse iteration. @returns none where the tangent is singular
+  std::optional<Mode> softest(const State& state, const Environment& environment);
+  /// "z at node 'tip'"
+  std::string describe(const Mode& mode) const;
+
+ private:
+  const System& system_;
+  LinearStep linear_;
+};
+
+}  // namespace bielle::mechanism

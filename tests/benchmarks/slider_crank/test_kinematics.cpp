@@ -1,0 +1,125 @@
+// Driven mechanisms: kinematics against closed forms, inverse dynamics against forward dynamics.
+#include <cmath>
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include "mechanism/io/mechanism_file.hpp"
+#include "mechanism/session/session.hpp"
+#include "tests/support/messages.hpp"
+#include "tests/support/second_order.hpp"
+
+using namespace bielle::mechanism;
+using bielle::test::check_second_order;
+using bielle::test::message_of;
+using Catch::Contains;
+
+namespace {
+
+/// @param elements  none for a mechanism without mass
+std::string slider_crank(const std::string& elements, const std::string& drive) {
+  return "nodes:\n  crank: {position: [0.05, 0, 0]}\n  rod: {position: [0.2, 0, 0]}\n  piston: {position: [0.3, 0, "
+         "0]}\n" +
+         elements +
+         "joints:\n  main: {type: hinge, nodes: [ground, crank], position: [0, 0, 0], axis: [0, 0, 1]}\n"
+         "  pin: {type: hinge, nodes: [crank, rod], position: [0.1, 0, 0], axis: [0, 0, 1]}\n"
+         "  wrist: {type: spherical, nodes: [rod, piston], position: [0.3, 0, 0]}\n"
+         "  guide: {type: prismatic, nodes: [ground, piston], at: [[0, 0, 0], [0, 0, 0]], axis: [1, 0, 0]}\n" +
+         drive;
+}
+
+const std::string bodies =
+    "elements:\n  crank: {type: rigid_body, node: crank, mass: 1, inertia: [1e-3, 1e-3, 1e-3]}\n"
+    "  rod: {type: rigid_body, node: rod, mass: 0.5, inertia: [1e-3, 1e-3, 1e-3]}\n"
+    "  piston: {type: point_mass, node: piston, mass: 0.3}\n";
+const std::string driven = "drives: {motor: {joint: main, angle: \"30*t + 0.5*sin(7*t)\"}}\n";
+
+/// Of a pendulum of length l, mass m and inertia J about the centre, at the angle 0.3 + sin(5 t) - sin(0)... above x.
+constexpr double m = 2, l = 0.4, J = 0.03, g = 9.81;
+std::string pendulum(const std::string& drive) {
+  return fmt::format(
+      "gravity: [0, 0, -9.81]\nnodes: {{arm: {{position: [0.4, 0, 0]}}}}\n"
+      "elements: {{arm: {{type: rigid_body, node: arm, mass: 2, inertia: [0.01, 0.03, 0.03]}}}}\n"
+      "joints: {{foot: {{type: hinge, nodes: [ground, arm], position: [0, 0, 0], axis: [0, -1, 0]}}}}\n"
+      "drives: {{motor: {{joint: foot, {}}}}}\n",
+      drive);
+}
+
+}  // namespace
+
+TEST_CASE("kinematics of a slider-crank is that of its formula, at each time to rounding") {
+  for (const bool heavy : {true, false}) {
+    const MechanismFile file = read_mechanism_text(slider_crank(heavy ? bodies : "", driven), "model.yaml");
+    Session session(file.model);
+    long looked = 0;
+    const auto look = [&](const Session& at) {
+      const double t = at.time(), r = 0.1, rod = 0.2, angle = 30 * t + 0.5 * std::sin(7 * t),
+                   w = 30 + 3.5 * std::cos(7 * t), a = -24.5 * std::sin(7 * t), s = std::sin(angle),
+                   c = std::cos(angle), root = std::sqrt(rod * rod - r * r * s * s);
+      const double x = r * c + root, x1 = -r * s - r * r * s * c / root,
+                   x2 = -r * c - r * r * (c * c - s * s) / root - std::pow(r * r * s * c, 2) / std::pow(root, 3);
+      const NodeState& piston = at.node("piston");
+      CAPTURE(heavy, t);
+      CHECK(piston.x[0] == Approx(x).epsilon(1e-12));
+      CHECK(piston.v[0] == Approx(x1 * w).margin(1e-10));
+      CHECK(piston.a[0] == Approx(x2 * w * w + x1 * a).margin(1e-7));
+      CHECK(at.read("joints/main/coordinate")[0] == Approx(angle).margin(1e-12));  // turns are counted
+      ++looked;
+    };
+    session.on_step([&](Session& at) { look(at); });
+    const KinematicsReport report = session.kinematics({.duration = 1, .step = 0.02});
+    CHECK(report.points == 51);
+    CHECK(looked == 50);
+  }
+}
+
+TEST_CASE("inverse dynamics gives the torque that a pendulum's motion takes") {
+  // (J + m l^2) phi'' + m g l cos(phi) along phi(t) = 0.8 (1 - cos(5 t)), which starts at rest.
+  const MechanismFile file = read_mechanism_text(pendulum("angle: \"0.8*(1 - cos(5*t))\""), "model.yaml");
+  Session session(file.model);
+  session.on_step([&](Session& at) {
+    const double t = at.time(), phi = 0.8 * (1 - std::cos(5 * t)), a = 20 * std::cos(5 * t);
+    CHECK(at.read("joints/foot/drive_force")[0] ==
+          Approx((J + m * l * l) * a + m * g * l * std::cos(phi)).margin(1e-9));
+  });
+  session.kinematics({.duration = 2, .step = 0.05});
+}
+
+TEST_CASE("forward dynamics under the torque of inverse dynamics moves as that was told") {
+  const std::string torque =
+      fmt::format("torque: \"{:.17g}*20*cos(5*t) + {:.17g}*cos(0.8*(1 - cos(5*t)))\"", J + m * l * l, m * g * l);
+  check_second_order(
+      [&](double h) {
+        const MechanismFile file = read_mechanism_text(pendulum(torque), "model.yaml");
+        Session session(file.model);
+        DynamicsOptions options;
+        options.duration = 1;
+        options.stepping.size = h;
+        session.dynamics(options).finish();
+        return Eigen::VectorXd::Constant(1, session.read("joints/foot/coordinate")[0] - 0.8 * (1 - std::cos(5.0)));
+      },
+      4e-3, 3);
+}
+
+TEST_CASE("kinematics asks for what is not driven") {
+  const MechanismFile free = read_mechanism_text(slider_crank(bodies, ""), "model.yaml");
+  Session loose(free.model);
+  CHECK_THAT(message_of<std::runtime_error>([&] { loose.kinematics({.duration = 1, .step = 0.1}); }),
+             Contains("1 degree of freedom is not driven") && Contains("dynamic analysis"));
+  const MechanismFile filter = read_mechanism_text(
+      slider_crank(bodies, driven + "states: {slow: {rate: \"main.angle - slow\", start: 0}}\n"), "model.yaml");
+  Session filtered(filter.model);
+  CHECK_THAT(message_of<std::runtime_error>([&] { filtered.kinematics({.duration = 1, .step = 0.1}); }),
+             Contains("motion of its own"));
+  // A connecting rod that is too short: the crank gets stuck.
+  const MechanismFile stuck = read_mechanism_text(
+      "nodes: {crank: {position: [0.1, 0, 0]}, rod: {position: [0.13, 0, 0]}}\n"
+      "joints:\n  main: {type: hinge, nodes: [ground, crank], position: [0, 0, 0], axis: [0, 0, 1]}\n"
+      "  pin: {type: hinge, nodes: [crank, rod], position: [0.1, 0, 0], axis: [0, 0, 1]}\n"
+      "  wrist: {type: point_on_line, nodes: [ground, rod], at: [[0, 0, 0], [0.03, 0, 0]], line: [1, 0, 0]}\n"
+      "drives: {motor: {joint: main, angle: \"t\"}}\n",
+      "model.yaml");
+  Session blocked(stuck.model);
+  const std::string said = message_of<std::runtime_error>([&] { blocked.kinematics({.duration = 3, .step = 0.1}); });
+  CHECK_THAT(said, Contains("t = 0.7 s: ") && Contains("drive 'motor' stays 3.2"));
+}
