@@ -25,12 +25,13 @@ class WorkingSession {
   WorkingSession& operator=(const WorkingSession&) = delete;
 
   const HeldModel& model() const { return model_; }
-  /// To be read. @throws std::logic_error while it computes in another thread
+  /// To be read, and for what callbacks may do: set inputs, stop, save.
+  /// @throws std::logic_error while it computes in another thread
   mechanism::Session& readable() {
     gate_->check_readable();
     return *session_;
   }
-  /// To be changed, by callbacks as well: inputs, a stop.
+  /// To be changed otherwise. @throws std::logic_error while it computes, also from callbacks
   mechanism::Session& idle() {
     gate_->check_idle();
     return *session_;

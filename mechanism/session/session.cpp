@@ -235,7 +235,8 @@ void Session::note(const Event& event) {
 }
 
 void Session::set_input(const std::string& name, double value, bool smooth) {
-  if (!std::isfinite(value)) throw InputError(fmt::format("input '{}': expected a finite number, found {}", name, value));
+  if (!std::isfinite(value))
+    throw InputError(fmt::format("input '{}': expected a finite number, found {}", name, value));
   for (const Component* component : model_.components_of({Section::measures, name})) {
     const auto* input = dynamic_cast<const InputMeasure*>(component);
     if (!input) continue;

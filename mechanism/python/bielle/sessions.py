@@ -50,15 +50,24 @@ class Session:
         """Makes positions and velocities consistent: the analysis `assembly`, with its keys (keep=...)."""
         return self.run({"type": "assembly", **keys}, record=record)
 
-    def statics(self, *, steps: int | str | None = None, arc_length: dict | None = None, newton: dict | None = None,
-                record: bool = True) -> Results:
+    def statics(self, *, steps: int | str | None = None, branch: float | None = None, arc_length: dict | None = None,
+                newton: dict | None = None, record: bool = True) -> Results:
         """Equilibrium under the whole load, or along a path: the analysis `static`, with its keys.
 
-        steps: equal increments of the load, or "auto". arc_length: {"until": {...}, "points": n}, past limit points.
+        steps: equal increments of the load, or "auto". branch: leaves an equilibrium that becomes unstable.
+        arc_length: {"until": {...}, "points": n}, past limit points.
         newton: {"tolerance": ..., "iterations": ..., "line_search": ...}.
         Raises ComputationError where there is none near; the session then stands in the last equilibrium.
         """
-        return self.run(_given(type="static", steps=steps, arc_length=arc_length, newton=newton), record=record)
+        return self.run(_given(type="static", steps=steps, branch=branch, arc_length=arc_length, newton=newton), record=record)
+
+    def kinematics(self, duration: float | str, step: float | str, *, record: bool = True) -> Results:
+        """Positions, velocities and accelerations of a mechanism whose every motion is driven: the analysis `kinematic`."""
+        return self.run({"type": "kinematic", "duration": duration, "step": step}, record=record)
+
+    def inverse_dynamics(self, duration: float | str, step: float | str, *, record: bool = True) -> Results:
+        """The same with the forces of drives and joints that bring the motion about: the analysis `inverse_dynamics`."""
+        return self.run({"type": "inverse_dynamics", "duration": duration, "step": step}, record=record)
 
     def dynamics(self, duration: float | str, step: float | str | None = None, *, tolerance: float | None = None,
                  largest_step: float | None = None, scheme: str | None = None, rho: float | None = None,

@@ -93,6 +93,21 @@ class AgainstTheProgram(unittest.TestCase):
     def test_contacts(self):
         self.expect_same_run(os.path.join(EXAMPLES, "contacts.yaml"))
 
+    def test_kinematics_and_inverse_dynamics(self):
+        drives = """\
+drives: {one: {joint: shoulder, angle: "0.3*sin(2*t)"}, two: {joint: elbow, angle: "0.5*t^2"}}
+analysis:
+  - {type: kinematic, duration: 0.5, step: 0.01}
+  - {type: inverse_dynamics, duration: 0.5, step: 0.01}
+"""
+        model = self.write(PENDULUM.partition("analysis:")[0] + drives)
+        self.expect_same_run(model)
+        session = bielle.load(model).session()
+        session.kinematics(0.5, 0.01)
+        results = session.inverse_dynamics(0.5, 0.01)
+        with h5py.File(self.run_program(model)) as program:
+            self.expect_equal(program["analysis_2"], results)
+
     def test_a_motion_step_by_step(self):
         model = self.write(PENDULUM)
         session = bielle.load(model).session()

@@ -1,6 +1,7 @@
 """The examples do what they say."""
 
 import os
+import re
 import subprocess
 import sys
 import unittest
@@ -53,6 +54,16 @@ class Examples(unittest.TestCase):
         lines = self.run_script("sweep.py").splitlines()
         self.assertEqual(len(lines), 8)
         self.assertIn("mass = 8: largest coordinate of 'shoulder'", lines[-1])
+
+    def test_the_code_of_the_readme_runs(self):
+        root = os.path.join(EXAMPLES, os.pardir, os.pardir, os.pardir)
+        with open(os.path.join(root, "README.md"), encoding="utf-8") as file:
+            code = re.search(r"## From Python\n+```python\n(.*?)```", file.read(), re.DOTALL).group(1)
+        done = subprocess.run([sys.executable, "-c", code], cwd=root, capture_output=True, text=True, timeout=300)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        lines = done.stdout.splitlines()
+        self.assertGreater(len(lines), 500)  # a step of 2 ms that meets the limit of the torque is two
+        self.assertRegex(lines[-1], r"^2\.4 0\.8\d+ \[Event\(time=0\.\d+, name=\"event 'arrived'\"\)\]$")
 
 
 if __name__ == "__main__":
