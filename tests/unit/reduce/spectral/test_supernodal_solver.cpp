@@ -22,12 +22,12 @@ double residual(const SymmetricMatrix& a, const MatrixXd& x, const MatrixXd& b) 
 
 TEST_CASE("supernodal solver: any shape of matrix, number of columns and of threads", "[spectral]") {
   // From chains, whose elimination trees are narrow, to solids, with wide supernodes at the top; several trees at last.
-  for (const auto& n : {std::array{3000, 1, 1}, {120, 90, 1}, {20, 19, 18}, {2, 2, 2}, {1, 1, 1}}) {
+  for (const auto& n : {std::array{3000, 1, 1}, {120, 90, 1}, {17, 16, 15}, {2, 2, 2}, {1, 1, 1}}) {
     SymmetricMatrix a = test::grid_laplacian(n);
     if (a.size == 1) a.values[0] = 3;
-    for (const int threads : {1, 2, 3, 5}) {
+    for (const int threads : {1, 2, 5}) {
       const SymmetricFactor factor(a, {}, threads);
-      for (const int columns : {4, 7, 16, 65, 130}) {
+      for (const int columns : {4, 7, 16, 130}) {
         CAPTURE(n, threads, columns);
         const MatrixXd b = MatrixXd::Random(a.size, columns);
         const MatrixXd x = factor.solve(b);
