@@ -40,8 +40,8 @@ struct Supernode {
 
   /// own <- L11^-1 own, or L11^-T own, for some of the columns of `own`.
   void solve_triangle(CBLAS_TRANSPOSE order, double* own, int columns, int row_stride) const {
-    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, order, CblasNonUnit, columns, integer(width), 1, values, stride(),
-                own, row_stride);
+    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, order, CblasNonUnit, columns, integer(width), 1, values,
+                stride(), own, row_stride);
   }
   /// out <- L21 own, of some of the rows below.
   void multiply(Range rows, const double* own, double* out, int columns) const {
@@ -86,11 +86,12 @@ class SupernodalSolver::Sweep {
         for (const std::int64_t s : own(part)) forwards(supernode(s), part);
       });
       each_part([&](int part) { add_sums(part); });
-      for_above(solver_.above_, [&](const Supernode& node) { forwards_together(node); },
-                [&](const Supernode& node) { forwards(node, 0, true); });
-      for_above(std::vector<std::int64_t>(solver_.above_.rbegin(), solver_.above_.rend()),
-                [&](const Supernode& node) { backwards_together(node); },
-                [&](const Supernode& node) { backwards(node, 0); });
+      for_above(
+          solver_.above_, [&](const Supernode& node) { forwards_together(node); },
+          [&](const Supernode& node) { forwards(node, 0, true); });
+      for_above(
+          std::vector<std::int64_t>(solver_.above_.rbegin(), solver_.above_.rend()),
+          [&](const Supernode& node) { backwards_together(node); }, [&](const Supernode& node) { backwards(node, 0); });
       each_part([&](int part) {
         for (auto s = own(part).rbegin(); s != own(part).rend(); ++s) backwards(supernode(*s), part);
       });
@@ -252,7 +253,8 @@ void SupernodalSolver::share_out(int threads) {
   std::priority_queue<Subtree> subtrees;
   std::int64_t all = 0;
   for (std::size_t s = 0; s < count; ++s) {
-    const std::int64_t own = (factor_.columns[s + 1] - factor_.columns[s]) * (factor_.row_starts[s + 1] - factor_.row_starts[s]);
+    const std::int64_t own =
+        (factor_.columns[s + 1] - factor_.columns[s]) * (factor_.row_starts[s + 1] - factor_.row_starts[s]);
     work[s] += own;
     all += own;
     if (parents_[s] < 0) {

@@ -151,8 +151,9 @@ TEST_CASE("block Lanczos: a mass that is singular", "[spectral]") {
   }
   // More than exist: all there are.
   CHECK(difference(block_values(pencil.problem(), 70, with_block(8)), exact) < 1e-10);
-  CHECK(block_values({150, 0, pencil.problem().solve, [](const MatrixXd& x) { return MatrixXd(0 * x); }}, 3, {}).size() ==
-        0);
+  CHECK(
+      block_values({150, 0, pencil.problem().solve, [](const MatrixXd& x) { return MatrixXd(0 * x); }}, 3, {}).size() ==
+      0);
 }
 
 TEST_CASE("block Lanczos: problems smaller than a block, and all of their eigenvalues", "[spectral]") {

@@ -14,8 +14,7 @@ namespace {
 
 /// Largest |A x - b| over |A| |x| + |b|, |A| <= 12: of the order of eps, what a backward stable solution leaves.
 double residual(const SymmetricMatrix& a, const MatrixXd& x, const MatrixXd& b) {
-  return (MatrixXd(a.multiply(x)) - b).cwiseAbs().maxCoeff() /
-         (12 * x.cwiseAbs().maxCoeff() + b.cwiseAbs().maxCoeff());
+  return (MatrixXd(a.multiply(x)) - b).cwiseAbs().maxCoeff() / (12 * x.cwiseAbs().maxCoeff() + b.cwiseAbs().maxCoeff());
 }
 
 }  // namespace
