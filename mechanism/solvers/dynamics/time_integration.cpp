@@ -109,9 +109,23 @@ Jump TimeIntegration::begin_branch(double h, const std::vector<int>& crossed) {
   std::vector<int> new_holds = active_holds(system_, state);
   std::erase_if(new_holds, [&](int k) { return before[static_cast<std::size_t>(k)] == Idle::active; });
   StartReport report;
+  MassSaddle& saddle = correction_.saddle();
   try {
-    refuse_holds(system_, environment_, state, std::move(new_holds), Overloaded::refused, correction_.saddle());
-    start_anew(h, report);
+    if (holds_stop_more(system_, environment_, state, new_holds, saddle)) {
+      refuse_holds(system_, environment_, state, std::move(new_holds), Overloaded::refused, saddle);
+      start_anew(h, report);
+    } else {
+      const State begun = state;
+      try {
+        start_anew(h, report);
+      } catch (const ComputationError&) {
+        if (new_holds.empty()) throw;
+        state = begun;
+        report = {};
+        refuse_holds(system_, environment_, state, std::move(new_holds), Overloaded::holds, saddle);
+        start_anew(h, report);
+      }
+    }
   } catch (const ComputationError& error) {
     std::vector<std::string> events;
     for (const int k : crossed) events.push_back(system_.crossings()[static_cast<std::size_t>(k)].name);

@@ -21,7 +21,12 @@ namespace bielle::mechanism {
 /// Holds that are in force at a state.
 std::vector<int> active_holds(const System& system, const State& state);
 
-/// What becomes of new holds that are overloaded. Where a motion begins they hold as yet: nothing moves.
+/// Whether new holds stop more than what has come to rest by itself: where one does, the joint is at a dead centre, or
+/// all that it is joined to comes to rest. In chains without loops none does.
+bool holds_stop_more(const System& system, const Environment& environment, const State& state,
+                     const std::vector<int>& new_holds, MassSaddle& saddle);
+
+/// What becomes of new holds that are overloaded. Where they stop nothing they hold as yet, and let go later, one by one.
 enum class Overloaded { refused, holds };
 
 /// Sets holds aside that cannot begin at a state. Afterwards velocities and accelerations are to be made consistent.
