@@ -1,5 +1,6 @@
 #include "mechanism/solvers/dynamics/time_integration.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -119,10 +120,15 @@ Jump TimeIntegration::begin_branch(double h, const std::vector<int>& crossed) {
       try {
         start_anew(h, report);
       } catch (const ComputationError&) {
-        if (new_holds.empty()) throw;
         state = begun;
         report = {};
-        refuse_holds(system_, environment_, state, std::move(new_holds), Overloaded::holds, saddle);
+        // The new ones first.
+        std::vector<int> holds = active_holds(system_, state);
+        if (holds.empty()) throw;
+        std::stable_partition(holds.begin(), holds.end(), [&](int k) {
+          return std::find(new_holds.begin(), new_holds.end(), k) == new_holds.end();
+        });
+        refuse_holds(system_, environment_, state, std::move(holds), Overloaded::holds, saddle);
         start_anew(h, report);
       }
     }
