@@ -54,9 +54,8 @@ Eigenpairs fixed_boundary_modes(const NodeMatrix& mass, const HeldBody& held, co
   if (modes.count == 0 || held.size() == 0) {
     return {};
   }
-  const ShiftInvertProblem problem{
-      held.size(), 0, [&](const Eigen::MatrixXd& b) { return held.solve(b); },
-      [&](const Eigen::MatrixXd& z) { return held.inertia(mass, z, threads); }};
+  const ShiftInvertProblem problem{held.size(), 0, [&](const Eigen::MatrixXd& b) { return held.solve(b); },
+                                   [&](const Eigen::MatrixXd& z) { return held.inertia(mass, z, threads); }};
   EigenpairOptions options;
   const double expected = 2.0 * modes.count.value_or(20) + 150;
   options.threads = threads;

@@ -1,9 +1,9 @@
 // Eigenpairs by a block Lanczos method with thick restarts and full orthogonalisation.
 //
 // A solution reads the whole factor, for one right-hand side as for many: a block of vectors costs little more than
-// one. Block Krylov spaces need more vectors than those of single ones, but far fewer readings. They hold as many copies
-// of a multiple eigenvalue as the block has columns; where as many are found, a search with another random block says
-// whether there are more. Reference: R. G. Grimes, J. G. Lewis, H. D. Simon, A shifted block Lanczos algorithm for
+// one. Block Krylov spaces need more vectors than those of single ones, but far fewer readings. They hold as many
+// copies of a multiple eigenvalue as the block has columns; where as many are found, a search with another random block
+// says whether there are more. Reference: R. G. Grimes, J. G. Lewis, H. D. Simon, A shifted block Lanczos algorithm for
 // solving sparse symmetric generalized eigenproblems, SIAM J. Matrix Anal. Appl. 15 (1994) 228.
 #pragma once
 

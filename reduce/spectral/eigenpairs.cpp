@@ -94,7 +94,8 @@ Eigenpairs dense_eigenpairs(const ShiftInvertProblem& problem, int count) {
 }  // namespace
 
 Eigenpairs shift_invert_eigenpairs(const ShiftInvertProblem& problem, int count, const EigenpairOptions& options) {
-  // Below the first size the vectors of an iteration would fill the space anyway; above the second dense matrices cost too much.
+  // Below the first size the vectors of an iteration would fill the space anyway; above the second dense matrices cost
+  // too much.
   constexpr Eigen::Index small = 60, large = 3000;
   const Eigen::Index n = problem.size;
   if (n > large && count >= n) {

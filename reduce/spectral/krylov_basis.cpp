@@ -27,9 +27,9 @@ constexpr double negligible_start = 1e-11;
 
 /// Y V D^-1/2 is orthonormal as far as the Gram matrix V D V^T of Y can tell, and Y = (Y V D^-1/2) (D^1/2 V^T).
 struct Orthonormalisation {
-  MatrixXd transform;      // V D^-1/2
-  MatrixXd triangle;       // D^1/2 V^T
-  double condition = 0;    // largest over least singular value of Y, as far as it can be told
+  MatrixXd transform;    // V D^-1/2
+  MatrixXd triangle;     // D^1/2 V^T
+  double condition = 0;  // largest over least singular value of Y, as far as it can be told
 };
 
 Orthonormalisation orthonormalise(const MatrixXd& gram) {
@@ -152,7 +152,8 @@ RitzPairs KrylovBasis::ritz() const {
                    [&](Index a, Index b) { return std::abs(pairs.values(a)) > std::abs(pairs.values(b)); });
   RitzPairs result{pairs.values(order), VectorXd::Zero(active), pairs.vectors(Eigen::all, order)};
   if (front_ > 0 && last > 0)
-    result.residuals = (projected_.block(size_, last_, front_, last) * result.weights.bottomRows(last)).colwise().norm();
+    result.residuals =
+        (projected_.block(size_, last_, front_, last) * result.weights.bottomRows(last)).colwise().norm();
   return result;
 }
 

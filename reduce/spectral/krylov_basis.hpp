@@ -76,14 +76,14 @@ class KrylovBasis {
   int threads_;
   std::function<void(Eigen::Index)> on_solve_;
   StartVectors random_;
-  Eigen::MatrixXd vectors_;      // Q, then F
-  Eigen::MatrixXd mass_front_;   // M F
+  Eigen::MatrixXd vectors_;            // Q, then F
+  Eigen::MatrixXd mass_front_;         // M F
   Eigen::MatrixXd coupling_of_front_;  // with the block whose image it comes from
   Eigen::MatrixXd projected_;          // H, lower triangle, and R in the rows of F
   Eigen::Index size_ = 0, front_ = 0, locked_ = 0;
-  Eigen::Index coupled_ = 0;     // the front is coupled with the vectors of Q from this one on
-  Eigen::Index last_ = 0;        // the last block of Q starts here: R is zero before it
-  double largest_ = 0;           // a lower bound of the largest |nu|
+  Eigen::Index coupled_ = 0;  // the front is coupled with the vectors of Q from this one on
+  Eigen::Index last_ = 0;     // the last block of Q starts here: R is zero before it
+  double largest_ = 0;        // a lower bound of the largest |nu|
 };
 
 }  // namespace bielle

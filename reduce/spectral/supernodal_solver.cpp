@@ -16,7 +16,7 @@ namespace {
 
 constexpr Eigen::Index most_columns = 64;  // at a time: more bring no more speed, but need more memory
 
-/// Nothing of the factor is worth a thread below this.
+/// Less of the factor than this is not worth another thread, or that threads wait for each other.
 constexpr std::int64_t entries_of_a_thread = 100000;
 
 int integer(std::int64_t k) { return static_cast<int>(k); }
@@ -40,8 +40,8 @@ struct Supernode {
 
   /// own <- L11^-1 own, or L11^-T own, for some of the columns of `own`.
   void solve_triangle(CBLAS_TRANSPOSE order, double* own, int columns, int row_stride) const {
-    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, order, CblasNonUnit, columns, integer(width), 1, values, stride(),
-                own, row_stride);
+    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, order, CblasNonUnit, columns, integer(width), 1, values,
+                stride(), own, row_stride);
   }
   /// out <- L21 own, of some of the rows below.
   void multiply(Range rows, const double* own, double* out, int columns) const {
@@ -86,8 +86,12 @@ class SupernodalSolver::Sweep {
         for (const std::int64_t s : own(part)) forwards(supernode(s), part);
       });
       each_part([&](int part) { add_sums(part); });
-      for (const std::int64_t s : solver_.above_) forwards_together(supernode(s));
-      for (auto s = solver_.above_.rbegin(); s != solver_.above_.rend(); ++s) backwards_together(supernode(*s));
+      for_above(
+          solver_.above_, [&](const Supernode& node) { forwards_together(node); },
+          [&](const Supernode& node) { forwards(node, 0, true); });
+      for_above(
+          std::vector<std::int64_t>(solver_.above_.rbegin(), solver_.above_.rend()),
+          [&](const Supernode& node) { backwards_together(node); }, [&](const Supernode& node) { backwards(node, 0); });
       each_part([&](int part) {
         for (auto s = own(part).rbegin(); s != own(part).rend(); ++s) backwards(supernode(*s), part);
       });
@@ -102,6 +106,24 @@ class SupernodalSolver::Sweep {
     for (int part = omp_get_thread_num(); part < parts_; part += omp_get_num_threads()) work(part);
 #pragma omp barrier
   }
+
+  /// Large supernodes together, small ones in a row by one thread: to wait for each other takes longer.
+  template <class Together, class Alone>
+  void for_above(const std::vector<std::int64_t>& nodes, const Together& together, const Alone& alone) {
+    const auto is_large = [&](std::int64_t s) { return entries(supernode(s)) > entries_of_a_thread; };
+    for (std::size_t k = 0; k < nodes.size();) {
+      if (is_large(nodes[k])) {
+        together(supernode(nodes[k++]));
+        continue;
+      }
+      const std::size_t first = k;
+      while (k < nodes.size() && !is_large(nodes[k])) ++k;
+      if (omp_get_thread_num() == 0)
+        for (std::size_t j = first; j < k; ++j) alone(supernode(nodes[j]));
+#pragma omp barrier
+    }
+  }
+  static std::int64_t entries(const Supernode& node) { return node.width * (node.width + node.below); }
 
   const std::vector<std::int64_t>& own(int part) const { return solver_.of_threads_[static_cast<std::size_t>(part)]; }
   double* room(int part) { return rooms_[static_cast<std::size_t>(part)].data(); }
@@ -140,7 +162,8 @@ class SupernodalSolver::Sweep {
     }
   }
 
-  void forwards(const Supernode& node, int part) {
+  /// @param is_above  what is given to rows above is not kept apart
+  void forwards(const Supernode& node, int part, bool is_above = false) {
     double* const own = row(node.first);
     node.solve_triangle(CblasTrans, own, columns_, columns_);
     if (node.below == 0) return;
@@ -148,7 +171,8 @@ class SupernodalSolver::Sweep {
     node.multiply({0, node.below}, own, update, columns_);
     double* const sums = sums_[static_cast<std::size_t>(part)].data();
     for (std::int64_t k = 0; k < node.below; ++k, update += columns_) {
-      const std::int64_t to = node.rows_below[k], above = solver_.place_above_[static_cast<std::size_t>(to)];
+      const std::int64_t to = node.rows_below[k];
+      const std::int64_t above = is_above ? -1 : solver_.place_above_[static_cast<std::size_t>(to)];
       add_row(above < 0 ? row(to) : sums + above * columns_, update, columns_, -1);
     }
   }
@@ -229,7 +253,8 @@ void SupernodalSolver::share_out(int threads) {
   std::priority_queue<Subtree> subtrees;
   std::int64_t all = 0;
   for (std::size_t s = 0; s < count; ++s) {
-    const std::int64_t own = (factor_.columns[s + 1] - factor_.columns[s]) * (factor_.row_starts[s + 1] - factor_.row_starts[s]);
+    const std::int64_t own =
+        (factor_.columns[s + 1] - factor_.columns[s]) * (factor_.row_starts[s + 1] - factor_.row_starts[s]);
     work[s] += own;
     all += own;
     if (parents_[s] < 0) {
@@ -244,7 +269,7 @@ void SupernodalSolver::share_out(int threads) {
   threads = integer(useful);
   of_threads_.resize(static_cast<std::size_t>(threads));
   if (threads > 1) {
-    const std::int64_t small = all / (6 * threads);
+    const std::int64_t small = all / (4 * threads);
     while (!subtrees.empty() && subtrees.top().first > small) {
       const auto root = static_cast<std::size_t>(subtrees.top().second);
       subtrees.pop();

@@ -44,7 +44,7 @@ class SupernodalSolver {
   std::vector<std::int64_t> place_above_;              // of each row of L in the rows of `above_`; -1: in a subtree
   std::vector<std::int64_t> unknowns_above_;           // rows of L of `above_`
   std::int64_t rows_above_ = 0;
-  std::int64_t longest_ = 0;                           // rows of the longest supernode below its own columns
+  std::int64_t longest_ = 0;  // rows of the longest supernode below its own columns
 };
 
 }  // namespace bielle

@@ -5,8 +5,8 @@
 //
 // For each mesh: the time of a solution with 1, 2, 4 .. 64 columns, of a product with the mass, then for each number of
 // modes the time, sweeps (readings of the factor), columns and restarts of each method, its time over ARPACK's, and the
-// largest relative difference of eigenvalues. The methods take turns, `rounds` times, and the fastest counts. Nothing is
-// asserted: times belong to the machine.
+// largest relative difference of eigenvalues. The methods take turns, `rounds` times, and the fastest counts. Nothing
+// is asserted: times belong to the machine.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -102,21 +102,22 @@ void measure_methods(const ShiftInvertProblem& problem, int modes, const Setting
   for (Run& run : runs) run.options.threads = settings.threads;
   for (int round = 0; round < settings.rounds; ++round) {
     for (Run& run : runs) {
-      run.seconds.take_less(
-          seconds_of([&] { run.pairs = shift_invert_eigenpairs(problem, modes + 1, run.options); }));
+      run.seconds.take_less(seconds_of([&] { run.pairs = shift_invert_eigenpairs(problem, modes + 1, run.options); }));
       run.pairs.vectors.resize(0, 0);
     }
   }
   fmt::print(
-      "  {:<24} elapsed [s]  of the first  processor [s]  of the first  sweeps  columns  restarts  residual  difference\n",
+      "  {:<24} elapsed [s]  of the first  processor [s]  of the first  sweeps  columns  restarts  residual  "
+      "difference\n",
       fmt::format("{} modes and one more", modes));
   for (const Run& run : runs) {
     const Eigen::VectorXd& values = run.pairs.values;
     const Seconds& own = run.seconds;
     const Seconds& first = runs[0].seconds;
-    fmt::print("    {:<22} {:11.2f} {:13.3f} {:14.2f} {:13.3f} {:7} {:8} {:9} {:9.1e} {:11.1e}\n", run.name, own.elapsed,
-               own.elapsed / first.elapsed, own.processor, own.processor / first.processor, run.pairs.sweeps, run.pairs.solves, run.pairs.restarts,
-               run.pairs.residuals.maxCoeff(), (values.array() / runs[0].pairs.values.array() - 1).abs().maxCoeff());
+    fmt::print("    {:<22} {:11.2f} {:13.3f} {:14.2f} {:13.3f} {:7} {:8} {:9} {:9.1e} {:11.1e}\n", run.name,
+               own.elapsed, own.elapsed / first.elapsed, own.processor, own.processor / first.processor,
+               run.pairs.sweeps, run.pairs.solves, run.pairs.restarts, run.pairs.residuals.maxCoeff(),
+               (values.array() / runs[0].pairs.values.array() - 1).abs().maxCoeff());
   }
   std::fflush(stdout);
 }
@@ -134,9 +135,8 @@ void measure(double size, const Settings& settings) {
   const HeldBody held(solid, assemble_stiffness(solid, graph, settings.threads), ties, settings.threads);
   fmt::print("\n{} dofs, {:.0f} MB of factor, factorised in {:.2f} s ({:.1f} GFLOP/s)\n", held.size(),
              held.statistics().memory_MB(), held.statistics().factorisation_seconds, held.statistics().speed());
-  const ShiftInvertProblem problem{
-      held.size(), 0, [&](const Eigen::MatrixXd& b) { return held.solve(b); },
-      [&](const Eigen::MatrixXd& z) { return held.inertia(mass, z, settings.threads); }};
+  const ShiftInvertProblem problem{held.size(), 0, [&](const Eigen::MatrixXd& b) { return held.solve(b); },
+                                   [&](const Eigen::MatrixXd& z) { return held.inertia(mass, z, settings.threads); }};
   measure_parts(problem);
   for (const int modes : settings.modes) measure_methods(problem, modes, settings);
 }

@@ -31,7 +31,7 @@ class SolidModel {
   SolidModel(const SolidModel&) = delete;
 
   /// Natural frequencies [Hz], ascending; a free body's six rigid motions are left out.
-  Eigen::VectorXd frequencies(int count) const {
+  Eigen::VectorXd frequencies(int count, const EigenpairOptions& options = {}) const {
     const bool is_free = static_cast<Eigen::Index>(free_.size()) == 3 * mesh.point_count();
     const double shift = is_free ? -1e6 : 0;  // (rad/s)^2
     SymmetricMatrix shifted = stiffness;
@@ -46,7 +46,8 @@ class SolidModel {
     const ShiftInvertProblem problem{factor.size(), shift, [&](const Eigen::MatrixXd& b) { return factor.solve(b); },
                                      [&](const Eigen::MatrixXd& x) { return restrict(mass.multiply(expand(x), 3)); }};
     const int rigid = is_free ? 6 : 0;
-    return shift_invert_eigenpairs(problem, count + rigid).values.tail(count).cwiseSqrt() / (2 * std::numbers::pi);
+    return shift_invert_eigenpairs(problem, count + rigid, options).values.tail(count).cwiseSqrt() /
+           (2 * std::numbers::pi);
   }
 
   /// Displacements of all points under forces on all points.

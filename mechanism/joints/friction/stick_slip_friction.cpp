@@ -26,7 +26,7 @@ void StickSlipFriction::declare(Declaration& declaration) const {
   declaration.memory[slip_direction] = std::numeric_limits<double>::quiet_NaN();
   Crossing rest{name + " sticks", Crossing::Direction::falling}, slip{name + " slips", Crossing::Direction::falling};
   rest.begins_on = slip.begins_on = 1;  // what cannot stick slips at once
-  rest.one_by_one = slip.one_by_one = true;
+  slip.one_by_one = true;
   rest.nearest = slip.nearest = 1e-5;
   declaration.crossings = {rest, slip};
 }

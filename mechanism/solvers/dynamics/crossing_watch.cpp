@@ -18,7 +18,7 @@ CrossingWatch::CrossingWatch(const System& system) : system_(system) {
     sides_[k] = system.crossings()[static_cast<std::size_t>(k)].crossing.begins_on;
 }
 
-std::vector<int> CrossingWatch::begin(const State& state, const Environment& environment) {
+std::vector<int> CrossingWatch::begin(const State& state, const Environment& environment, bool one_alone) {
   system_.calc_crossings(state, environment, at_start_);
   std::vector<int> jumped;
   for (int k = 0; k < static_cast<int>(sides_.size()); ++k) {
@@ -30,6 +30,9 @@ std::vector<int> CrossingWatch::begin(const State& state, const Environment& env
       sides_[k] = side;
   }
   let_one_go(jumped, at_start_);
+  if (one_alone && jumped.size() > 1)
+    jumped = {*std::min_element(jumped.begin(), jumped.end(),
+                                [&](int a, int b) { return sides_[a] * at_start_[a] < sides_[b] * at_start_[b]; })};
   for (const int k : jumped) sides_[k] = -sides_[k];
   return jumped;
 }

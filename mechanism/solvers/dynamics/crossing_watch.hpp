@@ -22,8 +22,9 @@ class CrossingWatch {
   bool idle() const { return system_.crossings().empty(); }
 
   /// Looks at the start of a step.
+  /// @param one_alone  of several, only the farthest beyond its zero
   /// @returns the crossings that have come to another side since the last step ended: what they look at has jumped
-  std::vector<int> begin(const State& state, const Environment& environment);
+  std::vector<int> begin(const State& state, const Environment& environment, bool one_alone = false);
   /// Whether a step of the size h that ends in a state holds a crossing. Begins the search for the first one if it
   /// does.
   /// @param tolerance  how far past the zero the step may end [s]

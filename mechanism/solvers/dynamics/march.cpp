@@ -150,7 +150,8 @@ void March::begin_step(MarchStep& step) {
 
 /// Crossings that were jumped over at a discontinuity: they may begin further branches there.
 void March::pass_jumps(double h, std::vector<int> jumped, MarchStep& step) {
-  constexpr int most = 100;
+  // Branches that all begin at once may undo each other again and again; one after the other they settle.
+  constexpr int together = 10, most = 100;
   for (int k = 0; !jumped.empty(); ++k) {
     if (k == most) throw_chattering(jumped.front());
     crossed_.clear();
@@ -159,7 +160,7 @@ void March::pass_jumps(double h, std::vector<int> jumped, MarchStep& step) {
     pending_ = Pending::nothing;
     if (stopped_ || !restarts) return;
     begin_branch(h);
-    jumped = watch_.begin(integration_.state(), integration_.environment());
+    jumped = watch_.begin(integration_.state(), integration_.environment(), k >= together);
   }
 }
 

@@ -1,5 +1,6 @@
 #include "mechanism/solvers/dynamics/time_integration.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -109,9 +110,28 @@ Jump TimeIntegration::begin_branch(double h, const std::vector<int>& crossed) {
   std::vector<int> new_holds = active_holds(system_, state);
   std::erase_if(new_holds, [&](int k) { return before[static_cast<std::size_t>(k)] == Idle::active; });
   StartReport report;
+  MassSaddle& saddle = correction_.saddle();
   try {
-    refuse_holds(system_, environment_, state, std::move(new_holds), Overloaded::refused, correction_.saddle());
-    start_anew(h, report);
+    if (holds_stop_more(system_, environment_, state, new_holds, saddle)) {
+      refuse_holds(system_, environment_, state, std::move(new_holds), Overloaded::refused, saddle);
+      start_anew(h, report);
+    } else {
+      const State begun = state;
+      try {
+        start_anew(h, report);
+      } catch (const ComputationError&) {
+        state = begun;
+        report = {};
+        // The new ones first.
+        std::vector<int> holds = active_holds(system_, state);
+        if (holds.empty()) throw;
+        std::stable_partition(holds.begin(), holds.end(), [&](int k) {
+          return std::find(new_holds.begin(), new_holds.end(), k) == new_holds.end();
+        });
+        refuse_holds(system_, environment_, state, std::move(holds), Overloaded::holds, saddle);
+        start_anew(h, report);
+      }
+    }
   } catch (const ComputationError& error) {
     std::vector<std::string> events;
     for (const int k : crossed) events.push_back(system_.crossings()[static_cast<std::size_t>(k)].name);

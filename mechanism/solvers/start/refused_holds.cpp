@@ -1,6 +1,8 @@
 #include "mechanism/solvers/start/refused_holds.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "mechanism/solvers/start/consistent_accelerations.hpp"
 #include "mechanism/solvers/start/consistent_velocities.hpp"
@@ -29,6 +31,33 @@ std::vector<int> active_holds(const System& system, const State& state) {
   for (int k = 0; k < static_cast<int>(state.idle.size()); ++k)
     if (system.yields(k) && state.idle[static_cast<std::size_t>(k)] == Idle::active) holds.push_back(k);
   return holds;
+}
+
+bool holds_stop_more(const System& system, const Environment& environment, const State& state,
+                     const std::vector<int>& new_holds, MassSaddle& saddle) {
+  if (new_holds.empty()) return false;
+  State held = state, free = state;
+  for (const int hold : new_holds) idle_of(free, hold) = Idle::redundant;
+  StartReport unused;
+  for (State* each : {&free, &held}) {
+    saddle.serve_no_more();
+    make_velocities_consistent(system, environment, *each, unused, saddle);
+  }
+  saddle.serve_no_more();
+  VectorX with(system.dofs()), without(system.dofs()), a(system.dofs());
+  system.get_rates(held, with, a);
+  system.get_rates(free, without, a);
+  std::array<double, kind_count> change{}, size{};
+  for (int i = 0; i < system.dofs(); ++i) {
+    const auto kind = static_cast<std::size_t>(system.kind(i));
+    change[kind] = std::max(change[kind], std::abs(with[i] - without[i]));
+    size[kind] = std::max(size[kind], std::abs(without[i]));
+  }
+  // Far above what is left of a rate where its zero has been located, far below what a dead centre stops.
+  constexpr double nothing = 1e-6;
+  for (std::size_t kind = 0; kind < kind_count; ++kind)
+    if (change[kind] > nothing * size[kind]) return true;
+  return false;
 }
 
 void refuse_holds(const System& system, const Environment& environment, State& state, std::vector<int> new_holds,

@@ -60,7 +60,8 @@ TEST_CASE("Krylov basis: the recurrence knows the residuals of Ritz vectors, aft
     CHECK(std::abs(ritz.values(0)) == Approx(largest).epsilon(1e-6));
     const Checked checked = check_ritz_vectors(chain, basis);
     CHECK((checked.residuals - ritz.residuals).cwiseAbs().maxCoeff() < 1e-13 * largest);
-    CHECK(checked.orthogonality < 1e-11);  // blocks with a condition of up to 100 are orthonormal to eps times its square
+    CHECK(checked.orthogonality <
+          1e-11);  // blocks with a condition of up to 100 are orthonormal to eps times its square
   }
 }
 

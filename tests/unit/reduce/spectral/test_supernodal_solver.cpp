@@ -14,20 +14,19 @@ namespace {
 
 /// Largest |A x - b| over |A| |x| + |b|, |A| <= 12: of the order of eps, what a backward stable solution leaves.
 double residual(const SymmetricMatrix& a, const MatrixXd& x, const MatrixXd& b) {
-  return (MatrixXd(a.multiply(x)) - b).cwiseAbs().maxCoeff() /
-         (12 * x.cwiseAbs().maxCoeff() + b.cwiseAbs().maxCoeff());
+  return (MatrixXd(a.multiply(x)) - b).cwiseAbs().maxCoeff() / (12 * x.cwiseAbs().maxCoeff() + b.cwiseAbs().maxCoeff());
 }
 
 }  // namespace
 
 TEST_CASE("supernodal solver: any shape of matrix, number of columns and of threads", "[spectral]") {
   // From chains, whose elimination trees are narrow, to solids, with wide supernodes at the top; several trees at last.
-  for (const auto& n : {std::array{3000, 1, 1}, {120, 90, 1}, {20, 19, 18}, {2, 2, 2}, {1, 1, 1}}) {
+  for (const auto& n : {std::array{3000, 1, 1}, {120, 90, 1}, {17, 16, 15}, {2, 2, 2}, {1, 1, 1}}) {
     SymmetricMatrix a = test::grid_laplacian(n);
     if (a.size == 1) a.values[0] = 3;
-    for (const int threads : {1, 2, 3, 5}) {
+    for (const int threads : {1, 2, 5}) {
       const SymmetricFactor factor(a, {}, threads);
-      for (const int columns : {4, 7, 16, 65, 130}) {
+      for (const int columns : {4, 7, 16, 130}) {
         CAPTURE(n, threads, columns);
         const MatrixXd b = MatrixXd::Random(a.size, columns);
         const MatrixXd x = factor.solve(b);
