@@ -57,12 +57,12 @@ TEST_CASE("reactions, constraints and angles answer too", "[linearised]") {
   const ModesOf model(
       "gravity: [0, 0, -9.81]\nnodes: {bob: {position: [0, 0, -2]}}\n"
       "elements: {bob: {type: rigid_body, node: bob, mass: 3, inertia: [0.5, 0.5, 0.5]}}\n"
-      "joints: {pivot: {type: hinge, nodes: [ground, bob], position: [0, 0, 0], axis: [0, 1, 0]}}\n"
-      "measures: {angle: pivot.angle, bears: pivot.reaction.x}\n");
+      "joints: {pivot: {type: hinge, nodes: [ground, bob], position: [0, 0, 0], axis: [0, 1, 0], second_axis: [1, 0, 0]}}\n"
+      "measures: {swing: pivot.angle, bears: pivot.reaction.x}\n");
   FrequencyResponseOptions options;
   const int node = *model.file.model.find_node("bob");
   options.inputs = {{"force", node, false, Vector3::UnitX()}, {"moment", node, true, Vector3::UnitY()}};
-  options.outputs = {{"angle", -1, false, {}}, {"turn", node, true, Vector3::UnitY()}};
+  options.outputs = {{"swing", -1, false, {}}, {"turn", node, true, Vector3::UnitY()}, {"bears", -1, false, {}}};
   options.frequencies = {0, 0.2, 2};
   const FrequencyResponse found = model.session.frequency_response(options);
   const double J = 0.5 + 3 * 4, w0 = std::sqrt(3 * 9.81 * 2 / J);
@@ -72,6 +72,9 @@ TEST_CASE("reactions, constraints and angles answer too", "[linearised]") {
     CHECK(std::abs(found.response[f](0, 0) - -2 * H) < 1e-10 * std::abs(H));
     CHECK(std::abs(found.response[f](0, 1) - H) < 1e-10 * std::abs(H));
     CHECK(std::abs(found.response[f](1, 1) - H) < 1e-10 * std::abs(H));
+    // The bob is at x = -2 swing: m x'' = F + R.
+    CHECK(std::abs(found.response[f](2, 0) - (-3 * w * w * 4 * H - 1)) < 1e-9);
+    CHECK(std::abs(found.response[f](2, 1) - (-3 * w * w * -2 * H)) < 1e-9);
   }
 }
 

@@ -76,3 +76,30 @@ TEST_CASE("the analysis records frequencies, shapes and shares of energy", "[lin
   CHECK_THROWS(sink.read(2, "eigen/displacement"));
   CHECK(sink.read(2, "eigen/frequency").size() == 2);
 }
+
+TEST_CASE("a junction without volume has no mode of its own: two lines in series are one", "[linearised]") {
+  const auto circuit = [](const std::string& lines) {
+    return "nodes: {mass: {position: [0, 0, 1], fixed: [x, y, rx, ry, rz]}}\n"
+           "elements:\n  load: {type: point_mass, node: mass, mass: 500}\n"
+           "  jack: {type: hydraulic_actuator, nodes: [ground, mass], piston_areas: [2e-3, 1.2e-3], "
+           "dead_volumes: [1e-3, 0.2e-3], stroke: [1, 1.5], ports: [a, b]}\n"
+           "hydraulics:\n  ambient_pressure: 0\n  fluid: {density: 850, bulk_modulus: 1.4e9, viscosity: 0.03}\n"
+           "  volumes: {a: {volume: 1e-4, pressure: 6e6}, b: {volume: 1e-4, pressure: 10e6}, c: {volume: 5e-3, "
+           "pressure: 6e6}}\n" +
+           lines;
+  };
+  const ModesReport through = ModesOf(circuit(
+      "  junctions: [j]\n  lines: {l: {from: a, to: j, laminar: {conductance: 4e-11}}, k: {from: j, to: c, laminar: "
+      "{conductance: 4e-11}}}\n"))();
+  const ModesReport direct = ModesOf(circuit("  lines: {l: {from: a, to: c, laminar: {conductance: 2e-11}}}\n"))();
+  CHECK(through.found.all);
+  REQUIRE(through.found.modes.size() == direct.found.modes.size());
+  CHECK(count_rigid(through) == count_rigid(direct));
+  bool damped = false;
+  for (std::size_t k = 0; k < direct.found.modes.size(); ++k) {
+    const std::complex<double> s = direct.found.modes[k].s;
+    CHECK(std::abs(through.found.modes[k].s - s) <= 1e-9 * std::abs(s));
+    if (s.imag() != 0 && s.real() < -1e-4 * std::abs(s)) damped = true;
+  }
+  CHECK(damped);
+}
