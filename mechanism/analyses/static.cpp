@@ -53,7 +53,7 @@ PathOptions read_path(const YamlValue& entry, int steps, const Model& model) {
 }
 
 /// Where stability changed, and what is left of it.
-std::string format_stability(const StaticsLog& log, bool path) {
+std::string format_stability(const StaticsLog& log, bool path, bool hint) {
   std::string text;
   for (const CriticalPoint& point : log.critical)
     text += fmt::format("  {} at load factor {:.9g}: the stiffness {} along {}, most at {}{}\n",
@@ -66,7 +66,9 @@ std::string format_stability(const StaticsLog& log, bool path) {
   if (log.unstable.value_or(0) > 0)
     text += fmt::format("  the equilibrium at the end is unstable: its stiffness is negative along {}{}\n",
                         counted(*log.unstable, "motion"),
-                        log.critical.empty() || path ? "" : "; `branch: 1e-3` follows the branch that leaves there");
+                        log.critical.empty() || !hint ? "" : "; `branch: 1e-3` follows the branch that leaves there");
+  if (!log.unstable && log.critical.empty() && !path)
+    text += "  stability is not known: the stiffness is not symmetric, or forces depend on controllers or fluids\n";
   return text;
 }
 
@@ -107,7 +109,7 @@ void StaticAnalysis::solve(Session& session, AnalysisSummary& summary) const {
     summary.text += fmt::format("  {} refused ({} in all); the last, to load factor {:.6g}: {}\n",
                                 counted(report.log.refused, "increment"), counted(report.log.solves, "iteration"),
                                 report.log.refused_at, report.log.why_refused);
-  summary.text += format_stability(report.log, options_.path.has_value());
+  summary.text += format_stability(report.log, options_.path.has_value(), !options_.path && options_.branch == 0);
   for (const CriticalPoint& point : report.log.critical) summary.numbers["critical_points"].push_back(point.factor);
   for (const double factor : report.limit_points)
     summary.text += fmt::format("  limit point at load factor {:.9g}\n", factor);

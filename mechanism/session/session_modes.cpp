@@ -62,9 +62,9 @@ ModesReport Session::modes(const ModesOptions& options) const {
   if (report.steadiness) {
     report.axes = report.steadiness->axes();
   } else {
-    int equation = 0;
+    int equation = -1;
     report.unbalance = unbalance(system_, environment, state, equation);
-    report.unbalanced = system_.equation_name(equation);
+    if (equation >= 0) report.unbalanced = system_.equation_name(equation);
   }
   const LinearisedEquations equations = linearised_equations(system_, environment, state, report.axes);
   try {

@@ -69,9 +69,10 @@ std::string Equilibrium::what_is_open(const State& state) const {
 }
 
 void Equilibrium::accept(double factor, State& state) const {
+  const Environment loaded = ramp_.environment(factor);  // attempts at other load factors may lie between
   try {
-    check_set_aside(system_, environment_, state);
-    system_.accept(state, environment_);
+    check_set_aside(system_, loaded, state);
+    system_.accept(state, loaded);
   } catch (const ComputationError& error) {
     throw ComputationError(
         fmt::format("statics: the equilibrium at load factor {:.6g} is refused: {}; largest residual: {}", factor,

@@ -1,6 +1,7 @@
 #include "mechanism/solvers/statics/stability.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -12,42 +13,48 @@ namespace bielle::mechanism {
 namespace {
 
 const TangentWeights stiffness_alone{1, 0, 0, 0, 1, true};
+constexpr double give = 1e-4;  // of constraints, see the head of stability.hpp
 
 }  // namespace
 
 std::optional<int> Stability::count(const State& state, const Environment& environment) {
-  constexpr double give = 1e-4;       // of constraints, see the head of stability.hpp
-  constexpr double asymmetry = 1e-9;  // relative to the stiffness
+  constexpr double asymmetry = 1e-6, of_size = 1e-7;  // relative to an entry, and to the stiffness
   if (system_.dofs() == 0) return 0;
   linear_.assemble(state, environment, stiffness_alone, nullptr);
   const std::vector<double>& values = linear_.values();
   const SparsePattern& pattern = system_.pattern();
-  const int begin = system_.size() - system_.multipliers();
-  const double k = linear_.scale();
+  const int dofs = system_.dofs(), first = system_.size() - system_.multipliers();
+  const VectorX scale = row_scales();
   std::vector<Eigen::Triplet<double>> lower;
   lower.reserve(values.size());
-  bool symmetric = true;
+  bool known = true;
   pattern.for_each([&](int place, int row, int column) {
     const double value = values[static_cast<std::size_t>(place)];
-    if (!symmetric || value == 0) return;
-    if (row < column && pattern.find(column, row) >= 0) return;  // seen from the other side
-    const int other = pattern.find(column, row);
-    const double transposed = other >= 0 ? values[static_cast<std::size_t>(other)] : 0;
-    // Rows of constraints are of lengths or of ones.
-    const double scale = row >= begin || column >= begin ? 1 : k;
-    if (std::abs(value - transposed) > asymmetry * std::max(scale, std::abs(value))) {
-      symmetric = false;
+    if (!known || value == 0) return;
+    const bool row_state = row >= dofs && row < first, column_state = column >= dofs && column < first;
+    if (row_state) return;  // what first-order unknowns do is no stiffness,
+    if (column_state) {     // unless forces depend on them
+      known = false;
       return;
     }
-    const double weight = (row >= begin ? k : 1) * (column >= begin ? k : 1);
-    lower.emplace_back(std::max(row, column), std::min(row, column), weight * 0.5 * (value + transposed));
+    const int other = pattern.find(column, row);
+    if (row < column && other >= 0) return;  // seen from the other side
+    const double transposed = other >= 0 ? values[static_cast<std::size_t>(other)] : 0;
+    const double size = row >= first || column >= first ? 1 : linear_.scale();
+    if (std::abs(value - transposed) > asymmetry * std::max(std::abs(value), std::abs(transposed)) + of_size * size) {
+      known = false;
+      return;
+    }
+    lower.emplace_back(std::max(row, column), std::min(row, column),
+                       scale[row] * scale[column] * 0.5 * (value + transposed));
   });
-  if (!symmetric) return {};
+  if (!known) return {};
+  for (int i = dofs; i < first; ++i) lower.emplace_back(i, i, 1);
   int constraints = 0;
-  for (int i = begin; i < system_.size(); ++i) {
+  for (int i = first; i < system_.size(); ++i) {
     const int place = pattern.find(i, i);
     if (place >= 0 && values[static_cast<std::size_t>(place)] > 0) continue;  // out of the equations
-    lower.emplace_back(i, i, -give * k);
+    lower.emplace_back(i, i, -give);
     ++constraints;
   }
   Eigen::SparseMatrix<double> A(system_.size(), system_.size());
@@ -56,6 +63,45 @@ std::optional<int> Stability::count(const State& state, const Environment& envir
   if (factors.info() != Eigen::Success) return {};
   const auto pivots = factors.vectorD();
   return static_cast<int>((pivots.array() < 0).count()) - constraints;
+}
+
+/// 1 for unknowns; of each constraint the root of the stiffness that it meets: the largest K_jj/B_ij^2 along its row,
+/// in which no unit is left, or of what has no stiffness itself (free bodies) that of the whole.
+VectorX Stability::row_scales() const {
+  const std::vector<double>& values = linear_.values();
+  const SparsePattern& pattern = system_.pattern();
+  const int dofs = system_.dofs(), first = system_.size() - system_.multipliers();
+  VectorX diagonal(dofs), largest = VectorX::Zero(system_.size()), scale = VectorX::Ones(system_.size());
+  for (int i = 0; i < dofs; ++i) diagonal[i] = std::abs(linear_.diagonal(i));
+  // Stiffness per kind, for rows that meet none.
+  std::array<double, kind_count> sum{}, count{};
+  for (int i = 0; i < dofs; ++i) {
+    sum[static_cast<std::size_t>(system_.kind(i))] += diagonal[i];
+    count[static_cast<std::size_t>(system_.kind(i))] += 1;
+  }
+  const auto usual = [&](int dof) {
+    const auto kind = static_cast<std::size_t>(system_.kind(dof));
+    return count[kind] > 0 && sum[kind] > 0 ? sum[kind] / count[kind] : linear_.scale();
+  };
+  const auto each = [&](const auto& act) {
+    pattern.for_each([&](int place, int row, int column) {
+      const double b = std::abs(values[static_cast<std::size_t>(place)]);
+      if (row >= first && column < dofs && b > 0) act(row, column, b);
+    });
+  };
+  each([&](int row, int, double b) { largest[row] = std::max(largest[row], b); });
+  VectorX met = VectorX::Zero(system_.size()), fallback = met;
+  constexpr double counts = 0.1;  // share of the row's largest entry
+  each([&](int row, int column, double b) {
+    if (b < counts * largest[row]) return;
+    met[row] = std::max(met[row], diagonal[column] / (b * b));
+    fallback[row] = std::max(fallback[row], usual(column) / (b * b));
+  });
+  for (int i = first; i < system_.size(); ++i) {
+    const double stiffness = met[i] > 0 ? met[i] : fallback[i];
+    if (stiffness > 0) scale[i] = std::sqrt(stiffness);
+  }
+  return scale;
 }
 
 std::optional<Stability::Mode> Stability::softest(const State& state, const Environment& environment) {
@@ -92,7 +138,15 @@ std::optional<Stability::Mode> Stability::softest(const State& state, const Envi
     mode.largest = i;
   }
   mode.shape /= largest;
+  // By forces where they reach it: moments about the axes of nodes turn with them.
   mode.force = weight.cwiseProduct(mode.shape);
+  double reached = 0;
+  for (int i = 0; i < n; ++i)
+    if (system_.kind(i) != Kind::rotation) reached = std::max(reached, std::sqrt(weight[i]) * std::abs(mode.shape[i]));
+  constexpr double enough = 1e-3;
+  if (reached > enough)
+    for (int i = 0; i < n; ++i)
+      if (system_.kind(i) == Kind::rotation) mode.force[i] = 0;
   return mode;
 }
 

@@ -1,15 +1,15 @@
 // Whether an equilibrium is stable: the inertia of its stiffness along the motions that the constraints allow.
 //
 // The number of negative eigenvalues of K on the null space of B is that of
-//     [ K    B^T          ]
-//     [ B  -eps/k         ]
-// less one for each constraint (Sylvester; the Schur complement of the lower block is K + k/eps B^T B), k the size of
-// the stiffness: constraints give by 1e-4 of what the stiffest part of the mechanism does, which soft motions do not
-// notice. It is read off the pivots of a symmetric factorisation. The sign of a determinant would miss two eigenvalues
-// that change sign together, as of a square column.
+//     [ K    B^T S ]
+//     [ S B  -eps  ]
+// less one for each constraint (Sylvester; the Schur complement of the lower block is K + B^T S^2 B/eps), S^2 diagonal
+// with the stiffness that each constraint meets: constraints give by eps = 1e-4 of what is next to them, which soft
+// motions do not notice. It is read off the pivots of a symmetric factorisation. The sign of a determinant would miss
+// two eigenvalues that change sign together, as of a square column.
 //
-// Where the tangent is not symmetric (forces that follow, moments about fixed axes, friction, hydraulics) stability is
-// a question of motion, and nothing is counted.
+// Where the tangent is not symmetric (forces that follow, moments about fixed axes, friction), or forces depend on
+// first-order unknowns (controllers, hydraulics), stability is a question of motion, and nothing is counted.
 #pragma once
 
 #include <optional>
@@ -40,6 +40,7 @@ class Stability {
   std::string describe(const Mode& mode) const;
 
  private:
+  VectorX row_scales() const;  ///< S, of all rows
   const System& system_;
   LinearStep linear_;
 };

@@ -12,17 +12,34 @@ namespace bielle::mechanism {
 StabilityWatch::StabilityWatch(const LoadRamp& ramp, Equilibrium& equilibrium, double branch)
     : ramp_(ramp), equilibrium_(equilibrium), stability_(ramp.system()), branch_(branch) {}
 
+void StabilityWatch::begin(double factor, const State& state) { remember(factor, state, count(factor, state)); }
+
+std::optional<int> StabilityWatch::count(double factor, const State& state) {
+  return stability_.count(state, ramp_.environment(factor));
+}
+
+void StabilityWatch::remember(double factor, const State& state, const std::optional<int>& count) {
+  last_ = state;
+  last_factor_ = factor;
+  last_count_ = count;
+}
+
 void StabilityWatch::look(double factor, State& state, StaticsLog& log) {
-  std::optional<int> count = stability_.count(state, ramp_.environment(factor));
+  std::optional<int> now = count(factor, state);
+  if (branch_ > 0 && !now)
+    throw ComputationError(
+        "statics: `branch` needs to know the stability of equilibria, which is not a question of stiffness here: it is "
+        "not symmetric (forces that follow, moments about fixed axes, friction), or depends on controllers or fluids");
   // A large increment may jump onto an unstable equilibrium where small ones stay on a stable path.
-  if (last_ && last_count_ && count && *count > *last_count_)
+  if (last_ && last_count_ && now && *now > *last_count_)
     if (State trial = *last_; lead(factor, trial)) {
       state = trial;
-      count = stability_.count(state, ramp_.environment(factor));
+      now = count(factor, state);
     }
-  if (last_ && last_count_ && count && *count != *last_count_) {
-    CriticalPoint point = locate(factor, state, *count);
-    if (branch_ > 0 && *count > *last_count_ && mode_) {
+  constexpr int most = 20;  // critical points in one increment that are told one by one
+  for (int k = 0; k < most && last_ && last_count_ && now && *now != *last_count_; ++k) {
+    CriticalPoint point = locate(factor, state, *now);
+    if (branch_ > 0 && point.after > point.before && mode_) {
       if (!follow(factor, *mode_, state))
         throw ComputationError(
             fmt::format("statics: at load factor {:.6g} the equilibrium becomes unstable along {}, and no branch was "
@@ -30,13 +47,17 @@ void StabilityWatch::look(double factor, State& state, StaticsLog& log) {
                         "than `branch`",
                         point.factor, point.motion));
       point.left = true;
-      count = stability_.count(state, ramp_.environment(factor));
+      now = count(factor, state);
+      log.critical.push_back(point);
+      break;
     }
     log.critical.push_back(point);
+    // On from just above it.
+    if (above_) remember(above_->first, above_->second, point.after);
+    if (!above_) break;
   }
-  last_ = state;
-  last_factor_ = factor;
-  last_count_ = log.unstable = count;
+  log.unstable = now;
+  remember(factor, state, now);
 }
 
 /// Between the last equilibrium and this one: by the smallest stiffness, which changes its sign there, kept within the
@@ -53,6 +74,8 @@ CriticalPoint StabilityWatch::locate(double factor, const State& state, int coun
     return mode ? mode->stiffness : 0.0;
   };
   State low_state = *last_;
+  above_.reset();
+  int count_high = count;
   double low = last_factor_, high = factor, k_low = stiffness(low_state, low), k_high = stiffness(state, high);
   k_before_ = k_low;
   k_after_ = k_high;
@@ -80,10 +103,14 @@ CriticalPoint StabilityWatch::locate(double factor, const State& state, int coun
     } else {
       high = middle;
       k_high = k;
+      count_high = *here;
+      above_.emplace(middle, trial);
     }
     if (side == (before ? 1 : -1)) (before ? k_high : k_low) /= 2;
     side = before ? 1 : -1;
   }
+  if (std::abs(high - low) <= accurate * whole) point.after = count_high;
+  if (point.after == count) above_.reset();
   stiffness(low_state, low);
   point.factor = low;
   point.motion = mode_ ? stability_.describe(*mode_) : "an unknown";
@@ -108,8 +135,8 @@ bool StabilityWatch::follow(double factor, const Stability::Mode& mode, State& s
 }
 
 bool StabilityWatch::is_stable(const State& state, double factor) {
-  const std::optional<int> count = stability_.count(state, ramp_.environment(factor));
-  return count && *count <= *last_count_;
+  const std::optional<int> now = count(factor, state);
+  return now && *now <= *last_count_;
 }
 
 bool StabilityWatch::lead(double factor, State& state) {

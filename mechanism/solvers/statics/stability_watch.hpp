@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 
 #include "mechanism/solvers/statics/equilibrium.hpp"
 #include "mechanism/solvers/statics/stability.hpp"
@@ -14,11 +15,15 @@ class StabilityWatch {
   /// @param branch  see LoadSteps
   StabilityWatch(const LoadRamp& ramp, Equilibrium& equilibrium, double branch);
 
+  /// The state that the analysis begins with.
+  void begin(double factor, const State& state);
   /// An equilibrium is about to be accepted. If stability has changed since the last one, finds where; puts the state
   /// onto the branch, if one is to be followed. @throws ComputationError when there is none to be found
   void look(double factor, State& state, StaticsLog& log);
 
  private:
+  std::optional<int> count(double factor, const State& state);
+  void remember(double factor, const State& state, const std::optional<int>& count);
   CriticalPoint locate(double factor, const State& state, int count);
   bool follow(double factor, const Stability::Mode& mode, State& state);
   bool lead(double factor, State& state);
@@ -31,8 +36,9 @@ class StabilityWatch {
   std::optional<State> last_;  ///< the last equilibrium
   double last_factor_ = 0;
   std::optional<int> last_count_;
-  std::optional<Stability::Mode> mode_;  ///< the critical one that was found last
-  double k_before_ = 0, k_after_ = 0;    ///< smallest stiffness on either side of it
+  std::optional<std::pair<double, State>> above_;  ///< an equilibrium just above what `locate` found last
+  std::optional<Stability::Mode> mode_;            ///< the critical one that was found last
+  double k_before_ = 0, k_after_ = 0;              ///< smallest stiffness on either side of it
 };
 
 }  // namespace bielle::mechanism

@@ -70,6 +70,7 @@ StaticsLog solve_statics(const System& system, const Environment& environment, c
   StabilityWatch watch(ramp, equilibrium, steps.branch);
   StaticsLog log;
   Increments increments(loaded ? 1 : steps.count);
+  if (!loaded) watch.begin(begin, state);
   while (!increments.ended()) {
     const double end = increments.end(), factor = end == 1 ? 1 : begin + end * (1 - begin);
     int iterations = equilibrium.find(factor, state);
@@ -87,6 +88,7 @@ StaticsLog solve_statics(const System& system, const Environment& environment, c
       continue;
     }
     watch.look(factor, state, log);
+    log.solves = equilibrium.solves();
     equilibrium.accept(factor, state);
     increments.accept(iterations);
     if (record) record(state, factor, iterations);
