@@ -43,18 +43,21 @@ MatrixX consistent_states(const LinearisedEquations& e, const VectorX& scale) {
   return null_space(rows, dependent);
 }
 
-/// The same span, as far as its directions are not lost beside the others.
+/// An orthonormal basis of the same span, by Gram and Schmidt twice; what rounding makes of a repeated column is left
+/// out.
 MatrixX orthonormal(const MatrixX& vectors) {
-  MatrixX result = vectors;
-  for (int twice = 0; twice < 2; ++twice) {
-    const SymmetricEigenpairs gram = symmetric_eigenpairs(MatrixX(result.transpose() * result));
-    const double most = gram.values[gram.values.size() - 1];
-    Eigen::Index first = 0;
-    while (gram.values[first] < 1e-15 * most) ++first;
-    const Eigen::Index left = gram.values.size() - first;
-    result = result * gram.vectors.rightCols(left) * gram.values.tail(left).cwiseSqrt().cwiseInverse().asDiagonal();
+  constexpr double repeated = 1e-13;
+  MatrixX basis(vectors.rows(), vectors.cols());
+  Eigen::Index found = 0;
+  for (Eigen::Index k = 0; k < vectors.cols(); ++k) {
+    VectorX x = vectors.col(k).normalized();
+    for (int twice = 0; twice < 2; ++twice) {
+      const VectorX parts = basis.leftCols(found).transpose() * x;
+      x -= basis.leftCols(found) * parts;
+    }
+    if (x.norm() > repeated) basis.col(found++) = x.normalized();
   }
-  return result;
+  return basis.leftCols(found);
 }
 
 struct Found {
@@ -66,7 +69,8 @@ struct Found {
 /// Eigenpairs around a shift, nearest first, and how far around it all are known.
 struct Around {
   std::vector<Found> pairs;
-  double radius = 0;  ///< |s - sigma|; infinite where all are there
+  bool rejected = false;  ///< some belonged to infinite eigenvalues, or to ones too large for the shift to show
+  double radius = 0;      ///< |s - sigma|; infinite where all are there
 };
 
 class Search {
@@ -148,7 +152,10 @@ class Search {
       // Nothing is left of what belongs to an infinite eigenvalue.
       const VectorXc once = T.apply(x) / mu;
       constexpr double same = 1e-2;
-      if (!((T.apply(once) / mu - x).norm() < same * x.norm())) continue;
+      if (!((T.apply(once) / mu - x).norm() < same * x.norm())) {
+        around.rejected = true;
+        continue;
+      }
       Complex value = T.shift() + 1.0 / mu;
       // Of a complex operator real eigenvalues are real but for rounding.
       constexpr double rounding = 1e-9;
@@ -220,8 +227,9 @@ class Search {
       const Found& zero = zeros[static_cast<std::size_t>(k)];
       residual = std::max(residual, zero.residual);
       shapes.col(k) = zero.x.head(n).real().normalized();
-      for (Eigen::Index i = 0; i < n; ++i)  // vectors that repeat each other have to be told apart
-        shapes(i, k) += 1e-3 / std::sqrt(n) * std::cos(static_cast<double>((i + 1) * (k + 1) % 7919));
+      // Vectors that repeat each other have to be told apart.
+      for (Eigen::Index i = 0; i < n; ++i)
+        shapes(i, k) += 0.3 / std::sqrt(n) * std::cos(static_cast<double>((i + 1) * (2 * k + 1) % 7919));
     }
     const auto answer = [&](const VectorX& x) {
       const VectorX u = scale.cwiseProduct(x);
@@ -241,8 +249,10 @@ class Search {
       for (Eigen::Index k = 0; k < shapes.cols(); ++k) answers.col(k) = answer(shapes.col(k));
       const MatrixX changes = answers - shapes;
       change = symmetric_eigenpairs(MatrixX(changes.transpose() * changes));
-      if (round > 0 && std::all_of(change.values.begin(), change.values.end(),
-                                   [](double value) { return value < settled || value > leaves; }))
+      // Others become shorter by a half each time, as the shift is of the size of the slowest of them.
+      constexpr int separated = 60;
+      if (round > separated && std::all_of(change.values.begin(), change.values.end(),
+                                           [](double value) { return value < settled || value > leaves; }))
         break;
       if (round + 1 < rounds) shapes = answers;
     }
@@ -295,8 +305,12 @@ class Search {
   /// A shift of the size of the slowest mode that is not rigid. A shift that is too small shows that mode well, one
   /// that is too large shows it as zero, beside many others.
   void choose_shift(Eigen::Index count) {
-    set_shift(std::max(1e-3 * slowest_rate(e_), 1e-6 * fastest_rate(e_)));
-    constexpr int most_shifts = 10;
+    // What is slower than that shows itself in the second look.
+    constexpr double hardly_moves = 1e-2;  // [1/s]
+    set_shift(std::max({1e-3 * slowest_rate(e_), 1e-6 * fastest_rate(e_), hardly_moves}));
+    const double first = operator_->shift().real();
+    double highest = first;
+    constexpr int most_shifts = 14;
     bool seen = false;
     for (int k = 0; k < most_shifts; ++k) {
       const double shift = operator_->shift().real();
@@ -316,6 +330,10 @@ class Search {
         set_shift(0.9 * slow);
       } else if (slow == 0 && std::isfinite(around.radius)) {
         count *= 2;
+      } else if (constexpr double farthest = 1e7, step = 300;
+                 slow == 0 && around.rejected && highest < farthest * first) {
+        highest *= step;
+        set_shift(highest);  // it may be too small to show anything that is faster than zero
       } else {
         return;
       }

@@ -120,6 +120,10 @@ std::optional<Steadiness> find_steadiness(const System& system, const Environmen
 }
 
 double unbalance(const System& system, const Environment& environment, const State& state, int& equation) {
+  // Forces within one component may balance each other: what then moves nothing is no unbalance.
+  constexpr double negligible = 1e-9;  // of the mechanism's size: the distance from equilibrium, or the way of a second
+  const double softest = slowest_rate(linearised_equations(system, environment, state, ModeAxes::inertial));
+  if (std::pow(rates_of(state).acceleration, 2) <= negligible * std::max(1.0, softest * softest)) return 0;
   State still = state;
   system.set_rates(still, VectorX::Zero(system.dofs()), VectorX::Zero(system.dofs()));
   VectorX r(system.size());

@@ -57,7 +57,8 @@ TEST_CASE("reactions, constraints and angles answer too", "[linearised]") {
   const ModesOf model(
       "gravity: [0, 0, -9.81]\nnodes: {bob: {position: [0, 0, -2]}}\n"
       "elements: {bob: {type: rigid_body, node: bob, mass: 3, inertia: [0.5, 0.5, 0.5]}}\n"
-      "joints: {pivot: {type: hinge, nodes: [ground, bob], position: [0, 0, 0], axis: [0, 1, 0], second_axis: [1, 0, 0]}}\n"
+      "joints: {pivot: {type: hinge, nodes: [ground, bob], position: [0, 0, 0], axis: [0, 1, 0], second_axis: [1, 0, "
+      "0]}}\n"
       "measures: {swing: pivot.angle, bears: pivot.reaction.x}\n");
   FrequencyResponseOptions options;
   const int node = *model.file.model.find_node("bob");
