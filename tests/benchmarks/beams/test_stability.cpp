@@ -142,6 +142,34 @@ TEST_CASE("a path of a shallow arch meets its bifurcation before its limit point
   CHECK(report.log.unstable == 2);  // to its side, and down
 }
 
+TEST_CASE("critical loads of one large increment are told one by one") {
+  // Euler's loads of the column: 1, 9, 25 of the first; the load is 12 of it.
+  const Found found = run(column(16, 12, "{EA: 3e7, GAy: 1e9, GAz: 1e9, GJ: 1e9, EIy: 1e9, EIz: 1}", "[]", 1), 1);
+  REQUIRE(found.report.log.critical.size() == 2);
+  CHECK(found.report.log.unstable == 2);
+  CHECK(found.report.log.critical[0].factor == Approx(1.0 / 12).epsilon(1e-3));
+  CHECK(found.report.log.critical[1].factor == Approx(9.0 / 12).epsilon(2e-3));
+  CHECK(found.report.log.critical[0].after == 1);
+  CHECK(found.report.log.critical[1].after == 2);
+}
+
+TEST_CASE("critical loads do not depend on the unit of length, nor on how the foot is held") {
+  // A steel column of 10 m, in m and in mm, its foot fixed or joined rigidly.
+  std::vector<double> factors;
+  for (const double unit : {1.0, 1e-3})
+    for (const bool joined : {false, true}) {
+      const std::string text = fmt::format(
+          "nodes: {{foot: {{position: [0, 0, 0]{}}}, tip: {{position: [{}, 0, 0]}}}}\n"
+          "elements: {{column: {{type: beam, nodes: [foot, tip], elements: 8, orientation: [0, 1, 0], section: "
+          "{{rectangle: [{}, {}], young: {}, poisson: 0.3}}}}}}\n{}loads: {{p: {{node: tip, force: [-4e6, 0, 0]}}}}\n",
+          joined ? "" : ", fixed: true", 10 / unit, 0.346 / unit, 0.173 / unit, 2.1e11 * unit * unit,
+          joined ? "joints: {clamp: {type: rigid, nodes: [ground, foot]}}\n" : "");
+      factors.push_back(run(text, 4).report.log.critical.at(0).factor);
+    }
+  CAPTURE(factors);
+  for (const double factor : factors) CHECK(factor == Approx(factors[0]).epsilon(1e-4));
+}
+
 TEST_CASE("an inverted pendulum on a spring is unstable where its weight outweighs the spring") {
   // c against m g l: two rigid bodies joined by constraints, so that the count is on their null space.
   for (const double spring : {15.0, 30.0}) {

@@ -101,11 +101,52 @@ TEST_CASE("forward dynamics under the torque of inverse dynamics moves as that w
       4e-3, 3);
 }
 
+TEST_CASE("inverse dynamics meets stops") {
+  // A stop of 1000 N m/rad from 0.5 rad on; the arm stands at 1 rad in the end.
+  std::string text = pendulum("angle: \"step(t, 0, 1)\"");
+  text.replace(text.find("axis: [0, -1, 0]"), 16, "axis: [0, -1, 0], stops: {range: [~, 0.5], stiffness: 1000}");
+  const MechanismFile file = read_mechanism_text(text, "model.yaml");
+  Session session(file.model);
+  session.kinematics({.duration = 1, .step = 0.05});
+  CHECK(session.read("joints/foot/drive_force")[0] == Approx(500 + m * g * l * std::cos(1.0)).epsilon(1e-9));
+}
+
+TEST_CASE("kinematics does not change its branch at a dead centre without a word") {
+  // A parallelogram whose links lie in line after half a turn: a step meets that exactly, others do not.
+  const std::string text =
+      "nodes: {a: {position: [0, 0.5, 0]}, b: {position: [1, 1, 0]}, c: {position: [2, 0.5, 0]}}\njoints:\n"
+      "  d: {type: hinge, nodes: [ground, a], position: [0, 0, 0], axis: [0, 0, 1]}\n"
+      "  e: {type: hinge, nodes: [a, b], position: [0, 1, 0], axis: [0, 0, 1]}\n"
+      "  f: {type: hinge, nodes: [b, c], position: [2, 1, 0], axis: [0, 0, 1]}\n"
+      "  g: {type: hinge, nodes: [c, ground], position: [2, 0, 0], axis: [0, 0, 1]}\n"
+      "drives: {m: {joint: d, angle: \"t\"}}\n";
+  const double pi = std::acos(-1.0);
+  for (const double step : {pi / 8, 0.1}) {
+    const MechanismFile file = read_mechanism_text(text, "model.yaml");
+    Session session(file.model);
+    bool right = true;
+    session.on_step([&](Session& at) {
+      const Vector3 x = at.node("b").x, exact(1 - std::sin(at.time()), std::cos(at.time()), 0);
+      right = right && (x - exact).norm() < 1e-9;
+    });
+    const std::string said =
+        message_of<std::runtime_error>([&] { session.kinematics({.duration = 2 * pi, .step = step}); });
+    CAPTURE(step, said);
+    CHECK(right);
+    if (step == 0.1) CHECK(said == "(nothing thrown)");
+  }
+}
+
 TEST_CASE("kinematics asks for what is not driven") {
   const MechanismFile free = read_mechanism_text(slider_crank(bodies, ""), "model.yaml");
   Session loose(free.model);
   CHECK_THAT(message_of<std::runtime_error>([&] { loose.kinematics({.duration = 1, .step = 0.1}); }),
              Contains("1 degree of freedom is not driven") && Contains("dynamic analysis"));
+  const MechanismFile rate =
+      read_mechanism_text(slider_crank(bodies, "drives: {motor: {joint: main, rate: \"5\"}}\n"), "model.yaml");
+  Session turning(rate.model);
+  CHECK_THAT(message_of<std::runtime_error>([&] { turning.kinematics({.duration = 1, .step = 0.1}); }),
+             Contains("condition on velocities"));
   const MechanismFile filter = read_mechanism_text(
       slider_crank(bodies, driven + "states: {slow: {rate: \"main.angle - slow\", start: 0}}\n"), "model.yaml");
   Session filtered(filter.model);

@@ -32,7 +32,7 @@ TEST_CASE("each type of the table gives an analysis of its name") {
   CHECK(dynamic->duration() == 2);
   CHECK(dynamic->can_go_on());
   CHECK(dynamic_cast<const DynamicAnalysis&>(*dynamic).options().equilibrium);
-  CHECK(analysis_table().size() == 5);
+  CHECK(analysis_table().size() == 7);
 }
 
 TEST_CASE("keys of statics are read") {
@@ -49,8 +49,8 @@ TEST_CASE("keys of statics are read") {
 
 TEST_CASE("types that do not exist, or not yet, are refused") {
   CHECK_THAT(refusal("{type: dynamc}"), Contains("did you mean 'dynamic'"));
-  CHECK_THAT(refusal("{type: kinematic}"),
-             Contains("the analysis 'kinematic' is not in this version; there are assembly, static, dynamic, eigen and frequency_response"));
+  CHECK_THAT(refusal("{type: state_space}"),
+             Contains("the analysis 'state_space' is not in this version; there are assembly, static, dynamic, kinematic, inverse_dynamics, eigen and frequency_response"));
   CHECK_THAT(refusal("{type: assembly, steps: 2}"), Contains("'steps'") && Contains("the analysis 'assembly'"));
 }
 
