@@ -19,7 +19,7 @@ constexpr Eigen::Index most_columns = 64;  // at a time: more bring no more spee
 /// Less of the factor than this is not worth another thread, or that threads wait for each other.
 constexpr std::int64_t entries_of_a_thread = 100000;
 
-int integer(std::int64_t k) { return static_cast<int>(k); }
+int blas_integer(std::int64_t k) { return static_cast<int>(k); }
 
 struct Range {
   std::int64_t first, count;
@@ -36,23 +36,23 @@ struct Supernode {
   const std::int64_t* rows_below;
   const double* values;
 
-  int stride() const { return integer(width + below); }
+  int stride() const { return blas_integer(width + below); }
 
   /// own <- L11^-1 own, or L11^-T own, for some of the columns of `own`.
   void solve_triangle(CBLAS_TRANSPOSE order, double* own, int columns, int row_stride) const {
-    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, order, CblasNonUnit, columns, integer(width), 1, values,
+    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, order, CblasNonUnit, columns, blas_integer(width), 1, values,
                 stride(), own, row_stride);
   }
   /// out <- L21 own, of some of the rows below.
   void multiply(Range rows, const double* own, double* out, int columns) const {
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, columns, integer(rows.count), integer(width), 1, own, columns,
-                values + width + rows.first, stride(), 0, out, columns);
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, columns, blas_integer(rows.count), blas_integer(width), 1, own,
+                columns, values + width + rows.first, stride(), 0, out, columns);
   }
   /// own <- own - L21^T in, of some of its own columns.
   void subtract_transposed(Range own_columns, const double* in, double* own, int columns) const {
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, columns, integer(own_columns.count), integer(below), -1, in,
-                columns, values + width + own_columns.first * stride(), stride(), 1, own + own_columns.first * columns,
-                columns);
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, columns, blas_integer(own_columns.count),
+                blas_integer(below), -1, in, columns, values + width + own_columns.first * stride(), stride(), 1,
+                own + own_columns.first * columns, columns);
   }
 };
 
@@ -68,7 +68,7 @@ class SupernodalSolver::Sweep {
   Sweep(const SupernodalSolver& solver, const Eigen::MatrixXd& b, Eigen::MatrixXd& x, Eigen::Index first, int columns)
       : solver_(solver),
         factor_(solver.factor_),
-        parts_(integer(static_cast<std::int64_t>(solver.of_threads_.size()))),
+        parts_(blas_integer(static_cast<std::int64_t>(solver.of_threads_.size()))),
         columns_(columns),
         first_(first),
         b_(b),
@@ -190,7 +190,7 @@ class SupernodalSolver::Sweep {
     each_part([&](int part) {
       const Range columns = share_of(columns_, part, parts_);
       if (columns.count > 0)
-        node.solve_triangle(order, row(node.first) + columns.first, integer(columns.count), columns_);
+        node.solve_triangle(order, row(node.first) + columns.first, blas_integer(columns.count), columns_);
     });
   }
   void forwards_together(const Supernode& node) {
@@ -266,7 +266,7 @@ void SupernodalSolver::share_out(int threads) {
     }
   }
   const std::int64_t useful = std::clamp<std::int64_t>(all / entries_of_a_thread, 1, std::max(1, threads));
-  threads = integer(useful);
+  threads = blas_integer(useful);
   of_threads_.resize(static_cast<std::size_t>(threads));
   if (threads > 1) {
     const std::int64_t small = all / (4 * threads);
@@ -304,7 +304,7 @@ Eigen::MatrixXd SupernodalSolver::solve(const Eigen::MatrixXd& b) const {
   const BlasThreads one(1);
   Eigen::MatrixXd x(b.rows(), b.cols());
   for (Eigen::Index first = 0; first < b.cols(); first += most_columns)
-    Sweep(*this, b, x, first, integer(std::min(most_columns, b.cols() - first))).run();
+    Sweep(*this, b, x, first, blas_integer(std::min(most_columns, b.cols() - first))).run();
   return x;
 }
 
