@@ -165,18 +165,15 @@ TEST_CASE("load steps return to their grid after an increment was refused") {
   const ReadyModel model(
       "nodes: {a: {fixed: true}, b: {position: [1, 0, 0]}}\nelements: {beam: {type: beam, nodes: [a, b], elements: 10, "
       "section: {circle: 0.01, young: 2.1e11, poisson: 0.3}}}\nloads: {p: {node: b, moment: [0, "
-      "\"-2*pi*2.1e11*pi*0.01^4/4\", 0]}}\n");
+      "\"-4*pi*2.1e11*pi*0.01^4/4\", 0]}}\n");
   State state = model.system.start(0);
   Environment environment = model.environment();
   environment.statics = true;
-  NewtonOptions hasty;
-  hasty.iterations = 5;
   std::vector<double> factors;
-  const StaticsLog log = solve_statics(model.system, environment, 4, hasty, state,
+  const StaticsLog log = solve_statics(model.system, environment, 2, NewtonOptions{}, state,
                                        [&](const State&, double factor, int) { factors.push_back(factor); });
   CAPTURE(factors);
   CHECK(log.refused > 0);
   CHECK(!log.why_refused.empty());
-  for (const double wanted : {0.25, 0.5, 0.75, 1.0})
-    CHECK(std::find(factors.begin(), factors.end(), wanted) != factors.end());
+  for (const double wanted : {0.5, 1.0}) CHECK(std::find(factors.begin(), factors.end(), wanted) != factors.end());
 }
