@@ -15,7 +15,7 @@ namespace {
 
 constexpr double longest = 0.3;       // step of `relax`: of the mechanism's size, or [rad]
 constexpr double longest_turn = 2.0;  // step of Newton's method [rad]
-constexpr double least_part = 0.1;    // of a step that is shortened
+constexpr double least_share = 0.1;   // of a step that is shortened
 
 }  // namespace
 
@@ -183,9 +183,9 @@ void Equilibrium::step(State& state) {
     try {
       move(state, before_, part);
       evaluate(state);
-      if (r_.allFinite() || part < least_part) return;
+      if (r_.allFinite() || part < least_share) return;
     } catch (const ComputationError&) {
-      if (!options_.line_search || part < least_part) throw;  // refused by a component
+      if (!options_.line_search || part < least_share) throw;  // refused by a component
     }
   }
 }
@@ -208,7 +208,7 @@ void Equilibrium::search(State& state) {
       return false;  // refused by a component
     }
   };
-  for (double part = 1; options_.line_search && part > least_part; part /= 2)
+  for (double part = 1; options_.line_search && part > least_share; part /= 2)
     if (smaller(part)) return;
   size_at(1);  // Newton's method may have to pass over a hill
 }
