@@ -125,7 +125,8 @@ class BlockLanczos {
     return longest >= starts_;
   }
 
-  /// Searches beside what is locked. What is better than the worst of it takes its place. False when there is nothing.
+  /// Searches for more than what is locked. What is better than the worst of it takes its place. False when there is
+  /// nothing.
   bool find_missed() {
     const double worst = basis_.locked_values().cwiseAbs().minCoeff();
     while (true) {

@@ -287,7 +287,7 @@ void add_missed(const LinearOperator<Scalar>& T, Index count, const OperatorEige
 
 template <class Scalar>
 OperatorEigenpairs largest(const LinearOperator<Scalar>& T, Index count, const OperatorEigenOptions& options) {
-  // ARPACK's products of vectors are short, and threads of BLAS would spin beside ours.
+  // ARPACK's products of vectors are short, and threads of BLAS would spin next to ours.
   const BlasThreads one(1);
   OperatorEigenpairs result;
   if (T.size == 0) {

@@ -15,8 +15,8 @@ struct NodeShapes {
 NodeShapes node_shapes(const System& system, const State& state, const Mode& mode);
 
 /// The factor that makes the largest displacement of a node 1 m, or the largest rotation 1 rad where that is more
-/// beside the mechanism's size; real and positive for the largest component. Where no node moves, the largest amplitude
-/// or first-order unknown becomes 1.
+/// relative to the mechanism's size; real and positive for the largest component. Where no node moves, the largest
+/// amplitude or first-order unknown becomes 1.
 std::complex<double> unit_factor(const System& system, const State& state, const Mode& mode);
 
 /// Energies of modes in each member of the model, averaged over a period: (dv^H M dv)/4 and (u^H K u)/4, M and the

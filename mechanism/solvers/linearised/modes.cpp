@@ -165,9 +165,9 @@ class Search {
     return around;
   }
 
-  /// Whether s is zero to rounding: beside the shift (a double zero is split by the square root of rounding, a
-  /// triple one by its cube root), or because what
-  /// the rates add is less than rounding errors of the other terms.
+  /// Whether s is zero to rounding: relative to the shift (a double zero is split by the square root of
+  /// rounding, a triple one by its cube root), or because what the rates add is less than rounding errors of the other
+  /// terms.
   bool is_zero(const Found& pair) const {
     const int n = e_.unknowns();
     constexpr double of_shift = 1e-4, of_stiffness = 1e-14;
@@ -303,7 +303,7 @@ class Search {
   static constexpr double rounded_pair = 1e-7;
 
   /// A shift of the size of the slowest mode that is not rigid. A shift that is too small shows that mode well, one
-  /// that is too large shows it as zero, beside many others.
+  /// that is too large shows it as zero, like many others.
   void choose_shift(Eigen::Index count) {
     // What is slower than that shows itself in the second look.
     constexpr double hardly_moves = 1e-2;  // [1/s]
@@ -318,7 +318,7 @@ class Search {
       try {
         around = look(count, Look::roughly);
       } catch (const ComputationError&) {
-        set_shift(shift / 30);  // many eigenvalues beside each other, as slow ones are to a large shift
+        set_shift(shift / 30);  // many eigenvalues next to each other, as slow ones are to a large shift
         continue;
       }
       const double slow = slowest_of(around.pairs);

@@ -1,4 +1,4 @@
-// A chain of hinges with bristles (LuGre) that hangs beside the vertical: friction holds it for a thousand seconds. The
+// A chain of hinges with bristles (LuGre) that hangs off the vertical: friction holds it for a thousand seconds. The
 // bristles yield once, then nothing creeps. With f_j the share of mu N_j r that the weight below hinge j asks for, a
 // bristle goes from 0 to f mu/sigma_0 on a way of -(mu/sigma_0) ln(1 - f) if nothing turns back, and on some times as
 // much if the links rock as friction begins.

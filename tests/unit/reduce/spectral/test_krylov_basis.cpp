@@ -65,7 +65,7 @@ TEST_CASE("Krylov basis: the recurrence knows the residuals of Ritz vectors, aft
   }
 }
 
-TEST_CASE("Krylov basis: a new front beside what is locked finds what is left", "[spectral]") {
+TEST_CASE("Krylov basis: a new front orthogonal to what is locked finds what is left", "[spectral]") {
   const test::DensePencil chain = pencil();
   const ShiftInvertProblem problem = chain.problem();
   KrylovBasis basis(problem, 120, 1, [](Index) {});
