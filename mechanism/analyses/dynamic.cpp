@@ -6,7 +6,9 @@
 
 #include "mechanism/analyses/analysis_table.hpp"
 #include "mechanism/analyses/newton_reader.hpp"
+#include "mechanism/analyses/step_reader.hpp"
 #include "mechanism/analyses/summary_text.hpp"
+#include "mechanism/session/time_grid.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
 #include "reduce/common/counted.hpp"
 
@@ -60,13 +62,7 @@ StepOptions read_stepping(const YamlValue& entry, double duration) {
     options.size = entry.at("step").positive_number();
     if (entry.has("largest_step")) entry.at("largest_step").fail("is for adaptive steps: give a `tolerance` as well");
   }
-  constexpr double most_steps = 1e9;  // years
-  if (!(duration / options.size <= most_steps))
-    entry.at(entry.has("step") ? "step" : "duration")
-        .fail(fmt::format("{:.3g} s in steps of {:.3g} s are {:.3g} steps; expected at most {:.0e}", duration, options.size,
-                          duration / options.size, most_steps));
-  if (options.size > duration)
-    entry.at("step").fail(fmt::format("{:.6g} s is longer than the duration, {:.6g} s", options.size, duration));
+  check_step(entry, entry.has("step") ? "step" : "duration", options.size, duration);
   return options;
 }
 
@@ -123,12 +119,11 @@ std::string explain_gap(double gap, const Scheme& scheme) {
 std::string format_energy(const Session& session, const Motion& motion, const Scheme& scheme) {
   const Energy& energy = motion.energy();
   const double balance = motion.balance(), largest = motion.books().largest();
-  std::string text = fmt::format(
-      "  energy at the end [J]: kinetic {:.6g}, elastic {:.6g}, gravity {:.6g}; input {:.6g}, dissipated {:.6g}\n",
-      energy.kinetic, energy.elastic, energy.gravity, energy.input, energy.dissipation);
+  std::string text = format_energies(energy);
   if (!(largest > energy_noise(session))) return text + "  nothing moved\n";
   const double gap = balance / largest;
-  text += fmt::format("  balance {:.3g} J, {:.2g} of the largest energy ({})\n", balance, gap, explain_gap(gap, scheme));
+  text +=
+      fmt::format("  balance {:.3g} J, {:.2g} of the largest energy ({})\n", balance, gap, explain_gap(gap, scheme));
   if (std::abs(gap) > doubtful)
     text += "  DOUBTFUL: so large a gap in the balance means steps too long for the motion, or a motion that jumps\n";
   else if (gap > gained)
@@ -167,7 +162,8 @@ std::unique_ptr<Analysis> read_dynamic(const YamlValue& entry, const Model&) {
 std::size_t DynamicAnalysis::expected_rows(const Recording& recording) const {
   if (!recording.times.empty()) return recording.times.size() + 1;
   if (options_.stepping.tolerance > 0) return 0;
-  return static_cast<std::size_t>(options_.grid_steps() / recording.every) + 2;  // and the first, and the last
+  return static_cast<std::size_t>(grid_steps(options_.duration, options_.stepping.size) / recording.every) +
+         2;  // and the first, and the last
 }
 
 void DynamicAnalysis::solve(Session& session, AnalysisSummary& summary) const {

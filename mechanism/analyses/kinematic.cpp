@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include "mechanism/analyses/analysis_table.hpp"
+#include "mechanism/analyses/step_reader.hpp"
 #include "mechanism/analyses/summary_text.hpp"
+#include "mechanism/session/time_grid.hpp"
 #include "reduce/common/counted.hpp"
 
 namespace bielle::mechanism {
@@ -13,7 +15,8 @@ class KinematicAnalysis final : public Analysis {
   KinematicAnalysis(const std::string& type, KinematicsOptions options) : Analysis(type), options_(options) {}
   double duration() const override { return options_.duration; }
   std::size_t expected_rows(const Recording& recording) const override {
-    return static_cast<std::size_t>(options_.duration / options_.step / recording.every) + 2;
+    if (!recording.times.empty()) return recording.times.size() + 1;
+    return static_cast<std::size_t>(grid_steps(options_.duration, options_.step) / recording.every) + 2;
   }
 
  private:
@@ -23,10 +26,7 @@ class KinematicAnalysis final : public Analysis {
     summary.text = fmt::format("{}, {}\n", type() == "kinematic" ? "kinematics" : "inverse dynamics",
                                counted(report.points, "position"));
     summary.text += format_start(report.start) + format_mobility(session);
-    summary.text += fmt::format(
-        "  energy at the end [J]: kinetic {:.6g}, elastic {:.6g}, gravity {:.6g}; input {:.6g}, dissipated {:.6g}\n",
-        report.energy.kinetic, report.energy.elastic, report.energy.gravity, report.energy.input,
-        report.energy.dissipation);
+    summary.text += format_energies(report.energy);
   }
   KinematicsOptions options_;
 };
@@ -36,13 +36,7 @@ std::unique_ptr<Analysis> read(const YamlValue& entry, const std::string& type) 
   KinematicsOptions options;
   options.duration = entry.at("duration").positive_number();
   options.step = entry.at("step").positive_number();
-  constexpr double most_steps = 1e9;
-  if (!(options.duration / options.step <= most_steps))
-    entry.at("step").fail(fmt::format("{:.3g} s in steps of {:.3g} s are {:.3g} steps; expected at most {:.0e}",
-                                      options.duration, options.step, options.duration / options.step, most_steps));
-  if (options.step > options.duration)
-    entry.at("step").fail(
-        fmt::format("{:.6g} s is longer than the duration, {:.6g} s", options.step, options.duration));
+  check_step(entry, "step", options.step, options.duration);
   return std::make_unique<KinematicAnalysis>(type, options);
 }
 

@@ -36,14 +36,25 @@ std::string format_moved(const StartReport& start) {
   for (std::size_t k = 0; k < std::min(most_moved, start.moved_coordinates.size()); ++k) {
     const MovedCoordinate& coordinate = start.moved_coordinates[k];
     const double change = coordinate.to - coordinate.from;
-    text += fmt::format("    {}: {}, to {:.6g} {}\n", coordinate.name,
-                        coordinate.units == "rad" ? with_degrees(change) : fmt::format("{:.3g} {}", change, coordinate.units),
-                        coordinate.to, coordinate.units);
+    text += fmt::format(
+        "    {}: {}, to {:.6g} {}\n", coordinate.name,
+        coordinate.units == "rad" ? with_degrees(change) : fmt::format("{:.3g} {}", change, coordinate.units),
+        coordinate.to, coordinate.units);
   }
   return text + rest(start.moved_coordinates.size(), "coordinates");
 }
 
 }  // namespace
+
+std::string format_energies(const Energy& energy) {
+  return fmt::format(
+      "  energy at the end [J]: kinetic {:.6g}, elastic {:.6g}, gravity {:.6g}; input {:.6g}, dissipated {:.6g}\n",
+      energy.kinetic, energy.elastic, energy.gravity, energy.input, energy.dissipation);
+}
+
+std::string format_loose(const std::string& unknown) {
+  return fmt::format("  nothing holds {}, and nothing loads it: it stays as drawn\n", unknown);
+}
 
 std::string format_start(const StartReport& start) {
   std::string text;
@@ -55,8 +66,10 @@ std::string format_start(const StartReport& start) {
     text += fmt::format("  static equilibrium moved node '{}' by {:.3g} m\n", start.settled_node, start.settled);
   if (start.unstable > 0)
     text += fmt::format(
-        "  the static equilibrium is unstable: its stiffness is negative along {}, most at {}. It stands as on its tip\n",
+        "  the static equilibrium is unstable: its stiffness is negative along {}, most at {}. It stands as on its "
+        "tip\n",
         counted(start.unstable, "motion"), start.unstable_motion);
+  if (!start.loose.empty()) text += format_loose(start.loose);
   if (!start.held.empty()) text += fmt::format("  {}\n", describe_held(start.held));
   if (start.balanced > 1e-9)
     text += fmt::format(
@@ -71,7 +84,8 @@ std::string format_start(const StartReport& start) {
     text += fmt::format("  start velocities were changed by up to {:.3g} m/s to satisfy joints and drives\n",
                         start.velocity_change);
   if (!start.following.empty())
-    text += fmt::format("  start rates that follow from others, and agree with them: {}\n", fmt::join(start.following, ", "));
+    text += fmt::format("  start rates that follow from others, and agree with them: {}\n",
+                        fmt::join(start.following, ", "));
   return text;
 }
 
@@ -111,9 +125,9 @@ std::string format_mobility(const Session& session) {
         "freedom away and may bear any force: are axes and positions exact?\n",
         name);
   if (const auto joints = joints_not_unique(session.system(), session.acting(), session.state()); !joints.empty())
-    text += fmt::format("  {}{}\n", describe_not_unique(joints),
-                        session.system().reads_reactions() ? ", and forces that depend on them (friction) are of these"
-                                                           : "");
+    text += fmt::format(
+        "  {}{}\n", describe_not_unique(joints),
+        session.system().reads_reactions() ? ", and forces that depend on them (friction) are of these" : "");
   return text;
 }
 

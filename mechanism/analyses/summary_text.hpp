@@ -11,12 +11,16 @@ namespace bielle::mechanism {
 
 /// What the start had to change; nothing, where that is nothing.
 std::string format_start(const StartReport& start);
+/// That an unknown, which nothing holds or loads, stays as drawn.
+std::string format_loose(const std::string& unknown);
 /// How many ways there are to move, constraints set aside or nearly so, joints whose reactions they leave open.
 std::string format_mobility(const Session& session);
 /// "the reactions of joints 'a', 'b' are not unique: the smallest are reported"; nothing where all are.
 std::string describe_not_unique(const std::vector<std::string>& joints);
 /// "joined to nothing that is held: the part of node 'lost'"; nothing where all parts are.
 std::string describe_loose(const System& system);
+/// "energy at the end [J]: kinetic .., .."
+std::string format_energies(const Energy& energy);
 /// @param records  rows
 std::string format_steps(long steps, long iterations, long records);
 

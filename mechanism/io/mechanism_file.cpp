@@ -197,8 +197,12 @@ MechanismFile read_mechanism(YamlValue root, const std::map<std::string, std::st
   if (const auto analyses = root.find("analysis"))
     for (const YamlValue& entry : analyses->items()) file.analyses.push_back(read_analysis(entry, file.model));
   double end = 0;
-  for (const auto& analysis : file.analyses) end += analysis->duration();
-  if (const auto output = root.find("output")) file.output = read_output(*output, end, file.model);
+  bool statics = false;
+  for (const auto& analysis : file.analyses) {
+    end += analysis->duration();
+    statics = statics || analysis->type() == "static";
+  }
+  if (const auto output = root.find("output")) file.output = read_output(*output, end, statics, file.model);
   file.doubts = root.doubts();
   return file;
 }

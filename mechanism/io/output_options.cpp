@@ -120,7 +120,7 @@ std::vector<double> read_times(const YamlValue& entry, double end) {
   for (const YamlValue& item : entry.items()) {
     const double time = item.number();
     if (!(time >= 0 && time <= end * (1 + 1e-12)))
-      item.fail(fmt::format("the dynamic analyses run from t = 0 to {:.6g} s", end));
+      item.fail(fmt::format("the motions run from t = 0 to {:.6g} s", end));
     if (!times.empty() && time <= times.back()) item.fail("expected times in ascending order, each once");
     times.push_back(time);
   }
@@ -128,17 +128,31 @@ std::vector<double> read_times(const YamlValue& entry, double end) {
   return times;
 }
 
+std::vector<double> read_load_factors(const YamlValue& entry, bool statics) {
+  if (!statics) entry.fail("this model has no static analysis");
+  std::vector<double> factors;
+  for (const YamlValue& item : entry.items()) {
+    factors.push_back(item.number());
+    if (factors.size() > 1 && factors.back() <= factors[factors.size() - 2])
+      item.fail("expected load factors in ascending order, each once");
+  }
+  if (factors.empty()) entry.fail("expected a list of load factors");
+  return factors;
+}
+
 }  // namespace
 
-OutputOptions read_output(const YamlValue& entry, double end, Model& model) {
+OutputOptions read_output(const YamlValue& entry, double end, bool statics, Model& model) {
   entry.check_keys(
-      {"every", "times", "only", "fields", "stress_at", "strain_at", "peaks", "layout", "checkpoint", "log"},
+      {"every", "times", "load_factors", "only", "fields", "stress_at", "strain_at", "peaks", "layout", "checkpoint", "log"},
       "`output`");
   OutputOptions output;
   if (entry.has("times")) {
     if (entry.has("every")) entry.at("every").fail("either `every` or `times`, not both");
     output.recording.times = read_times(entry.at("times"), end);
   }
+  if (const auto factors = entry.find("load_factors"))
+    output.recording.load_factors = read_load_factors(*factors, statics);
   if (entry.has("every")) output.recording.every = entry.at("every").integer();
   if (output.recording.every < 1) entry.at("every").fail("expected at least 1");
   if (entry.has("checkpoint")) {

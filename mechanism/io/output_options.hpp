@@ -19,6 +19,6 @@ struct OutputOptions {
 /// Reads the section and sets what the model's components record.
 /// @param end  of the last dynamic analysis [s]
 /// @throws InputError
-OutputOptions read_output(const YamlValue& entry, double end, Model& model);
+OutputOptions read_output(const YamlValue& entry, double end, bool statics, Model& model);
 
 }  // namespace bielle::mechanism

@@ -3,15 +3,18 @@
 // integrated: each time stands for itself, exact to rounding.
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "mechanism/session/session.hpp"
+#include "mechanism/session/time_grid.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
 #include "mechanism/solvers/start/assemble_positions.hpp"
 #include "mechanism/solvers/start/consistent_accelerations.hpp"
 #include "mechanism/solvers/start/consistent_start.hpp"
 #include "mechanism/solvers/start/consistent_velocities.hpp"
+#include "mechanism/solvers/statics/load_ramp.hpp"
 #include "reduce/common/counted.hpp"
 #include "reduce/common/error.hpp"
 
@@ -58,6 +61,31 @@ void check_continuous(const System& system, const State& from, const State& to) 
         "take smaller or other steps");
 }
 
+/// Whether a time is one of some, which ascend, but for rounding [s].
+bool contains(const std::vector<double>& times, double time, double rounding) {
+  const auto from = std::lower_bound(times.begin(), times.end(), time - rounding);
+  return from != times.end() && *from <= time + rounding;
+}
+
+constexpr double same_time = 1e-9;  // relative to the step
+
+/// Equal steps, the times to record, and those where laws of drives have kinks (where velocities jump).
+std::vector<double> times_of(const System& system, const KinematicsOptions& options, const Recording& recording,
+                             double begin) {
+  const long steps = grid_steps(options.duration, options.step);
+  const double end = begin + options.duration, h = options.duration / static_cast<double>(steps);
+  std::vector<double> times;
+  for (long k = 1; k <= steps; ++k) times.push_back(k == steps ? end : begin + static_cast<double>(k) * h);
+  for (const std::vector<double>& more : {recording.times, system.break_points()})
+    for (const double time : more)
+      if (time > begin && time < end) times.push_back(time);
+  std::sort(times.begin(), times.end());
+  // A time of the grid that is met but for rounding is met.
+  const auto same = [&](double a, double b) { return b - a < same_time * h; };
+  times.erase(std::unique(times.begin(), times.end(), same), times.end());
+  return times;
+}
+
 /// The state a time later, by its velocities and accelerations: where the search for the next position begins.
 State predicted(const System& system, const State& state, double time) {
   const double h = time - state.time;
@@ -81,10 +109,7 @@ KinematicsReport Session::kinematics(const KinematicsOptions& options) {
   acting_ = environment_;
   loaded_ = {1, 1};
   KinematicsReport report;
-  if (state_.motion_factor != 1) {
-    state_.motion_factor = 1;
-    system_.displace(state_, State(state_), VectorX::Zero(system_.dofs()));
-  }
+  apply_motions(system_, 1, state_);
   system_.begin_motion(state_, environment_, false);
   if (const StartConditions conditions = start_conditions(); !conditions.empty())
     assemble_positions(system_, environment_, state_, report.start, conditions);
@@ -93,40 +118,43 @@ KinematicsReport Session::kinematics(const KinematicsOptions& options) {
   shown_ = &state_;
   EnergyBalance books;
   const double begin = state_.time;
-  const long steps = std::max(1L, std::lround(std::ceil(options.duration / options.step * (1 - 1e-12))));
-  const double h = options.duration / static_cast<double>(steps);
+  const std::vector<double> times = times_of(system_, options, recording_, begin);
+  const std::vector<double> kinks = system_.break_points();
+  const double rounding = same_time * options.step;
   books.start(begin, system_.energy(state_, environment_));
-  const auto point = [&](long k) {
+  const auto point = [&](double step, bool recorded) {
     report_.emplace();
     report_->energy = books.totals();
     report_->balance = books.balance();
-    report_->step = h;
-    if (k % recording_.every == 0 || k == steps) record(state_, environment_, *report_);
+    report_->step = step;
+    if (recorded) record(state_, environment_, *report_);
     gather(state_, environment_);
     ++report.points;
-    if (notes_)
-      notes_->progress(static_cast<double>(k) / static_cast<double>(steps), fmt::format("t = {:.6g} s", state_.time));
-    if (k > 0) call_back();
+    if (notes_) notes_->progress((state_.time - begin) / options.duration, fmt::format("t = {:.6g} s", state_.time));
+    if (state_.time > begin) call_back();
   };
-  point(0);
+  point(0, true);
   MassSaddle saddle(system_);
-  for (long k = 1; k <= steps && !stopping_; ++k) {
-    State next = predicted(system_, state_, begin + static_cast<double>(k) * h);
+  for (std::size_t k = 0; k < times.size() && !stopping_; ++k) {
+    State next = predicted(system_, state_, times[k]);
     try {
       StartReport unused;
       assemble_positions(system_, environment_, next, unused);
       make_velocities_consistent(system_, environment_, next, unused, saddle);
       system_.begin_branch(next, environment_);  // stops, contacts
       make_accelerations_consistent(system_, environment_, next, saddle);
-      check_continuous(system_, state_, next);
+      if (!contains(kinks, next.time, rounding)) check_continuous(system_, state_, next);
       system_.accept(next, environment_);
     } catch (const ComputationError& error) {
       const std::string time = fmt::format("t = {:.6g} s: ", next.time), why = error.what();
       throw ComputationError(why.starts_with("t = ") ? why : time + why);
     }
+    const double step = next.time - state_.time;
     state_ = std::move(next);
     books.advance(state_.time, system_.energy(state_, environment_));
-    point(k);
+    const bool last = k + 1 == times.size();
+    point(step, recording_.times.empty() ? (k + 1) % static_cast<std::size_t>(recording_.every) == 0 || last
+                                         : contains(recording_.times, state_.time, rounding));
   }
   report.energy = books.totals();
   report.balance = books.balance();

@@ -8,9 +8,11 @@
 #include <fmt/format.h>
 
 #include "mechanism/session/session.hpp"
+#include "mechanism/session/time_grid.hpp"
 #include "mechanism/solvers/start/assemble_positions.hpp"
 #include "mechanism/solvers/start/consistent_velocities.hpp"
 #include "mechanism/solvers/start/start_rates.hpp"
+#include "mechanism/solvers/statics/load_ramp.hpp"
 #include "mechanism/solvers/statics/statics.hpp"
 #include "reduce/common/counted.hpp"
 #include "reduce/common/error.hpp"
@@ -24,7 +26,7 @@ StepOptions stepping_of(const DynamicsOptions& options, const System& system, do
   for (const double time : system.break_points())
     if (time >= begin && time < begin + options.duration) stepping.break_points.push_back(time);
   if (stepping.tolerance > 0) return stepping;
-  const long steps = options.grid_steps();
+  const long steps = grid_steps(options.duration, options.stepping.size);
   stepping.size = options.duration / static_cast<double>(steps);
   if (notes && std::abs(stepping.size - options.stepping.size) > 1e-9 * stepping.size)
     notes->note(fmt::format("step {:.6g} s in place of {:.6g} s, so that {} the duration", stepping.size,
@@ -40,10 +42,6 @@ StepOptions stepping_of(const DynamicsOptions& options, const System& system, do
 
 }  // namespace
 
-long DynamicsOptions::grid_steps() const {
-  return std::max(1L, std::lround(std::ceil(duration / stepping.size * (1 - 1e-12))));
-}
-
 Motion::Motion(Session& session, const DynamicsOptions& options) : session_(&session), options_(options) {
   if (!(options.duration > 0) || !(options.stepping.size > 0))
     throw InputError("a motion needs a duration and a step greater than 0");
@@ -53,10 +51,7 @@ Motion::Motion(Session& session, const DynamicsOptions& options) : session_(&ses
   const Environment& environment = session.environment_;
   State state = session.state_;
   // All of the loads and of the prescribed motions act, wherever statics have stopped.
-  if (state.motion_factor != 1) {
-    state.motion_factor = 1;
-    system.displace(state, State(state), VectorX::Zero(system.dofs()));
-  }
+  apply_motions(system, 1, state);
   system.begin_motion(state, environment, false);
   const StartConditions conditions = session.start_conditions();
   if (!conditions.empty()) assemble_positions(system, environment, state, start_, conditions);

@@ -22,9 +22,6 @@ struct DynamicsOptions {
   ConstraintForm form = ConstraintForm::corrected;
   NewtonOptions newton;
   bool equilibrium = false;  ///< positions of static equilibrium first
-
-  /// Fixed steps that fill the duration, of at most the asked size.
-  long grid_steps() const;
 };
 
 /// The session shows the state of its motion as long as that lives, and keeps the last one. A motion ends when the

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -15,6 +16,7 @@
 #include "mechanism/solvers/start/redundancy_at_start.hpp"
 #include "mechanism/solvers/start/start_rates.hpp"
 #include "mechanism/solvers/statics/held_states.hpp"
+#include "mechanism/solvers/statics/static_tangent.hpp"
 #include "mechanism/solvers/statics/statics.hpp"
 #include "reduce/common/error.hpp"
 
@@ -87,7 +89,7 @@ StartReport Session::assemble(const AssemblyOptions& options) {
   return report;
 }
 
-void Session::statics_point(const State& state, double factor, int iterations) {
+void Session::statics_point(const State& state, double factor, int iterations, bool recorded) {
   shown_ = &state;
   acting_ = environment_;
   acting_.statics = true;
@@ -98,7 +100,7 @@ void Session::statics_point(const State& state, double factor, int iterations) {
   report_->energy.input = report_->energy.dissipation = 0;  // no rates in statics: there is no power to integrate
   report_->newton_iterations = iterations;
   report_->time = factor;
-  record(state, acting_, *report_);
+  if (recorded) record(state, acting_, *report_);
   gather(state, acting_);
 }
 
@@ -125,9 +127,13 @@ StaticsReport Session::statics(const StaticsOptions& options) {
     assemble_positions(system_, environment_, state_, report.start, conditions);
     started_ = true;
   }
-  const auto point = [&](const State& state, double factor, int iterations, double done) {
+  const std::vector<double>& wanted = recording_.load_factors;
+  std::set<double> met;
+  const auto point = [&](const State& state, double factor, int iterations, double done, bool limit = false) {
     loaded_ = {factor, ramp.motion(factor)};
-    statics_point(state, factor, iterations);
+    const bool asked_for = std::binary_search(wanted.begin(), wanted.end(), factor);
+    if (asked_for) met.insert(factor);
+    statics_point(state, factor, iterations, wanted.empty() || asked_for || limit);
     ++report.points;
     report.iterations += iterations;
     report.load_factor = factor;
@@ -137,16 +143,19 @@ StaticsReport Session::statics(const StaticsOptions& options) {
   };
   try {
     if (options.path) {
-      loaded_ = follow_path(system_, statics, begin, *options.path, options.newton, state_,
+      PathOptions path = *options.path;
+      path.stops = wanted;
+      loaded_ = follow_path(system_, statics, begin, path, options.newton, state_,
                             [&](const State& state, const PathPoint& at) {
                               if (at.limit) report.limit_points.push_back(at.load_factor);
                               if (at.bifurcation) report.log.critical.push_back(*at.bifurcation);
                               report.log.unstable = at.unstable;
-                              point(state, at.load_factor, at.iterations, at.done);
+                              point(state, at.load_factor, at.iterations, at.done, at.limit);
                             });
     } else {
       LoadSteps steps(options.steps, begin);
       steps.branch = options.branch;
+      steps.stops = wanted;
       report.log = solve_statics(
           system_, statics, steps, options.newton, state_, [&](const State& state, double factor, int iterations) {
             point(state, factor, iterations, begin.factor == 1 ? 1 : (factor - begin.factor) / (1 - begin.factor));
@@ -160,6 +169,11 @@ StaticsReport Session::statics(const StaticsOptions& options) {
     throw;
   }
   shown_ = &state_;
+  for (const double factor : wanted)
+    if (!stopping_ && !met.contains(factor))
+      note(fmt::format("the analysis did not meet the load factor {:.6g} of `output`: it went from {:.6g} to {:.6g}",
+                       factor, begin.factor, loaded_.factor));
+  report.log.loose = loose_unknown(system_, ramp.environment(loaded_.factor), state_);
   if (const std::vector<std::string> held = held_names(system_, state_); !held.empty()) note(describe_held(held));
   return report;
 }

@@ -167,7 +167,7 @@ class Session {
   void note(const Event& event);
   void note(const std::string& sentence) const;
   const ResultsRows& readable() const;
-  void statics_point(const State& state, double factor, int iterations);
+  void statics_point(const State& state, double factor, int iterations, bool recorded);
   struct Saved;
   void exchange(Archive& archive, Saved& saved) const;
 

@@ -24,6 +24,7 @@ void StartReport::add(const StartReport& later) {
     unstable = later.unstable;
     unstable_motion = later.unstable_motion;
   }
+  if (!later.loose.empty()) loose = later.loose;
   if (later.balanced > balanced) {
     balanced = later.balanced;
     balanced_node = later.balanced_node;

@@ -32,6 +32,7 @@ struct StartReport {
   std::string settled_node;            ///< that node's name
   int unstable = 0;                    ///< motions along which that equilibrium has a negative stiffness
   std::string unstable_motion;         ///< what moves most in one of them: "x at node 'tip'"
+  std::string loose;                   ///< what nothing holds or loads there, and stays as drawn; empty: nothing
   double balanced = 0;                 ///< largest displacement of a node without mass, to where its forces balance [m]
   std::string balanced_node;           ///< that node's name
   std::string unbalanced;              ///< an unknown without mass whose forces could not be balanced; empty: none

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -9,6 +11,7 @@
 #include "mechanism/solvers/statics/equilibrium.hpp"
 #include "mechanism/solvers/statics/held_states.hpp"
 #include "mechanism/solvers/statics/path_step.hpp"
+#include "mechanism/solvers/statics/root_bracket.hpp"
 #include "mechanism/solvers/statics/stability.hpp"
 #include "reduce/common/counted.hpp"
 
@@ -32,6 +35,7 @@ class EndCondition final : public PathCondition {
     const Vector3 u = state.nodes[static_cast<std::size_t>(end_.node)].x - drawn_;
     return (end_.direction.isZero(0) ? u.norm() : end_.direction.dot(u)) - end_.displacement;
   }
+  std::optional<double> load_factor() const { return end_.load_factor; }
   /// Where trials start from.
   void set_base(const State& base) { base_ = &base; }
   double value(const PathTrial& trial) const override { return gap(trial.state, trial.factor); }
@@ -78,7 +82,7 @@ class Path {
         state_(in_equilibrium(ramp, options, state)),
         factor_(ramp.begin()),
         step_(ramp, options, state),
-        stability_(ramp.system()),
+        stability_(ramp.system(), step_.held()),
         end_(path.end, ramp, step_),
         gap_(end_.gap(state, factor_)),
         whole_(std::abs(gap_)) {
@@ -100,8 +104,23 @@ class Path {
       const bool limit = going_ * after.slope <= 0;
       if (limit && !locate_limit(after, length)) continue;
       const double gap = end_.gap(trial_.state, trial_.factor);
+      const double end = gap_ * gap <= 0 ? gap_ / (gap_ - gap) : std::numeric_limits<double>::infinity();
+      if (const auto stop = next_stop(); stop && (*stop - factor_) / (trial_.factor - factor_) < end) {
+        PathEnd here;
+        here.load_factor = *stop;
+        EndCondition condition(here, ramp_, step_);
+        const double part = (*stop - factor_) / (trial_.factor - factor_);
+        if (part < 1) {
+          if (!meet(condition, part, length)) continue;
+          after = tangent_at(trial_);
+        }
+        const double arc = arc_;
+        const PathPoint point = accept(end_.gap(trial_.state, trial_.factor), limit && part == 1, after, part * length);
+        arc_ = arc;
+        return point;
+      }
       if (gap_ * gap <= 0) {
-        if (!meet_end(gap, length)) continue;
+        if (!meet(end_, end, length)) continue;
         return accept(0, false, after, length);
       }
       return accept(gap, limit, after, length);
@@ -113,6 +132,7 @@ class Path {
  private:
   static State& in_equilibrium(const LoadRamp& ramp, const NewtonOptions& options, State& state) {
     Equilibrium equilibrium(ramp, options);
+    equilibrium.look_for_loose(ramp.begin(), state);
     if (equilibrium.find(ramp.begin(), state) < 0)
       throw ComputationError(fmt::format("static path: no equilibrium to set off from at load factor {:.6g}: {}",
                                          ramp.begin(), equilibrium.why()));
@@ -131,6 +151,9 @@ class Path {
                       "move without resistance",
                       factor_));
     const double response = step_.length(b);
+    if (step_.held() && response > runaway)
+      throw ComputationError(fmt::format("static path: nothing holds {} against its load, at load factor {:.6g}",
+                                         moves_most(system_, b, state_), factor_));
     if (!(response > resolved))
       throw ComputationError(
           "static path: nothing moves with the load factor: there are no loads that do work, or the analyses before "
@@ -175,46 +198,60 @@ class Path {
     return {trial.delta / step_.length(trial.delta), 0};
   }
 
+  /// Moves the trial to the point of the path an arc away from the base, on the way to another one.
+  bool correct_at(double arc, const PathTrial& far, double length) {
+    trial_.delta = arc / length * far.delta;
+    trial_.factor = factor_ + arc / length * (far.factor - factor_);
+    return correct(ArcCondition(step_, arc), arc);
+  }
+
   /// Between the base and the trial the slope of the load factor changes its sign: moves the trial to where it
-  /// vanishes, or to the kink where it jumps (regula falsi after Illinois). @returns whether it was found
+  /// vanishes, or to the kink where it jumps. @returns whether it was found
   bool locate_limit(Tangent& after, double& length) {
     constexpr int most = 60;
     constexpr double accurate = 1e-12, kink = 1e-10;  // the load factor relative to itself, the arc to the step
     const PathTrial far = trial_;
     const double size = std::max(std::abs(far.factor), std::abs(factor_)) + std::abs(tangent_.slope) * length;
     // Just after a limit point the slope is nearly zero and meaningless.
-    double low = 0, high = length, slope_high = after.slope, slope_low = at_limit_ ? -slope_high : tangent_.slope;
-    for (int k = 0, side = 0; k < most; ++k) {
-      const double arc = (low * slope_high - high * slope_low) / (slope_high - slope_low);
-      trial_.delta = arc / length * far.delta;
-      trial_.factor = factor_ + arc / length * (far.factor - factor_);
-      if (!correct(ArcCondition(step_, arc), arc)) return false;
+    RootBracket bracket(0, at_limit_ ? -after.slope : tangent_.slope, length, after.slope);
+    for (int k = 0; k < most; ++k) {
+      const double arc = bracket.interpolated();
+      if (!correct_at(arc, far, length)) return false;
       const Tangent here = tangent_at(trial_);
-      const double curvature = std::abs((slope_high - slope_low) / (high - low));
-      if (here.slope * here.slope <= 2 * curvature * accurate * size || high - low < kink * length) {
+      const double curvature = std::abs(bracket.slope());
+      if (here.slope * here.slope <= 2 * curvature * accurate * size || bracket.width() < kink * length) {
         trial_.iterations += far.iterations;
         after = here;
         length = arc;
         return true;
       }
-      const bool before = here.slope * going_ > 0;
-      (before ? low : high) = arc;
-      (before ? slope_low : slope_high) = here.slope;
-      if (side == (before ? 1 : -1)) (before ? slope_high : slope_low) /= 2;
-      side = before ? 1 : -1;
+      bracket.replace(here.slope * going_ > 0, arc, here.slope);
     }
     why_ = fmt::format("the limit point near load factor {:.6g} was not found", trial_.factor);
     return false;
   }
 
-  /// Moves the trial back to where the end lies between the base and it.
-  bool meet_end(double gap, double length) {
-    const double part = gap_ / (gap_ - gap);
+  /// The first load factor to stop at on the way to the trial.
+  std::optional<double> next_stop() const {
+    const std::vector<double>& stops = path_.stops;
+    if (trial_.factor > factor_) {
+      const auto above = std::upper_bound(stops.begin(), stops.end(), factor_);
+      if (above != stops.end() && *above <= trial_.factor) return *above;
+    } else if (const auto above = std::lower_bound(stops.begin(), stops.end(), factor_);
+               above != stops.begin() && *std::prev(above) >= trial_.factor) {
+      return *std::prev(above);
+    }
+    return {};
+  }
+
+  /// Moves the trial back to where a condition is met between the base and it, after about a part of the way.
+  bool meet(EndCondition& condition, double part, double length) {
     trial_.delta *= part;
-    trial_.factor = path_.end.load_factor ? *path_.end.load_factor : factor_ + part * (trial_.factor - factor_);
-    end_.set_base(state_);
-    if (!correct(end_, length)) return false;
-    if (path_.end.load_factor) trial_.factor = *path_.end.load_factor;
+    const std::optional<double> factor = condition.load_factor();
+    trial_.factor = factor.value_or(factor_ + part * (trial_.factor - factor_));
+    condition.set_base(state_);
+    if (!correct(condition, length)) return false;
+    if (factor) trial_.factor = *factor;
     return true;
   }
 
@@ -225,8 +262,8 @@ class Path {
   }
 
   /// Between the base and the trial, an arc `length` away, the number of unstable motions changes from that of the
-  /// base: by regula falsi of the smallest stiffness (after Illinois), within the bracket of the counts. The trial
-  /// stays as it is.
+  /// base: by the smallest stiffness, which changes its sign there, within the bracket of the counts. The trial stays
+  /// as it is.
   CriticalPoint locate_bifurcation(int after, double length) {
     constexpr int most = 40;
     constexpr double accurate = 1e-7;
@@ -235,25 +272,17 @@ class Path {
     point.before = *unstable_;
     point.after = after;
     PathTrial near{VectorX::Zero(far.delta.size()), factor_, state_};
-    double low = 0, high = length, k_low = softest(near), k_high = softest(far);
+    const double k_near = softest(near), k_far = softest(far);
+    RootBracket bracket(0, k_near, length, k_far);
     point.factor = factor_;
-    for (int i = 0, side = 0; i < most && high - low > accurate * length; ++i) {
-      double arc = k_low * k_high < 0 ? (low * k_high - high * k_low) / (k_high - k_low) : 0.5 * (low + high);
-      const double margin = 0.25 * accurate * length;
-      arc = std::clamp(arc, low + margin, high - margin);
-      trial_.delta = arc / length * far.delta;
-      trial_.factor = factor_ + arc / length * (far.factor - factor_);
-      const bool met = correct(ArcCondition(step_, arc), arc);
-      const std::optional<int> here =
-          met ? stability_.count(trial_.state, ramp_.environment(trial_.factor)) : std::nullopt;
+    for (int i = 0; i < most && bracket.width() > accurate * length; ++i) {
+      const double arc = bracket.next(0.25 * accurate * length);
+      std::optional<int> here;
+      if (correct_at(arc, far, length)) here = stability_.count(trial_.state, ramp_.environment(trial_.factor));
       point.factor = trial_.factor;
       if (!here) break;  // singular, or nearly: this is the place
       near = trial_;
-      const bool before = *here == point.before;
-      (before ? low : high) = arc;
-      (before ? k_low : k_high) = softest(trial_);
-      if (side == (before ? 1 : -1)) (before ? k_high : k_low) /= 2;
-      side = before ? 1 : -1;
+      bracket.replace(*here == point.before, arc, softest(trial_));
     }
     softest(near, &point.motion);
     trial_ = far;

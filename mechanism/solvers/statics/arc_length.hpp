@@ -40,6 +40,7 @@ struct PathOptions {
   /// twentieth, and as long as Newton's method converges fast.
   int steps = 0;
   int most_points = 1000;
+  std::vector<double> stops;  ///< load factors that are points of the path wherever it crosses them, ascending
 };
 
 struct PathPoint {

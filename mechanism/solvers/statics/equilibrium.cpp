@@ -9,6 +9,7 @@
 #include "mechanism/solvers/constraints/redundancy.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
 #include "mechanism/solvers/start/consistent_accelerations.hpp"
+#include "mechanism/solvers/start/start_report.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -23,34 +24,41 @@ Equilibrium::Equilibrium(const LoadRamp& ramp, const NewtonOptions& options)
     : ramp_(ramp),
       system_(ramp.system()),
       options_(options),
-      linear_(system_),
+      tangent_(system_),
       convergence_(system_, options),
       reactions_(system_),
       r_(system_.size()),
       delta_(system_.size()) {}
 
-int Equilibrium::find(double factor, State& state) { return attempt(&Equilibrium::iterate_stepping, factor, state); }
+int Equilibrium::find(double factor, State& state) {
+  return attempt(factor, state, [&] { return iterate(factor, state, &Equilibrium::step); });
+}
 
-int Equilibrium::search(double factor, State& state) { return attempt(&Equilibrium::iterate_searching, factor, state); }
+int Equilibrium::search(double factor, State& state) {
+  return attempt(factor, state, [&] { return iterate(factor, state, &Equilibrium::search_step); });
+}
 
-int Equilibrium::relax(double factor, State& state) { return attempt(&Equilibrium::iterate_relaxing, factor, state); }
+int Equilibrium::relax(double factor, State& state) {
+  return attempt(factor, state, [&] { return iterate_relaxing(factor, state); });
+}
 
 /// A component that refuses a wild iterate (a beam whose ends turn too far) makes the attempt fail, not the analysis.
-int Equilibrium::attempt(int (Equilibrium::*iterations)(double, State&), double factor, State& state) {
-  const State start = state;
-  judged_ = stepped_ = false;
+template <class Iterations>
+int Equilibrium::attempt(double factor, State& state, const Iterations& iterations) {
+  start_ = state;
+  judged_ = stepped_ = falls_ = false;
   why_.clear();
   environment_ = ramp_.environment(factor);
   int count = -1;
   try {
-    count = (this->*iterations)(factor, state);
+    count = iterations();
   } catch (const ComputationError& error) {
     why_ = error.what();
     if (judged_) why_ += fmt::format("; largest residual before: {}", convergence_.worst());
   }
   if (count >= 0) return count;
   if (why_.empty()) why_ = fmt::format("Newton did not converge; largest residual: {}", convergence_.worst());
-  state = start;
+  state = start_;
   why_ += what_is_open(state);
   return -1;
 }
@@ -80,17 +88,14 @@ void Equilibrium::accept(double factor, State& state) const {
   }
 }
 
-int Equilibrium::iterate_stepping(double factor, State& state) {
-  searching_ = false;
-  return iterate(factor, state);
+/// The first iteration has led to the state.
+void Equilibrium::note_promised(const State& state) {
+  std::string node;
+  promised_ = 0;
+  note_farthest(system_, start_, state, promised_, node);
 }
 
-int Equilibrium::iterate_searching(double factor, State& state) {
-  searching_ = true;
-  return iterate(factor, state);
-}
-
-int Equilibrium::iterate(double factor, State& state) {
+int Equilibrium::iterate(double factor, State& state, void (Equilibrium::*improve)(State&)) {
   const bool followed = ramp_.motion(factor) != state.motion_factor && follow_motions(factor, state);
   evaluate(state);
   for (int iteration = 0;; ++iteration) {
@@ -98,16 +103,14 @@ int Equilibrium::iterate(double factor, State& state) {
     judged_ = true;
     if (iteration > 0 && reached) return iteration + (followed ? 1 : 0);
     if (iteration == options_.iterations || !r_.allFinite()) return -1;
-    searching_ ? search(state) : step(state);
+    (this->*improve)(state);
+    if (iteration == 0 && !followed) note_promised(state);
   }
 }
 
 int Equilibrium::iterate_relaxing(double factor, State& state) {
   constexpr int most_iterations = 300;
-  if (ramp_.motion(factor) != state.motion_factor) {
-    state.motion_factor = ramp_.motion(factor);
-    system_.displace(state, State(state), VectorX::Zero(system_.dofs()));
-  }
+  apply_motions(system_, ramp_.motion(factor), state);
   evaluate(state);
   double tau_squared = first_tau_squared(state);
   for (int iteration = 0; iteration < most_iterations && r_.allFinite(); ++iteration) {
@@ -170,12 +173,21 @@ bool Equilibrium::follow_motions(double factor, State& state) {
   stepped_ = true;
   state.motion_factor = ramp_.motion(factor);
   move(state, before_, 1);
+  note_promised(state);
   return true;
+}
+
+/// Throws where the last solution runs away along what only StaticTangent holds.
+void Equilibrium::check_no_fall(const State& state) {
+  falls_ = held() && extent(state) > runaway;
+  if (falls_)
+    throw ComputationError(fmt::format("nothing holds {} against its load", moves_most(system_, delta_, state)));
 }
 
 void Equilibrium::step(State& state) {
   factor(state);
   solve();
+  check_no_fall(state);
   before_ = state;
   stepped_ = true;
   const double turn = largest_turn();
@@ -190,7 +202,7 @@ void Equilibrium::step(State& state) {
   }
 }
 
-void Equilibrium::search(State& state) {
+void Equilibrium::search_step(State& state) {
   stepped_ = false;
   factor(state);
   const double before = convergence_.size_of(r_);
@@ -215,15 +227,15 @@ void Equilibrium::search(State& state) {
 
 void Equilibrium::factor(const State& state, double inertia) {
   environment_.before = stepped_ ? &before_ : nullptr;
-  linear_.factor(state, environment_, TangentWeights{1, 0, inertia, 0, 1, true}, nullptr);
+  tangent_.factor(state, environment_, inertia);
   environment_.before = nullptr;
-  convergence_.measure_rounding(linear_, state);
+  convergence_.measure_rounding(tangent_.linear(), state);
   convergence_.measure_by(scale_);
 }
 
 void Equilibrium::solve() {
   ++solves_;
-  linear_.solve(r_, delta_);
+  tangent_.solve(r_, delta_);
 }
 
 void Equilibrium::move(State& state, const State& base, double part) const {

@@ -6,12 +6,17 @@
 #include "mechanism/solvers/constraints/reaction_norm.hpp"
 #include "mechanism/solvers/newton/convergence.hpp"
 #include "mechanism/solvers/statics/load_ramp.hpp"
+#include "mechanism/solvers/statics/static_tangent.hpp"
 
 namespace bielle::mechanism {
 
 class Equilibrium {
  public:
   Equilibrium(const LoadRamp& ramp, const NewtonOptions& options);
+
+  /// To be called where an analysis sets off: what nothing holds there stays where it is, see StaticTangent.
+  void look_for_loose(double factor, const State& state) { tangent_.look_for_loose(state, ramp_.environment(factor)); }
+  const VectorX* held() const { return tangent_.held(); }
 
   /// Brings a state at rest into equilibrium under a load factor. Prescribed motions are taken along in the first
   /// iteration: the free nodes follow them by the tangent. Stiffness comes from predicted stress (Environment::before);
@@ -29,6 +34,11 @@ class Equilibrium {
   void push(const VectorX& forces) { push_ = forces; }
   /// Linear solves so far, those of attempts that failed included.
   long solves() const { return solves_; }
+  /// Whether the last `find` met a load on something that nothing holds (an arm drawn away from where it hangs):
+  /// `relax` lets it go down.
+  bool falls() const { return falls_; }
+  /// How far the first iteration of the last `find` or `search` moved a node [m]: the linear response.
+  double promised() const { return promised_; }
   /// Why the last attempt failed: what a component refused, what is singular, or where Newton's method stalled.
   const std::string& why() const { return why_; }
   /// Hands an equilibrium to the components, constraints set aside included.
@@ -36,17 +46,18 @@ class Equilibrium {
   void accept(double factor, State& state) const;
 
  private:
-  int iterate(double factor, State& state);
-  int iterate_stepping(double factor, State& state);
-  int iterate_searching(double factor, State& state);
+  int iterate(double factor, State& state, void (Equilibrium::*improve)(State&));
   int iterate_relaxing(double factor, State& state);
-  int attempt(int (Equilibrium::*iterations)(double, State&), double factor, State& state);
+  template <class Iterations>
+  int attempt(double factor, State& state, const Iterations& iterations);
   std::string what_is_open(const State& state) const;
   double first_tau_squared(const State& state);
   /// An iteration of Newton's method that takes prescribed motions along. @returns false where nothing is prescribed
   bool follow_motions(double factor, State& state);
+  void check_no_fall(const State& state);
+  void note_promised(const State& state);
   void step(State& state);
-  void search(State& state);
+  void search_step(State& state);
   void solve();
   double largest_turn() const;
   double extent(const State& state) const;
@@ -57,13 +68,15 @@ class Equilibrium {
   const LoadRamp& ramp_;
   const System& system_;
   NewtonOptions options_;
-  LinearStep linear_;
+  StaticTangent tangent_;
   Convergence convergence_;
   ReadReactions reactions_;
   Environment environment_;  ///< of the load factor in hand
-  State before_;             ///< the last step led from it to the state in hand
-  bool stepped_ = false;     ///< there was such a step
-  bool searching_ = false;
+  State start_;              ///< of the attempt in hand
+  double promised_ = 0;
+  State before_;          ///< the last step led from it to the state in hand
+  bool stepped_ = false;  ///< there was such a step
+  bool falls_ = false;
   VectorX push_;
   long solves_ = 0;
   VectorX r_, delta_;

@@ -8,8 +8,7 @@ void LoadRamp::set_off(State& state) const {
   for (NodeState& node : state.nodes)
     for (Vector3* rate : {&node.v, &node.Omega, &node.a, &node.Omegadot}) rate->setZero();
   state.first_order_rate.setZero();
-  state.motion_factor = start_.motions;
-  system_.displace(state, State(state), zero);
+  apply_motions(system_, start_.motions, state);
 }
 
 Environment LoadRamp::environment(double factor) const {
@@ -33,17 +32,21 @@ void LoadRamp::factor_derivative(const State& state, double factor, Eigen::Ref<V
 void LoadRamp::motion_derivative(const State& state, const Environment& environment, Eigen::Ref<VectorX> result) const {
   // Rounding of positions relative to this part of a motion, and its square, are both small.
   constexpr double part = 1e-5;
-  const VectorX still = VectorX::Zero(system_.dofs());
   VectorX behind(system_.size());
   State moved = state;
-  const auto residual_beside = [&](double difference, Eigen::Ref<VectorX> r) {
-    moved.motion_factor = state.motion_factor + difference;
-    system_.displace(moved, state, still);
+  const auto residual_after = [&](double difference, Eigen::Ref<VectorX> r) {
+    apply_motions(system_, state.motion_factor + difference, moved);
     residual_at_rest(system_, environment, moved, r);
   };
-  residual_beside(-part, behind);
-  residual_beside(part, result);
+  residual_after(-part, behind);
+  residual_after(part, result);
   result = (result - behind) / (2 * part);
+}
+
+void apply_motions(const System& system, double part, State& state) {
+  if (state.motion_factor == part) return;
+  state.motion_factor = part;
+  system.displace(state, State(state), VectorX::Zero(system.dofs()));
 }
 
 void residual_at_rest(const System& system, const Environment& environment, const State& state, Eigen::Ref<VectorX> r,

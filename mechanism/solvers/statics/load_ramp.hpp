@@ -41,6 +41,9 @@ class LoadRamp {
   Loaded start_;
 };
 
+/// Moves what is prescribed to a part of its motion (0..1); the other unknowns stay.
+void apply_motions(const System& system, double part, State& state);
+
 /// The residual (size) at rest: rows of constraints on velocities are satisfied at rest, hence zero.
 void residual_at_rest(const System& system, const Environment& environment, const State& state, Eigen::Ref<VectorX> r,
                       ResidualScale* scale = nullptr);

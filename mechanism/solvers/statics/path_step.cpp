@@ -7,27 +7,21 @@
 #include "mechanism/solvers/newton/model_length.hpp"
 
 namespace bielle::mechanism {
-namespace {
-
-const TangentWeights at_rest{1, 0, 0, 0, 1, true};
-
-}  // namespace
-
 PathStep::PathStep(const LoadRamp& ramp, const NewtonOptions& options, const State& state)
     : ramp_(ramp),
       system_(ramp.system()),
       options_(options),
-      linear_(system_),
+      tangent_(system_),
       convergence_(system_, options),
       reactions_(system_),
       weights_(system_.dofs()),
       extent_(model_extent(state)) {
-  linear_.assemble(state, ramp.environment(ramp.begin()), at_rest, nullptr);
+  tangent_.look_for_loose(state, ramp.environment(ramp.begin()));
   std::array<double, kind_count> count{}, stiffness{};
   const auto place = [&](int dof) { return static_cast<std::size_t>(system_.kind(dof)); };
   for (int i = 0; i < system_.dofs(); ++i) {
     count[place(i)] += 1;
-    stiffness[place(i)] += std::abs(linear_.diagonal(i));
+    stiffness[place(i)] += std::abs(tangent_.linear().diagonal(i));
   }
   constexpr auto translation = static_cast<std::size_t>(Kind::translation),
                  amplitude = static_cast<std::size_t>(Kind::amplitude);
@@ -38,7 +32,8 @@ PathStep::PathStep(const LoadRamp& ramp, const NewtonOptions& options, const Sta
   for (int i = 0; i < system_.dofs(); ++i) {
     double weight = 1;  // of rotations
     if (system_.kind(i) == Kind::translation) weight = 1 / (extent_ * extent_);
-    if (system_.kind(i) == Kind::amplitude) weight = unit_work > 0 ? std::abs(linear_.diagonal(i)) / unit_work : 1;
+    if (system_.kind(i) == Kind::amplitude)
+      weight = unit_work > 0 ? std::abs(tangent_.linear().diagonal(i)) / unit_work : 1;
     weights_[i] = weight / count[place(i)];
   }
 }
@@ -56,11 +51,11 @@ void PathStep::place(const State& base, PathTrial& trial) const {
 }
 
 bool PathStep::response(const State& state, double factor, VectorX& b) {
-  if (!linear_.try_factor(state, ramp_.environment(factor), at_rest, nullptr)) return false;
+  if (!tangent_.try_factor(state, ramp_.environment(factor))) return false;
   VectorX r(system_.size());
   ramp_.factor_derivative(state, factor, r);
   b.resize(system_.size());
-  linear_.solve(r, b);
+  tangent_.solve(r, b);
   return b.allFinite();
 }
 
@@ -95,11 +90,11 @@ bool PathStep::iterate(const State& base, const PathCondition& condition, double
     const VectorX increment = trial.delta.head(system_.dofs());
     Environment predicted = environment;
     predicted.before = &before;
-    linear_.factor(trial.state, predicted, at_rest, &increment);
-    convergence_.measure_rounding(linear_, trial.state);
-    linear_.solve(r, a);
+    tangent_.factor(trial.state, predicted, 0, &increment);
+    convergence_.measure_rounding(tangent_.linear(), trial.state);
+    tangent_.solve(r, a);
     ramp_.factor_derivative(trial.state, trial.factor, by_factor);
-    linear_.solve(by_factor, b);
+    tangent_.solve(by_factor, b);
     const double change = -(g + condition.slope(trial, a, 0)) / condition.slope(trial, b, 1);
     before = trial.state;
     trial.delta += a + change * b;

@@ -6,6 +6,7 @@
 #include "mechanism/solvers/constraints/reaction_norm.hpp"
 #include "mechanism/solvers/newton/convergence.hpp"
 #include "mechanism/solvers/statics/load_ramp.hpp"
+#include "mechanism/solvers/statics/static_tangent.hpp"
 
 namespace bielle::mechanism {
 
@@ -37,6 +38,7 @@ class PathStep {
   double product(const VectorX& a, const VectorX& b) const;
   double length(const VectorX& a) const { return std::sqrt(product(a, a)); }
   double extent() const { return extent_; }  ///< [m]
+  const VectorX* held() const { return tangent_.held(); }
 
   /// Sets trial.state from its increments and its load factor.
   void place(const State& base, PathTrial& trial) const;
@@ -54,7 +56,7 @@ class PathStep {
   const LoadRamp& ramp_;
   const System& system_;
   NewtonOptions options_;
-  LinearStep linear_;
+  StaticTangent tangent_;
   Convergence convergence_;
   ReadReactions reactions_;
   VectorX weights_;  ///< W (dofs), diagonal

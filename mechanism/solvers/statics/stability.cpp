@@ -20,7 +20,7 @@ constexpr double give = 1e-4;  // of constraints, see the head of stability.hpp
 std::optional<int> Stability::count(const State& state, const Environment& environment) {
   constexpr double asymmetry = 1e-6, of_size = 1e-7;  // relative to an entry, and to the stiffness
   if (system_.dofs() == 0) return 0;
-  linear_.assemble(state, environment, stiffness_alone, nullptr);
+  linear_.assemble(state, environment, stiffness_alone, nullptr, held());
   const std::vector<double>& values = linear_.values();
   const SparsePattern& pattern = system_.pattern();
   const int dofs = system_.dofs(), first = system_.size() - system_.multipliers();
@@ -107,7 +107,7 @@ VectorX Stability::row_scales() const {
 std::optional<Stability::Mode> Stability::softest(const State& state, const Environment& environment) {
   constexpr int most = 60;
   constexpr double settled = 1e-8;
-  if (!linear_.try_factor(state, environment, stiffness_alone, nullptr)) return {};
+  if (!linear_.try_factor(state, environment, stiffness_alone, nullptr, held())) return {};
   const double length = model_extent(state) > 0 ? model_extent(state) : 1;
   const int n = system_.dofs();
   VectorX weight(n);  // what makes turns and displacements comparable

@@ -21,7 +21,9 @@ namespace bielle::mechanism {
 
 class Stability {
  public:
-  explicit Stability(const System& system) : system_(system), linear_(system) {}
+  /// @param held  stiffness (dofs) that holds what is loose, see StaticTangent; null: nothing is
+  explicit Stability(const System& system, const VectorX* held = nullptr)
+      : system_(system), linear_(system), held_(held ? *held : VectorX()) {}
 
   /// How many independent small motions meet a negative stiffness at a state at rest; none where that is not known.
   /// @param environment  in which it is in equilibrium
@@ -41,8 +43,10 @@ class Stability {
 
  private:
   VectorX row_scales() const;  ///< S, of all rows
+  const VectorX* held() const { return held_.size() > 0 ? &held_ : nullptr; }
   const System& system_;
   LinearStep linear_;
+  VectorX held_;
 };
 
 }  // namespace bielle::mechanism

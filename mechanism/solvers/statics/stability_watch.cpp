@@ -5,12 +5,13 @@
 
 #include <fmt/format.h>
 
-#include "mechanism/solvers/newton/model_length.hpp"
+#include "mechanism/solvers/statics/root_bracket.hpp"
+#include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
 
 StabilityWatch::StabilityWatch(const LoadRamp& ramp, Equilibrium& equilibrium, double branch)
-    : ramp_(ramp), equilibrium_(equilibrium), stability_(ramp.system()), branch_(branch) {}
+    : ramp_(ramp), equilibrium_(equilibrium), stability_(ramp.system(), equilibrium.held()), branch_(branch) {}
 
 void StabilityWatch::begin(double factor, const State& state) { remember(factor, state, count(factor, state)); }
 
@@ -52,16 +53,15 @@ void StabilityWatch::look(double factor, State& state, StaticsLog& log) {
       break;
     }
     log.critical.push_back(point);
-    // On from just above it.
-    if (above_) remember(above_->first, above_->second, point.after);
     if (!above_) break;
+    remember(above_->first, above_->second, point.after);  // on from just above it
   }
   log.unstable = now;
   remember(factor, state, now);
 }
 
-/// Between the last equilibrium and this one: by the smallest stiffness, which changes its sign there, kept within the
-/// bracket of the counts (regula falsi after Illinois, or halving where it does not help).
+/// Between the last equilibrium and this one: by the smallest stiffness, which changes its sign there, within the
+/// bracket of the counts.
 CriticalPoint StabilityWatch::locate(double factor, const State& state, int count) {
   constexpr int most = 60;
   constexpr double accurate = 1e-7;
@@ -73,46 +73,38 @@ CriticalPoint StabilityWatch::locate(double factor, const State& state, int coun
     if (mode) mode_ = mode;
     return mode ? mode->stiffness : 0.0;
   };
-  State low_state = *last_;
+  State below = *last_;
   above_.reset();
-  int count_high = count;
-  double low = last_factor_, high = factor, k_low = stiffness(low_state, low), k_high = stiffness(state, high);
-  k_before_ = k_low;
-  k_after_ = k_high;
-  const double whole = std::abs(high - low);
-  for (int i = 0, side = 0; i < most && std::abs(high - low) > accurate * whole; ++i) {
-    const bool signs = k_low * k_high < 0;
-    double middle = signs ? (low * k_high - high * k_low) / (k_high - k_low) : 0.5 * (low + high);
-    // Close to the ends nothing would be gained.
-    const double margin = 0.25 * accurate * (high - low < 0 ? -whole : whole);
-    middle = std::clamp(middle, std::min(low + margin, high - margin), std::max(low + margin, high - margin));
-    State trial = low_state;
-    // Where the equations are singular, or nearly, this is the place.
+  int count_above = count;
+  k_before_ = stiffness(below, last_factor_);
+  k_after_ = stiffness(state, factor);
+  RootBracket bracket(last_factor_, k_before_, factor, k_after_);
+  const double whole = bracket.width();
+  std::optional<double> singular;
+  for (int i = 0; i < most && bracket.width() > accurate * whole; ++i) {
+    const double middle = bracket.next(0.25 * accurate * whole);
+    State trial = below;
     std::optional<int> here;
-    if (equilibrium_.find(middle, trial) >= 0) here = stability_.count(trial, ramp_.environment(middle));
+    if (equilibrium_.find(middle, trial) >= 0) here = this->count(middle, trial);
+    // Where the equations are singular, or nearly, this is the place.
     if (!here) {
-      low = middle;
+      singular = middle;
       break;
     }
-    const double k = stiffness(trial, middle);
     const bool before = *here == point.before;
+    bracket.replace(before, middle, stiffness(trial, middle));
     if (before) {
-      low = middle;
-      k_low = k;
-      low_state = trial;
+      below = trial;
     } else {
-      high = middle;
-      k_high = k;
-      count_high = *here;
+      count_above = *here;
       above_.emplace(middle, trial);
     }
-    if (side == (before ? 1 : -1)) (before ? k_high : k_low) /= 2;
-    side = before ? 1 : -1;
   }
-  if (std::abs(high - low) <= accurate * whole) point.after = count_high;
+  point.factor = singular.value_or(bracket.low());
+  const double left = singular ? bracket.width() - std::abs(*singular - bracket.low()) : bracket.width();
+  if (left <= accurate * whole) point.after = count_above;
   if (point.after == count) above_.reset();
-  stiffness(low_state, low);
-  point.factor = low;
+  stiffness(below, point.factor);
   point.motion = mode_ ? stability_.describe(*mode_) : "an unknown";
   return point;
 }
@@ -120,18 +112,18 @@ CriticalPoint StabilityWatch::locate(double factor, const State& state, int coun
 /// From the last equilibrium with a force along the critical motion that deflects it by `branch`, in steps that keep it
 /// stable; then without the force.
 bool StabilityWatch::follow(double factor, const Stability::Mode& mode, State& state) {
-  constexpr int weakest_first = 4;  // forces that are tried, each four times the one before
+  constexpr double strongest = 256;  // relative to the first force that is tried; each is four times the one before
   const double stiffness = std::max(std::abs(k_before_), std::abs(k_after_));
-  bool found = false;
-  for (double part = branch_; part <= branch_ * std::pow(4, weakest_first) && !found; part *= 4) {
+  for (double times = 1; times <= strongest; times *= 4) {
     State trial = *last_;
-    equilibrium_.push(part * stiffness * mode.force);
-    found = lead(factor, trial);
+    equilibrium_.push(times * branch_ * stiffness * mode.force);
+    const bool led = lead(factor, trial);
     equilibrium_.push({});
-    found = found && equilibrium_.find(factor, trial) >= 0 && is_stable(trial, factor);
-    if (found) state = trial;
+    if (!led || equilibrium_.find(factor, trial) < 0 || !is_stable(trial, factor)) continue;
+    state = trial;
+    return true;
   }
-  return found;
+  return false;
 }
 
 bool StabilityWatch::is_stable(const State& state, double factor) {

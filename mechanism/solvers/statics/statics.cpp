@@ -2,15 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "mechanism/solvers/start/assemble_positions.hpp"
 #include "mechanism/solvers/statics/equilibrium.hpp"
 #include "mechanism/solvers/statics/held_states.hpp"
+#include "mechanism/solvers/statics/jump_watch.hpp"
 #include "mechanism/solvers/statics/stability.hpp"
 #include "mechanism/solvers/statics/stability_watch.hpp"
+#include "mechanism/solvers/statics/static_tangent.hpp"
 
 namespace bielle::mechanism {
 
@@ -20,8 +23,12 @@ namespace {
 class Increments {
  public:
   /// @param count  equal parts; 0: chosen by how fast Newton's method converges
-  explicit Increments(int count)
-      : grid_(count > 0 ? 1.0 / count : 0), part_(count > 0 ? grid_ : 0.1), least_(part_ / 1024) {}
+  /// @param stops  where one ends in any case, ascending
+  Increments(int count, std::vector<double> stops)
+      : grid_(count > 0 ? 1.0 / count : 0),
+        part_(count > 0 ? grid_ : 0.1),
+        least_(part_ / 1024),
+        stops_(std::move(stops)) {}
 
   bool ended() const { return made_ == 1; }
   double made() const { return made_; }
@@ -30,7 +37,9 @@ class Increments {
     constexpr double rounding = 1e-9;
     double end = made_ + part_;
     if (grid_ > 0) end = std::min(end, grid_ * (std::floor(made_ / grid_ + rounding) + 1));
-    return end > 1 - rounding ? 1 : end;
+    if (end > 1 - rounding) end = 1;
+    const auto stop = std::upper_bound(stops_.begin(), stops_.end(), made_);
+    return stop != stops_.end() && *stop < end * (1 + rounding) ? *stop : end;
   }
   /// Increments have been halved so often that another way is tried.
   bool stuck() const { return part_ <= 16 * least_; }
@@ -53,8 +62,17 @@ class Increments {
  private:
   static constexpr int easy = 6;  // iterations of Newton's method
   double grid_, part_, least_, made_ = 0;
+  std::vector<double> stops_;
   int calm_ = 0;  ///< increments since one was refused
 };
+
+/// Load factors after the first one, as parts of the way from there to the full load.
+std::vector<double> parts_of_the_way(const std::vector<double>& factors, double begin) {
+  std::vector<double> parts;
+  for (const double factor : factors)
+    if (factor > begin && factor <= 1) parts.push_back(factor == 1 ? 1 : (factor - begin) / (1 - begin));
+  return parts;
+}
 
 }  // namespace
 
@@ -67,51 +85,55 @@ StaticsLog solve_statics(const System& system, const Environment& environment, c
   Equilibrium equilibrium(ramp, options);
   const double begin = ramp.begin();
   const bool loaded = begin == 1;
-  StabilityWatch watch(ramp, equilibrium, steps.branch);
   StaticsLog log;
-  Increments increments(loaded ? 1 : steps.count);
+  Increments increments(loaded ? 1 : steps.count, parts_of_the_way(steps.stops, begin));
+  const auto factor_at = [&](double part) {
+    if (part == 1) return 1.0;
+    const double factor = begin + part * (1 - begin);
+    for (const double stop : steps.stops)  // to the last bit
+      if (std::abs(stop - factor) <= 1e-12) return stop;
+    return factor;
+  };
+  equilibrium.look_for_loose(factor_at(increments.end()), state);
+  StabilityWatch watch(ramp, equilibrium, steps.branch);
+  JumpWatch jumps(ramp.system(), equilibrium);
   if (!loaded) watch.begin(begin, state);
   while (!increments.ended()) {
-    const double end = increments.end(), factor = end == 1 ? 1 : begin + end * (1 - begin);
+    const double end = increments.end(), factor = factor_at(end);
+    const State before = state;
     int iterations = equilibrium.find(factor, state);
-    if (iterations < 0 && options.line_search && (loaded || increments.stuck()))
+    const bool falls = equilibrium.falls();
+    const std::string why_falls = falls ? equilibrium.why() : "";
+    if (iterations < 0 && !falls && options.line_search && (loaded || increments.stuck()))
       iterations = equilibrium.search(factor, state);
-    if (iterations < 0 && loaded) iterations = equilibrium.relax(factor, state);
-    log.solves = equilibrium.solves();
+    if (iterations < 0 && (loaded || falls)) iterations = equilibrium.relax(factor, state);
     if (iterations < 0) {
       ++log.refused;
       log.refused_at = factor;
       log.why_refused = equilibrium.why();
-      if (loaded || !increments.halve())
-        throw ComputationError(fmt::format("statics: no equilibrium found at load factor {:.6g} (increment {:.3g}): {}",
-                                           factor, (end - increments.made()) * (1 - begin), equilibrium.why()));
+      if (loaded || falls || !increments.halve())
+        throw ComputationError(
+            fmt::format("statics: no equilibrium found at load factor {:.6g} (increment {:.3g}): {}{}", factor,
+                        (end - increments.made()) * (1 - begin), falls ? why_falls : equilibrium.why(),
+                        loaded || falls ? ""
+                                        : "; if the load has a maximum there, `arc_length` "
+                                          "follows the path past it"));
       continue;
     }
+    if (falls) log.fell = why_falls;
+    if (!loaded && !falls)
+      if (const auto jump = jumps.look({factor_at(increments.made()), before}, {factor, state}))
+        log.jumps.push_back(*jump);
     watch.look(factor, state, log);
-    log.solves = equilibrium.solves();
     equilibrium.accept(factor, state);
     increments.accept(iterations);
     if (record) record(state, factor, iterations);
   }
+  log.solves = equilibrium.solves();
   return log;
 }
 
 namespace {
-
-/// The unknown that moves most where nothing resists; none where everything resists.
-std::optional<int> loose_unknown(const System& system, const Environment& environment, const State& state) {
-  LinearStep linear(system);
-  TangentWeights weights;
-  weights.acceleration_level = true;
-  if (!linear.try_factor(state, environment, weights, nullptr)) return linear.singular_unknown();
-  if (!linear.nearly_singular()) return {};
-  // A solution for any forces lies along what is loose.
-  VectorX motion(system.size());
-  linear.solve(VectorX::LinSpaced(system.size(), 1, 2), motion);
-  Eigen::Index most = 0;
-  motion.head(system.dofs()).cwiseAbs().maxCoeff(&most);
-  return static_cast<int>(most);
-}
 
 void note_stability(const System& system, const Environment& environment, const State& state, StartReport& report) {
   Stability stability(system);
@@ -147,9 +169,7 @@ void settle(const System& system, const Environment& of_motion, const NewtonOpti
     state = assembled;
     relax(system, environment, options, state);
   }
-  if (const auto loose = loose_unknown(system, environment, state))
-    throw ComputationError(fmt::format("static equilibrium at the start: it is not unique: {} meets no resistance",
-                                       *loose >= 0 ? system.unknown_name(*loose) : "an unknown"));
+  report.loose = loose_unknown(system, environment, state);
   note_stability(system, environment, state, report);
   system.set_rates(state, v, VectorX::Zero(system.dofs()));
   note_farthest(system, assembled, state, report.settled, report.settled_node);

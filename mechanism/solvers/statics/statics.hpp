@@ -23,17 +23,28 @@ struct LoadSteps {
   /// deflects it along the critical motion by this much of the mechanism's size, or in radians. 0: the path goes on,
   /// unstable.
   double branch = 0;
+  std::vector<double> stops;  ///< load factors at which an increment ends in any case, ascending
   LoadSteps(int steps, const Loaded& begin = {}) : count(steps), start(begin) {}
+};
+
+/// An increment that led to another equilibrium than the one it came from, because that one ends on the way.
+struct LoadJump {
+  double factor = 0;    ///< where
+  std::string node;     ///< that moves farthest at once
+  double distance = 0;  ///< [m]
 };
 
 /// What increments of the load factor cost, and what stability was found.
 struct StaticsLog {
   std::vector<CriticalPoint> critical;
   std::optional<int> unstable;  ///< motions of negative stiffness at the end; none: not known
-  long solves = 0;              ///< linear solves, those of refused increments included
-  long refused = 0;             ///< increments that did not converge
-  double refused_at = 0;        ///< the load factor where the last one should have led
-  std::string why_refused;      ///< of the last one
+  std::vector<LoadJump> jumps;
+  std::string fell;         ///< what nothing held against its load, until it rested elsewhere; empty: nothing
+  std::string loose;        ///< what nothing holds or loads at the end, and stays as drawn; empty: nothing
+  long solves = 0;          ///< linear solves, those of refused increments included
+  long refused = 0;         ///< increments that did not converge
+  double refused_at = 0;    ///< the load factor where the last one should have led
+  std::string why_refused;  ///< of the last one
 };
 
 /// Brings the state into equilibrium under the full load in increments of the load factor, each by Newton's method; an

@@ -1,10 +1,13 @@
 // Driven mechanisms: kinematics against closed forms, inverse dynamics against forward dynamics.
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
 #include "mechanism/io/mechanism_file.hpp"
+#include "mechanism/session/memory_sink.hpp"
 #include "mechanism/session/session.hpp"
 #include "tests/support/messages.hpp"
 #include "tests/support/second_order.hpp"
@@ -135,6 +138,39 @@ TEST_CASE("kinematics does not change its branch at a dead centre without a word
     CHECK(right);
     if (step == 0.1) CHECK(said == "(nothing thrown)");
   }
+}
+
+TEST_CASE("kinematics goes on where a drive changes its speed at once") {
+  // The speed jumps between two steps, and back from the end of one on.
+  const MechanismFile file = read_mechanism_text(
+      slider_crank(bodies, "drives: {motor: {joint: main, angle: \"3*t + 40*ramp(t, 0.113, 1.113)\"}}\n"),
+      "model.yaml");
+  Session session(file.model);
+  bool right = true;
+  session.on_step([&](Session& at) {
+    const double t = at.time(), angle = 3 * t + 40 * std::clamp(t - 0.113, 0.0, 1.0), s = std::sin(angle);
+    right = right && std::abs(at.node("piston").x[0] - 0.1 * std::cos(angle) - std::sqrt(0.04 - 0.01 * s * s)) < 1e-12;
+  });
+  CHECK(session.kinematics({.duration = 1.5, .step = 0.02}).points == 77);  // a kink between steps adds one each
+  CHECK(right);
+}
+
+TEST_CASE("rows of kinematics stand at the times that the output asks for") {
+  const MechanismFile file = read_mechanism_text(
+      slider_crank(bodies, driven) +
+          "analysis: [{type: kinematic, duration: 1, step: 0.02}]\noutput: {times: [0.04, 0.1234, 1]}\n",
+      "model.yaml");
+  Session session(file.model);
+  MemorySink memory(session.model());
+  session.add_sink(memory);
+  session.set_recording(file.output.recording);
+  session.begin_analysis("kinematic");
+  session.kinematics({.duration = 1, .step = 0.02});
+  session.end_analysis();
+  const std::vector<double> time = memory.read(0, "time"), angle = memory.read(0, "joints/main/coordinate");
+  CHECK_THAT(time, Catch::Approx(std::vector<double>{0, 0.04, 0.1234, 1}));
+  for (std::size_t i = 0; i < time.size(); ++i)
+    CHECK(angle[i] == Approx(30 * time[i] + 0.5 * std::sin(7 * time[i])).margin(1e-12));
 }
 
 TEST_CASE("kinematics asks for what is not driven") {

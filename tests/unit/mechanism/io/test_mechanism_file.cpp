@@ -61,4 +61,6 @@ TEST_CASE("steps and times that mean nothing are refused where they stand") {
   CHECK_THAT(dynamic("tolerance: 1e-4", "output: {times: [2.5]}"), Contains("times[1]") && Contains("2 s"));
   CHECK_THAT(dynamic("tolerance: 1e-4", "output: {times: [1], every: 2}"), Contains("every") && Contains("not both"));
   CHECK(dynamic("tolerance: 1e-4", "output: {times: [0, 2]}") == "(nothing thrown)");
+  CHECK_THAT(dynamic("tolerance: 1e-4", "output: {load_factors: [1]}"),
+             Contains("load_factors") && Contains("no static analysis"));
 }

@@ -279,8 +279,10 @@ TEST_CASE("why a path cannot be followed is said in one sentence") {
   CHECK_THAT(why(model, until(model, "apex", -Vector3::UnitY(), -1e9)), Contains("1000 points"));
   const ReadyModel unloaded("nodes:\n" + supports + "elements:\n" + truss);
   CHECK_THAT(why(unloaded, until(1)), Contains("nothing moves with the load factor"));
-  const ReadyModel loose("nodes: {m: {position: [1, 0, 0]}}\nelements: {m: {type: point_mass, node: m, mass: 1}}\n");
-  CHECK_THAT(why(loose, until(1)), Contains("load factor 0") && Contains("node 'm'"));
+  const ReadyModel loose(
+      "nodes: {m: {position: [1, 0, 0]}}\nelements: {m: {type: point_mass, node: m, mass: 1}}\n"
+      "loads: {f: {node: m, force: [0, 1, 0]}}\n");
+  CHECK_THAT(why(loose, until(1)), Contains("load factor 0") && Contains("nothing holds displacement y of node 'm'"));
   // The formula ends at an elongation of 0.5.
   const ReadyModel brittle(R"yaml(
 nodes: {m: {position: [1, 0, 0], fixed: [y, z, rx, ry, rz]}}

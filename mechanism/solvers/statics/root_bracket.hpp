@@ -1,0 +1,42 @@
+// Two places between which a function changes its sign, brought together by regula falsi after Illinois (M. Dowell, P.
+// Jarratt, BIT 11 (1971) 168): an end that stays twice counts half.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace bielle::mechanism {
+
+class RootBracket {
+ public:
+  /// @param low,high  places in either order; @param at_low,at_high  the function there
+  RootBracket(double low, double at_low, double high, double at_high)
+      : low_(low), high_(high), at_low_(at_low), at_high_(at_high) {}
+
+  double low() const { return low_; }
+  double width() const { return std::abs(high_ - low_); }
+  double slope() const { return (at_high_ - at_low_) / (high_ - low_); }
+  /// Where the straight line between the ends vanishes.
+  double interpolated() const { return (low_ * at_high_ - high_ * at_low_) / (at_high_ - at_low_); }
+  /// That, or the middle where the ends have the same sign, but no closer to an end than the margin: there nothing
+  /// would be gained.
+  double next(double margin) const {
+    const double place = at_low_ * at_high_ < 0 ? interpolated() : 0.5 * (low_ + high_);
+    const double within = high_ < low_ ? -margin : margin;
+    return std::clamp(place, std::min(low_ + within, high_ - within), std::max(low_ + within, high_ - within));
+  }
+  /// The function at a place between the ends, which takes the place of one of them.
+  void replace(bool low, double place, double value) {
+    (low ? low_ : high_) = place;
+    (low ? at_low_ : at_high_) = value;
+    const int side = low ? 1 : -1;
+    if (side_ == side) (low ? at_high_ : at_low_) /= 2;
+    side_ = side;
+  }
+
+ private:
+  double low_, high_, at_low_, at_high_;
+  int side_ = 0;  ///< which end was replaced last
+};
+
+}  // namespace bielle::mechanism
