@@ -7,6 +7,7 @@ import os
 
 import numpy as np
 
+from . import mode_figures
 from . import plot_style as style
 from .messages import InputError
 from .results_columns import column_names, column_units, columns_of
@@ -37,7 +38,8 @@ def draw_all(results, folder, extension="png", nodes=None, joints=None, superele
             written += circuit(results, at)
             written += signals(results, at)
             written += solver(results, at)
-    written += eigenvalues(results, at)
+    written += eigenfrequencies(results, at)
+    written += mode_figures.draw(results, at, superelements or {})
     written += frequency_response(results, at)
     if not written:
         raise InputError(f"'{results.path}' holds nothing to draw over time: "
@@ -317,7 +319,7 @@ def solver(results, at):
     return [style.save(fig, at("solver"))]
 
 
-def eigenvalues(results, at):
+def eigenfrequencies(results, at):
     if not results.has("eigen/frequency"):
         return []
     frequency = results.array("eigen/frequency")
