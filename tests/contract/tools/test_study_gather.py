@@ -8,7 +8,7 @@ import unittest
 import h5py
 import numpy as np
 
-from box_mesh import REPOSITORY, InFolder
+from box_mesh import InFolder
 from study_stand_in import STUDY, WithStandIn
 
 from bielle_tools import study_gather, study_values  # noqa: E402  (box_mesh knows where)
