@@ -78,6 +78,25 @@ class AgainstTheProgram(WithModel):
     def test_a_path_past_limit_points(self):
         self.expect_same_run(os.path.join(EXAMPLES, "snap_through.yaml"))
 
+    def test_modes(self):
+        model = os.path.join(EXAMPLES, "rotor.yaml")
+        results = bielle.load(model).session().modes(count=8)
+        self.assertEqual(results.type, "eigen")
+        compared = 0
+        with h5py.File(self.run_program(model)) as program:
+            for name, dataset in program["analysis_1/eigen"].items():
+                text = h5py.check_string_dtype(dataset.dtype)
+                expected = dataset.asstr()[:].tolist() if text else dataset[()]
+                self.assertEqual(tuple(results.datasets[f"eigen/{name}"].shape), dataset.shape)
+                np.testing.assert_array_equal(results[f"eigen/{name}"], expected, name)
+                self.assertIsInstance(results[f"eigen/{name}"], list if text else np.ndarray)
+                compared += 1
+        self.assertGreater(compared, 12)
+        head = results["eigen/displacement"][2, results["eigen/nodes"].index("head")] @ [1, 1j]
+        self.assertGreater(np.abs(head).max(), 0.5)  # the slowest bending moves the head
+        with self.assertRaisesRegex(bielle.InputError, "did you mean 'eigen/kind'"):
+            results["eigen/kinds"]
+
     def test_contacts(self):
         self.expect_same_run(os.path.join(EXAMPLES, "contacts.yaml"))
 
