@@ -96,7 +96,7 @@ class Gathered:
         return self._value(results)
 
     def _printed(self, results):
-        text = " ".join(results.text("/", "study_said").split())
+        text = " ".join(results.text_of("study_said").split())
         numbers = re.findall(re.escape(self.printed) + rf"[\s:=]*({NUMBER})", text)
         if len(numbers) < self.number:
             raise Missing(f"what the program printed has '{self.printed}' with a number {len(numbers)} times")

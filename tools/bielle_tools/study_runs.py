@@ -1,8 +1,8 @@
 """One run of a study, and the file in which it waits for the others: <folder>/<identity>.h5.
 
 The file is one of results (bielle_tools/results_file.py), cut down to what the study keeps, with these attributes in addition:
-study_status (exit status of the program), study_message (what a failed run said), study_kept, study_said (what the program printed, where
-that is gathered from). It takes its name when it is complete.
+study_status (exit status of the program), study_message (what a failed run said), study_kept; and the text /study_said, what the program
+printed, where that is gathered from. It takes its name when it is complete.
 """
 
 import json
@@ -42,7 +42,7 @@ def facts(path):
 
 def _facts_of(group):
     return {"status": int(group.attrs["study_status"]), "message": str(group.attrs["study_message"]),
-            "kept": json.loads(group.attrs["study_kept"]), "said": "study_said" in group.attrs}
+            "kept": json.loads(group.attrs["study_kept"]), "said": "study_said" in group}
 
 
 def covers(about, plan):
@@ -85,7 +85,7 @@ def _write_run(plan, path, results, status, message, said):
                         status, message = 2, f"left no readable results: {error}"
             file.attrs.update({"study_status": status, "study_message": message, "study_kept": json.dumps(kept)})
             if said is not None:
-                file.attrs["study_said"] = said[:60000]  # an attribute holds 64 kB
+                file.create_dataset("study_said", data=said, dtype=h5py.string_dtype())
         os.replace(partial, path)
     except BaseException:
         if os.path.exists(partial):

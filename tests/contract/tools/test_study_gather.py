@@ -2,13 +2,14 @@
 
 import csv
 import os
+import re
 import subprocess
 import unittest
 
 import h5py
 import numpy as np
 
-from box_mesh import InFolder
+from box_mesh import REPOSITORY, InFolder
 from study_stand_in import STUDY, WithStandIn
 
 from bielle_tools import study_gather, study_values  # noqa: E402  (box_mesh knows where)
@@ -247,12 +248,47 @@ class Scheduled(WithStandIn):
 
 
 class AgainstSingleRuns(InFolder):
+    def study(self, *arguments):
+        return subprocess.run([STUDY, *arguments], cwd=self.folder, capture_output=True, text=True, timeout=300,
+                              env={**os.environ, "BIELLE_BIN": PROGRAMS})
+
+    def test_layouts_make_no_difference_and_one_analysis_can_be_named(self):
+        again = PENDULUM + "  - {type: dynamic, duration: 0.2, step: 5e-3}\n"
+        words = ["--gather", "deep=max measures/depth", "--gather", "z=min nodes/bob/position[z]", "--gather", "angle=last joints/pivot/coordinate",
+                 "--gather", "first=last joints/pivot/coordinate in analysis 1", "--gather", "second=last joints/pivot/coordinate in analysis 2",
+                 "--gather", "down=last nodes/bob/position[z] in analysis 1"]
+        for layout in ("named", "stacked"):
+            self.write(f"{layout}.yaml", again + f"output: {{layout: {layout}}}\n")
+            done = self.study(f"{layout}.yaml", "--grid", "length=1:2:2", "--keep", "energy", "--draw", "none", *words)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+        named, stacked = (table_of(self.path(f"{layout}-study-table.csv")) for layout in ("named", "stacked"))
+        self.assertEqual(named, stacked)
+        name, values = named[0], [float(value) for value in named[1]]
+        number = dict(zip(name, values))
+        self.assertEqual(number["angle"], number["second"])
+        self.assertNotEqual(number["first"], number["second"])
+        self.assertAlmostEqual(number["down"], -np.sin(number["first"]), places=9)
+        self.assertEqual(number["deep"], -number["z"])
+
+    def test_the_study_of_the_readme(self):
+        with open(os.path.join(REPOSITORY, "tools", "README.md"), encoding="utf-8") as file:
+            section = file.read().partition("## Studies")[2]
+        text = re.search(r"```yaml\n(.*?)```", section, re.DOTALL)[1]
+        self.assertIn("model: servo.yaml", text)
+        with open(os.path.join(REPOSITORY, "mechanism", "examples", "servo.yaml"), encoding="utf-8") as file:
+            self.write("servo.yaml", file.read())
+        self.write("sweep.yaml", text)
+        done = self.study("sweep.yaml")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        table = table_of(self.path("sweep-table.csv"))
+        self.assertEqual(table[0], ["run", "lift", "mass", "length", "status", "top", "torque"])
+        self.assertEqual((len(table), table[1][1:4], table[-1][1:4]), (19, ["0.6", "1", "0.8"], ["0.6", "5", "0.4*sqrt(2)"]))
+        self.assertEqual(os.listdir(self.path("sweep-plots")), ["top_over_mass_by_length.png"])
+
     def test_a_study_over_20_values_equals_20_single_runs(self):
         self.write("pendulum.yaml", PENDULUM)
-        environment = {**os.environ, "BIELLE_BIN": PROGRAMS}
-        done = subprocess.run([STUDY, "pendulum.yaml", "--grid", "mass=0:1.9:20", "--gather", "deep=max measures/depth", "--gather",
-                               "end=measures/depth at 0.3", "--keep", "all"], cwd=self.folder, capture_output=True, text=True, timeout=300,
-                              env=environment)
+        done = self.study("pendulum.yaml", "--grid", "mass=0:1.9:20", "--gather", "deep=max measures/depth", "--gather",
+                          "end=measures/depth at 0.3", "--keep", "all")
         self.assertEqual(done.returncode, 2, done.stderr)  # without mass a run fails, the others are done
         self.assertRegex(done.stdout, r"run 1: mass = 0: FAILED: .*pendulum\.yaml:5: .*mass")
         self.assertIn("19 of 20 runs done", done.stdout)
