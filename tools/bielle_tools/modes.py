@@ -100,7 +100,7 @@ class ModeScenery:
         check_names("superelement", self.superelements, known + [self.base.entry_of(name) for name in known])
         if self.base is None:
             if re.search(r"\btype\s*:\s*[\"']?(superelement|rigid_body)\b", modes.results.text_of("input")):
-                note("bodies are left out: the results say what they look like of analyses with rows only; list {type: assembly} before 'eigen'")
+                note("bodies are left out: no analysis of the file has rows of this state; list {type: assembly} before 'eigen'")
             return
         for name in self.base.elements_with("frame", "coordinates"):
             self.bodies[name] = self._body(name)

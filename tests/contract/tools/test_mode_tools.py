@@ -195,8 +195,8 @@ class OfThePrograms(Tools):
     def test_without_rows_bodies_are_left_out_and_that_is_told(self):
         done = self.run_tool("bielle-animate", "modes.h5", "--mode", "1", "-o", "m.png")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(done.stderr.splitlines(), ["note: bodies are left out: the results say what they look like of analyses with rows "
-                                                    "only; list {type: assembly} before 'eigen'"])
+        self.assertEqual(done.stderr.splitlines(), ["note: bodies are left out: no analysis of the file has rows of this state; list "
+                                                    "{type: assembly} before 'eigen'"])
         with Results(self.path("modes.h5")) as results:
             self.assertEqual(list(ModeScenery(Modes(results)).beams), ["mast"])
 
