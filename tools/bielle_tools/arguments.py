@@ -3,6 +3,7 @@
 import argparse
 
 from .messages import InputError, check_names, did_you_mean
+from .results_file import Results
 
 
 class Parser(argparse.ArgumentParser):
@@ -75,11 +76,19 @@ def superelement_paths(options, results, anywhere=False):
         if not separator or not element or not path:
             raise InputError(f"--superelement '{text}': ELEMENT=FILE.h5 is expected")
         pairs[element] = path
-    if anywhere:
-        return pairs
-    known = results.elements_with("frame")
-    check_names("superelement", pairs, known + [results.entry_of(name) for name in known])
+    if pairs:
+        known = _superelements(results)
+        for number in results.analyses_with_rows() if anywhere else ():
+            with Results(results.path, number) as other:
+                known += _superelements(other)
+        check_names("superelement", pairs, list(dict.fromkeys(known)))
     return pairs
+
+
+def _superelements(results):
+    """Names by which --superelement knows them: pieces by themselves and together."""
+    known = results.elements_with("frame")
+    return known + [results.entry_of(name) for name in known]
 
 
 def names(text, what, known):

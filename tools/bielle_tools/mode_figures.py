@@ -15,7 +15,7 @@ RATIOS = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5]  # whose lines are drawn in the compl
 
 def draw(results, at, superelements):
     """Writes `eigenvalues` and `mode_shapes`. at: name -> path. @returns paths"""
-    if not results.has("eigen/frequency"):
+    if not results.has("eigen/frequency") or not results.has("eigen/eigenvalue"):  # frequencies alone are a figure of their own
         return []
     modes = Modes(results)
     if not len(modes):

@@ -14,7 +14,7 @@ import re
 import numpy as np
 import yaml
 
-from .messages import InputError, check_names, note
+from .messages import InputError, note
 from .results_file import Results, reading, rotation_matrices
 from .superelement_body import find_superelement, interfaces_of, superelement_of
 
@@ -96,8 +96,6 @@ class ModeScenery:
         self.nodes = [name for name in modes.nodes if name != "ground" and name not in inner]
         self.base, self.row = self._state()
         self.bodies = {}
-        known = [] if self.base is None else self.base.elements_with("frame")
-        check_names("superelement", self.superelements, known + [self.base.entry_of(name) for name in known])
         if self.base is None:
             if re.search(r"\btype\s*:\s*[\"']?(superelement|rigid_body)\b", modes.results.text_of("input")):
                 note("bodies are left out: no analysis of the file has rows of this state; list {type: assembly} before 'eigen'")
@@ -127,12 +125,9 @@ class ModeScenery:
         place = own.root["eigen"].parent.name.strip("/")
         number = int(place[9:]) if re.fullmatch(r"analysis_\d+", place) else 0
         best = (np.inf, None, 0)
-        for name in own.file:
-            found = re.fullmatch(r"analysis_(\d+)", name)
-            if not found or "time" not in own.file[name] or not len(own.file[name]["time"]):
-                continue
-            base = Results(own.path, int(found[1]))
-            row = len(base.time) - 1 if int(found[1]) < number else 0
+        for other in own.analyses_with_rows():
+            base = Results(own.path, other)
+            row = len(base.time) - 1 if other < number else 0
             gaps = [np.abs(base.rows(f"nodes/{node}/position", row) - self.modes.position[self.index[node]]).max()
                     for node in base.names("nodes") if node in self.index and base.has(f"nodes/{node}/position")]
             gap = max(gaps, default=np.inf)

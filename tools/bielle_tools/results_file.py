@@ -162,6 +162,12 @@ class Results:
             return _text(self._stacked.text(found, attribute)) if found else ""
         return _text(self.root[place].attrs.get(attribute, "") if place in self.root else "")
 
+    def analyses_with_rows(self):
+        """Numbers of the analyses of the file that recorded something over time, or a state."""
+        with reading(self.path, "/"):
+            found = [(name, self.file[name]) for name in self.file if name.startswith("analysis_") and name[9:].isdigit()]
+            return [int(name[9:]) for name, group in found if "time" in group and len(group["time"])]
+
     def text_of(self, name):
         """A text at the root, `input`; empty where there is none."""
         with reading(self.path, name):

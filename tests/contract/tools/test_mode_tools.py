@@ -191,6 +191,9 @@ class OfThePrograms(Tools):
     def test_plots(self):
         written = self.succeed("bielle-plot", "model.h5", "-o", "plots", "--analysis", "2").split()
         self.assertEqual(written, ["plots/eigenfrequencies.png", "plots/eigenvalues.png", "plots/mode_shapes.png"])
+        where = ["--superelement", "bar=" + os.path.join(self.folder, "bar.h5"), "--analysis", "2"]
+        self.assertEqual(self.succeed("bielle-plot", "model.h5", "-o", "plots", *where).split(), written)
+        self.refuse("there is no superelement 'bra' in the results; did you mean 'bar'?", "bielle-plot", "model.h5", "--superelement", "bra=bar.h5")
 
     def test_without_rows_bodies_are_left_out_and_that_is_told(self):
         done = self.run_tool("bielle-animate", "modes.h5", "--mode", "1", "-o", "m.png")
