@@ -170,6 +170,28 @@ class OfThePrograms(Tools):
                 self.assertLessEqual(max(largest, np.abs(everywhere).max()), 0.1 * size * (1 + 1e-9))
             self.assertGreaterEqual(bending, 2)
 
+    def test_the_pieces_of_a_body_hold_together(self):
+        with open(os.path.join(REPOSITORY, "meshes", "bar_in_pieces.yaml"), encoding="utf-8") as file:
+            self.write("pieces.yaml", file.read().replace("bar.geo", os.path.join(REPOSITORY, "meshes", "bar.geo")))
+        self.write("blade.yaml", "mechanism: a blade\nnodes: {hub: {fixed: true}}\nelements:\n  blade: {type: superelement, file: pieces.h5, "
+                                 "nodes: {root: hub}}\nanalysis:\n  - {type: assembly}\n  - {type: eigen, count: 6}\n")
+        for program, file in (("bielle-reduce", "pieces.yaml"), ("bielle-mechanism", "blade.yaml")):
+            subprocess.run([os.path.join(PROGRAMS, program), file, "--quiet"], cwd=self.folder, check=True, timeout=120)
+        with Results(self.path("blade.h5")) as results:
+            scenery = ModeScenery(Modes(results))
+            self.addCleanup(scenery.close)
+            bodies = {name: superelement_of(scenery.base, name, {}) for name in scenery.bodies}
+            self.assertEqual(list(bodies), ["blade.1", "blade.2", "blade.3", "blade.4"])
+            for number in range(1, 7):
+                motion = ModeMotion(scenery, number, pictures=4)
+                drawn = [(body.points, body.at(motion.rows(f"elements/{name}/frame", 0), motion.rows(f"elements/{name}/coordinates", 0))[0])
+                         for name, body in bodies.items()]
+                for (meshed, moved), (neighbours, with_it) in zip(drawn, drawn[1:]):
+                    here, there = np.nonzero(np.linalg.norm(meshed[:, None] - neighbours[None], axis=2) < 1e-9)
+                    self.assertGreater(len(here), 20)
+                    np.testing.assert_allclose(moved[here], with_it[there], rtol=0, atol=1e-12)
+                self.assertGreater(np.abs(drawn[-1][1] - drawn[-1][0]).max(), 0.01)
+
     def test_animations_and_paraview(self):
         self.assertEqual(self.succeed("bielle-animate", "model.h5", "--mode", "3").strip(), "model_mode_3.gif")
         with Image.open(self.path("model_mode_3.gif")) as picture:
