@@ -62,6 +62,9 @@ def run_study(plan, *, jobs=1, fresh=False, report=print):
         report(f"{len(set(plan.identities)) - len(todo)} of {len(set(plan.identities))} runs are there from before")
     try:
         _run_all(plan, folder, todo, jobs, report)
+    except KeyboardInterrupt:
+        note(f"interrupted: finished runs are kept in '{folder}'; the same command goes on with the others")
+        raise
     except InputError:
         if not any((facts(os.path.join(folder, name)) or {}).get("status") == 0 for name in os.listdir(folder)):
             shutil.rmtree(folder)

@@ -120,25 +120,34 @@ class Resumed(WithStandIn):
         self.study(table, "--fresh")
         self.assertEqual(self.runs(), ["1 2"])
 
-    def test_a_study_that_was_killed_goes_on(self):
+    def test_a_study_that_is_interrupted_or_killed_goes_on(self):
+        for number in (signal.SIGINT, signal.SIGKILL):
+            self.goes_on_after(number)
+
+    def goes_on_after(self, number):
         table = "speed,mass\n1,2\n2,2\n1000,2\n"
         self.write("table.csv", table)
         child = subprocess.Popen(["/usr/bin/python3", "-B", STUDY, "model.yaml", "table.csv", "--jobs", "1"], cwd=self.folder,
                                  env={**os.environ, "BIELLE_BIN": self.folder}, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                 text=True, start_new_session=True)
+                                 text=True, start_new_session=True, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
         for _ in range(600):
             if os.path.exists(self.path("log")):
                 with open(self.path("log"), encoding="utf-8") as log:
                     if "1000" in log.read():
                         break
             time.sleep(0.1)
-        os.killpg(child.pid, signal.SIGKILL)
-        child.communicate()
+        os.killpg(child.pid, number)
+        said = child.communicate()[1]
+        if number == signal.SIGINT:
+            self.assertEqual(child.returncode, 130)
+            self.assertIn("note: interrupted: finished runs are kept in", said)
+            self.assertNotIn("Traceback", said)
         self.runs()
         done = self.call("model.yaml", "--grid", "speed=1,2,3", "--set", "mass=2", "-o", "table.h5")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(self.runs(), ["2 3"])
         self.assertFalse(os.path.exists(self.path("table.runs")))
+        os.remove(self.path("table.h5"))
 
     def test_gathering_something_else_needs_runs_only_where_it_was_not_kept(self):
         self.study("speed,mass\n1,2\n")
