@@ -24,6 +24,7 @@ std::vector<std::string> names_of(const Recorder& recorder, const Recorded& anal
   std::vector<std::string> names = {"time"};
   for (const ResultsColumn& column : recorder.memory.columns()) names.push_back(column.dataset);
   for (const auto& [name, array] : analysis.arrays) names.push_back(name);
+  for (const auto& [name, texts] : analysis.names) names.push_back(name);
   return names;
 }
 
@@ -41,6 +42,7 @@ py::object read(const HeldRecorder& recorder, std::size_t k, const std::string& 
   if (dataset == "time") return rows(recorder, k, analysis.time.data(), {count}, {1});
   if (const auto array = analysis.arrays.find(dataset); array != analysis.arrays.end())
     return number_or_array(std::vector<double>(array->second.values), array->second.shape);
+  if (const auto names = analysis.names.find(dataset); names != analysis.names.end()) return py::cast(names->second);
   const std::optional<ResultsColumn> column = recorder->memory.find(dataset);
   if (!column)
     throw InputError("nothing was recorded as '" + dataset + "'" +
@@ -60,6 +62,8 @@ py::dict datasets(const Recorder& recorder, std::size_t k) {
         py::make_tuple(py::tuple(py::cast(column.shape)), column.units, column.description, true);
   for (const auto& [name, array] : analysis.arrays)
     found[py::str(name)] = py::make_tuple(py::tuple(py::cast(array.shape)), array.units, array.description, false);
+  for (const auto& [name, names] : analysis.names)
+    found[py::str(name)] = py::make_tuple(py::make_tuple(names.size()), "-", "texts", false);
   return found;
 }
 

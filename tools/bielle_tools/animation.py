@@ -6,6 +6,7 @@ from matplotlib.animation import FuncAnimation, PillowWriter
 from .messages import InputError
 from .plot_style import plt
 from .render import Scene
+from .results_file import modes_to_show
 
 
 def sheet(results, path, view=None, scale=1.0, span=(None, None), superelements=None, pictures=6):
@@ -23,7 +24,7 @@ def sheet(results, path, view=None, scale=1.0, span=(None, None), superelements=
     for panel, row in zip(axes.flat, rows):
         coloured = scene.draw(panel, row) or coloured
         panel.set_title(results.moment(row))
-    _colour_bar(fig, coloured, axes)
+    _colour_bar(fig, results, coloured, axes)
     fig.suptitle(_title(results, scale), x=0.01, ha="left", fontsize=12, fontweight="bold")
     fig.savefig(path)
     plt.close(fig)
@@ -36,7 +37,7 @@ def movie(results, path, view=None, scale=1.0, span=(None, None), superelements=
     width, height = scene.limits[1] - scene.limits[0]
     fig, panel = plt.subplots(figsize=(7.2, 7.2 * min(max(height / width, 0.35), 1.2) + 0.5), dpi=90)
     coloured = scene.draw(panel, rows[0])
-    _colour_bar(fig, coloured, panel)
+    _colour_bar(fig, results, coloured, panel)
     fig.suptitle(_title(results, scale), x=0.01, ha="left", fontsize=11, fontweight="bold")
 
     def paint(row):
@@ -51,7 +52,7 @@ def movie(results, path, view=None, scale=1.0, span=(None, None), superelements=
 
 def _scene(results, view, scale, span, superelements, pictures):
     if len(results.time) < 2:
-        raise InputError(f"'{results.path}' holds no motion to show")
+        raise InputError(f"'{results.path}' holds no motion to show" + modes_to_show(results))
     scene = Scene(results, view, scale, superelements)
     if not (scene.bodies or scene.beams or scene.nodes):
         raise InputError(f"'{results.path}' records no nodes, beams or superelements")
@@ -64,6 +65,6 @@ def _title(results, scale):
     return results.title + (f" (deformation x {scale:g})" if scale != 1 else "")
 
 
-def _colour_bar(fig, coloured, axes):
+def _colour_bar(fig, results, coloured, axes):
     if coloured is not None:
-        fig.colorbar(coloured, ax=axes, shrink=0.7, label="von Mises [MPa]")
+        fig.colorbar(coloured, ax=axes, shrink=0.7, label=getattr(results, "stress_label", "von Mises [MPa]"))

@@ -3,6 +3,7 @@
 import argparse
 
 from .messages import InputError, check_names, did_you_mean
+from .results_file import Results
 
 
 class Parser(argparse.ArgumentParser):
@@ -40,17 +41,54 @@ def add_motion_options(parser):
     parser.add_argument("--to", type=float, dest="end", metavar="T", help="last time to show [s]")
 
 
-def superelement_paths(options, results):
-    """{element: path} of the option --superelement. @raises InputError for elements that the results have not"""
+def add_mode_options(parser):
+    """Options of the commands that show a mode as a motion."""
+    parser.add_argument("--mode", type=int, metavar="N", help="show mode N of an analysis 'eigen' over one period, instead of a motion")
+    parser.add_argument("--amplitude", type=float, metavar="SHARE", help="of a mode: its largest displacement relative to the model's size "
+                        "(default 0.1)")
+    parser.add_argument("--decay", action="store_true", help="of a mode: with its decay or growth within the period")
+
+
+def opened_mode(options, results, pictures):
+    """The mode that is asked for as a motion, or None. @raises InputError"""
+    if options.mode is None:
+        if options.amplitude is not None or options.decay:
+            raise InputError("--amplitude and --decay go with --mode N")
+        return None
+    if options.begin is not None or options.end is not None or options.scale != 1:
+        raise InputError("--from, --to and --scale are for motions; a mode has --amplitude")
+    share = 0.1 if options.amplitude is None else options.amplitude
+    if not 0 < share < 1e6:
+        raise InputError("--amplitude is a positive number")
+    from .modes import Modes, ModeMotion, ModeScenery
+    modes = Modes(results)
+    modes.check(options.mode)
+    paths = superelement_paths(options, results, anywhere=True)
+    return ModeMotion(ModeScenery(modes, paths), options.mode, pictures, share, options.decay)
+
+
+def superelement_paths(options, results, anywhere=False):
+    """{element: path} of the option --superelement. @raises InputError for elements that the results have not
+    anywhere: they may be in another analysis than the one that is shown"""
     pairs = {}
     for text in options.superelement:
         element, separator, path = text.partition("=")
         if not separator or not element or not path:
             raise InputError(f"--superelement '{text}': ELEMENT=FILE.h5 is expected")
         pairs[element] = path
-    known = results.elements_with("frame")
-    check_names("superelement", pairs, known + [results.entry_of(name) for name in known])
+    if pairs:
+        known = _superelements(results)
+        for number in results.analyses_with_rows() if anywhere else ():
+            with Results(results.path, number) as other:
+                known += _superelements(other)
+        check_names("superelement", pairs, list(dict.fromkeys(known)))
     return pairs
+
+
+def _superelements(results):
+    """Names by which --superelement knows them: pieces by themselves and together."""
+    known = results.elements_with("frame")
+    return known + [results.entry_of(name) for name in known]
 
 
 def names(text, what, known):

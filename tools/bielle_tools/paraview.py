@@ -15,7 +15,7 @@ import re
 import numpy as np
 
 from .messages import InputError
-from .results_file import rotation_matrices
+from .results_file import modes_to_show, rotation_matrices
 from .rigid_bodies import rigid_bodies
 from .superelement_body import superelement_of
 
@@ -30,7 +30,7 @@ def export(results, folder, name, *, every=None, count=100, span=(None, None), s
     @returns path of the .pvd
     """
     if not len(results.time):
-        raise InputError(f"'{results.path}' holds no motion to show")
+        raise InputError(f"'{results.path}' holds no motion to show" + modes_to_show(results))
     rows = results.frames(every, count, span)
     parts = [_superelement(results, element, superelements or {}, scale, volume, rows)
              for element in results.elements_with("frame")]

@@ -7,8 +7,10 @@ import os
 
 import numpy as np
 
+from . import mode_figures
 from . import plot_style as style
 from .messages import InputError
+from .results_columns import column_names, column_units, columns_of
 from .results_file import Results
 from .superelement_body import superelement_of
 
@@ -36,7 +38,8 @@ def draw_all(results, folder, extension="png", nodes=None, joints=None, superele
             written += circuit(results, at)
             written += signals(results, at)
             written += solver(results, at)
-    written += eigenvalues(results, at)
+    written += eigenfrequencies(results, at)
+    written += mode_figures.draw(results, at, superelements or {})
     written += frequency_response(results, at)
     if not written:
         raise InputError(f"'{results.path}' holds nothing to draw over time: "
@@ -81,7 +84,7 @@ def joint_motion(results, at, joints=None):
     panels, reach = [], {}  # (joint, units, columns); units -> largest range
     for joint in joints or results.names("joints"):
         kinds = {}
-        values = _columns(results, f"joints/{joint}/coordinate")
+        values = columns_of(results, f"joints/{joint}/coordinate")
         for k, units in enumerate(column_units(results, f"joints/{joint}/coordinate")):
             kinds.setdefault(units, []).append(k)
         for units, columns in kinds.items():
@@ -95,7 +98,7 @@ def joint_motion(results, at, joints=None):
     for (joint, units, columns), line in zip(panels, axes):
         for panel, quantity, unit in zip(line, ("coordinate", "rate"), (units, f"{units}/s")):
             place = f"joints/{joint}/{quantity}"
-            labels, values = column_names(results, place), _columns(results, place)
+            labels, values = column_names(results, place), columns_of(results, place)
             for k in columns if len(values) > columns[-1] else ():
                 panel.plot(results.time, values[k], label=labels[k])
             panel.set_ylabel(style.label(quantity, unit))
@@ -128,7 +131,7 @@ def drives(results, at, joints=None):
     for joint in joints or results.names("joints"):
         place = f"joints/{joint}/drive_force"
         names = column_names(results, f"joints/{joint}/coordinate")
-        for k, (units, values) in enumerate(zip(column_units(results, place), _columns(results, place))):
+        for k, (units, values) in enumerate(zip(column_units(results, place), columns_of(results, place))):
             if np.any(values != 0):
                 panels.setdefault(units, []).append((f"{joint} {names[k]}" if 1 < len(names) > k else joint, values))
     if not panels:
@@ -242,7 +245,7 @@ def circuit(results, at):
         curves, units = [], ""
         for name in results.names("hydraulics"):
             place = f"hydraulics/{name}/{quantity}"
-            columns = _columns(results, place)
+            columns = columns_of(results, place)
             if not columns or (quantity == "flow" and results.has(f"hydraulics/{name}/pressure")):
                 continue  # net flows of places say what their pressures do
             units = results.units(place)
@@ -280,12 +283,12 @@ def signals(results, at):
             places = {q: f"{section}/{name}/{q}" for q in results.datasets(f"{section}/{name}")}
             shapes = {q: results.shape(place) for q, place in places.items()}
             places = {q: place for q, place in places.items() if len(shapes[q]) in (1, 2) and shapes[q][0] >= len(results.time)}
-            places = {q: place for q, place in places.items() if 0 < len(_columns(results, place)) <= 6}
+            places = {q: place for q, place in places.items() if 0 < len(columns_of(results, place)) <= 6}
             if not places:
                 continue
             fig, axes = style.figure(len(places), f"{results.title}: {name}")
             for panel, (quantity, place) in zip(axes[:, 0], places.items()):
-                columns = _columns(results, place)
+                columns = columns_of(results, place)
                 for k, column in enumerate(columns):
                     panel.plot(results.time, column, label=column_names(results, place)[k] if len(columns) > 1 else None)
                 panel.set_ylabel(style.label(quantity, results.units(place)))
@@ -316,7 +319,7 @@ def solver(results, at):
     return [style.save(fig, at("solver"))]
 
 
-def eigenvalues(results, at):
+def eigenfrequencies(results, at):
     if not results.has("eigen/frequency"):
         return []
     frequency = results.array("eigen/frequency")
@@ -373,26 +376,3 @@ def _reach(values):
     """Largest less smallest of the values that are numbers; 0 where there are none."""
     values = values[np.isfinite(values)]
     return np.ptp(values) if len(values) else 0.0
-
-
-def column_names(results, place):
-    """Names of a dataset's columns: its description where it lists as many (`displacement, angle`, also after a colon), or
-    1, 2, ..."""
-    count = len(_columns(results, place))
-    names = [name.strip() for name in results.text(place, "description").split(": ")[-1].split(",")]
-    return names if len(names) == count else [str(k + 1) for k in range(count)]
-
-
-def column_units(results, place):
-    """Units of a dataset's columns: one for all, or `m, rad` one for each; empty where the dataset is missing."""
-    count = len(_columns(results, place))
-    units = [unit.strip() for unit in results.units(place).split(",")]
-    return units if len(units) == count else [results.units(place)] * count
-
-
-def _columns(results, place):
-    """Columns of a dataset over time, as a list of vectors; empty where the dataset is missing or not over time."""
-    if not results.has(place):
-        return []
-    values = results.rows(place)
-    return [values] if values.ndim == 1 else list(values.T) if values.ndim == 2 else []

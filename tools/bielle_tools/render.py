@@ -45,10 +45,10 @@ class Scene:
         """Fixes the frame of the picture and the range of stresses over the given rows."""
         low, high, stress = np.full(2, np.inf), np.full(2, -np.inf), 0.0
         for row in rows:
-            points = [self._project(positions) for positions, _ in self._bodies_at(row)]
-            points += [self._project(body.place(self.results, row)[0]) for body in self.rigid]
-            points += [self._project(self.results.rows(f"elements/{b}/position", row)) for b in self.beams]
-            points += [self._project(self.results.rows(f"nodes/{n}/position", row)[None]) for n in self.nodes]
+            points = [self.project(positions) for positions, _ in self._bodies_at(row)]
+            points += [self.project(body.place(self.results, row)[0]) for body in self.rigid]
+            points += [self.project(self.results.rows(f"elements/{b}/position", row)) for b in self.beams]
+            points += [self.project(self.results.rows(f"nodes/{n}/position", row)[None]) for n in self.nodes]
             for p in points:
                 low, high = np.fmin(low, np.fmin.reduce(p[:, :2])), np.fmax(high, np.fmax.reduce(p[:, :2]))
             for _, values in self._bodies_at(row):
@@ -77,13 +77,13 @@ class Scene:
                 artist, depth = self._paint_body(panel, positions, None, body.triangles, RIGID)
                 artist.set(alpha=0.5, edgecolor="none")
                 depths.append((depth, artist))
-            spoke = np.array([self._project(centre[None])[0], self._node(body.node, row)])
+            spoke = np.array([self.project(centre[None])[0], self._node(body.node, row)])
             depths.append((spoke[:, 2].mean(), self._paint_line(panel, spoke, "#8c8c8c", 6)))
         for ends in self.links:
             line = np.array([self._node(name, row) for name in ends])
             depths.append((line[:, 2].mean(), self._paint_line(panel, line, "#8c8c8c", 6)))
         for name in self.beams:
-            line = self._project(self.results.rows(f"elements/{name}/position", row))
+            line = self.project(self.results.rows(f"elements/{name}/position", row))
             depths.append((line[:, 2].mean(), self._paint_line(panel, line, COLOURS[1], 4)))
         nearer = 0.05 * (self.limits[1] - self.limits[0]).max()  # a dot in the middle of a body shows on it
         for name in self.nodes:
@@ -95,7 +95,7 @@ class Scene:
         return coloured or None
 
     def _paint_body(self, panel, positions, stress, corners, plain="#7f9db9"):
-        view = self._project(positions)
+        view = self.project(positions)
         triangles = view[corners]  # (f,3,3)
         normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
         length = np.linalg.norm(normals, axis=1)
@@ -118,9 +118,10 @@ class Scene:
             yield positions, body.von_mises(q)
 
     def _node(self, name, row):
-        return self._project(self.results.rows(f"nodes/{name}/position", row)[None])[0]
+        return self.project(self.results.rows(f"nodes/{name}/position", row)[None])[0]
 
-    def _project(self, points):
+    def project(self, points):
+        """Inertial points (n,3) -> right, up, towards the viewer."""
         return points @ self.axes.T
 
 
@@ -130,8 +131,10 @@ def _view_axes(results, view):
         right, up = (np.array(v, float) for v in VIEWS[view])
         return np.array([right, up, np.cross(right, up)])
     reach = np.zeros(3)
-    paths = [results.rows(f"nodes/{n}/position") for n in results.names("nodes")]
-    if paths:
+    paths = [] if hasattr(results, "reach") else [results.rows(f"nodes/{n}/position") for n in results.names("nodes")]
+    if hasattr(results, "reach"):
+        reach = results.reach()
+    elif paths:
         reach = np.nanmax([np.fmax.reduce(path) - np.fmin.reduce(path) for path in paths], axis=0)
         reach = np.where(np.isfinite(reach), reach, 0)
     towards = np.zeros(3)

@@ -162,6 +162,17 @@ class Results:
             return _text(self._stacked.text(found, attribute)) if found else ""
         return _text(self.root[place].attrs.get(attribute, "") if place in self.root else "")
 
+    def analyses_with_rows(self):
+        """Numbers of the analyses of the file that recorded something over time, or a state."""
+        with reading(self.path, "/"):
+            found = [(name, self.file[name]) for name in self.file if name.startswith("analysis_") and name[9:].isdigit()]
+            return [int(name[9:]) for name, group in found if "time" in group and len(group["time"])]
+
+    def text_of(self, name):
+        """A text at the root, `input`; empty where there is none."""
+        with reading(self.path, name):
+            return _text(self.file[name][()]) if name in self.file else ""
+
     def entry_of(self, element):
         """The element of the mechanism file: of the piece `blade.2` of a body it is `blade`."""
         return element.rpartition(".")[0] if self.text(f"elements/{element}", "group") else element
@@ -224,6 +235,13 @@ class Results:
             return rows
         wanted = np.linspace(self.time[rows[0]], self.time[rows[-1]], count)
         return np.unique(rows[np.abs(self.time[rows, None] - wanted[None, :]).argmin(axis=0)])
+
+
+def modes_to_show(results):
+    """` (--mode 1 shows one of its 6 modes)` where there are modes."""
+    if not isinstance(results, Results) or not results.has("eigen/frequency"):
+        return ""
+    return f"; it has {counted(len(results.array('eigen/frequency')), 'mode')}: --mode 1 shows the first"
 
 
 def open_hdf5(path, expected, meaning):

@@ -2,82 +2,162 @@
 
     /               attrs: format = "bielle study", version, model, complete;   /input  text of the model
     /parameters/<name> (runs)  values as written in the table, as text
-    /status (runs)  exit status of each run: 0 done, 1 wrong input, 2 failed
+    /status (runs)  exit status of each run: 0 done, 1 wrong input, 2 failed; -1 not run yet
     /message (runs) what a failed run said
+    /gathered/<name> (runs)    single numbers of the results, not a number where a run has none; attrs: of (what it is), units
+    /identity (runs) by which a later study knows runs that it need not make again
     /runs/<k>/...   k = 1, 2, ...: the groups kept of that run's results, as bielle-mechanism wrote them
+
+Next to it stands a CSV table of parameters, status and what was gathered. Until all runs are there, they wait as files in a
+folder, <name>.runs (bielle_tools/study_runs.py).
 """
 
 import concurrent.futures
 import csv
+import dataclasses
 import os
-import re
-import subprocess
-import sys
-import tempfile
+import shutil
 
 import h5py
 import numpy as np
 
-from .messages import InputError, counted, note
+from .messages import InputError, note
+from .results_columns import column_units
+from .results_file import Results
+from .study_gather import Missing
+from .study_plan import read_model
+from .study_runs import copy_results, facts, is_done, make_run, run_path
 
-KEPT = ["joints", "measures", "energy", "events", "peaks", "eigen"]
-GROUPS = [*KEPT, "nodes", "elements", "solver", "validity", "all"]  # what may be kept
+
+@dataclasses.dataclass
+class Collected:
+    """Of all runs: status (-1: not run yet), messages, and what was gathered by name, with units."""
+
+    status: np.ndarray
+    messages: list
+    numbers: dict
+    units: dict
+
+    @property
+    def done(self):
+        return int(np.count_nonzero(self.status == 0))
+
+    @property
+    def missing(self):
+        return int(np.count_nonzero(self.status < 0))
 
 
-def read_table(path):
-    """@returns names and rows of texts of a CSV file with a header line. @raises InputError with file and line"""
+def runs_folder(output):
+    """Where runs wait for the others."""
+    return os.path.splitext(output)[0] + ".runs"
+
+
+def run_study(plan, *, jobs=1, fresh=False, report=print):
+    """Makes all runs that are not there yet, `jobs` at a time, and gathers them. @returns Collected. @raises InputError"""
+    check_output(plan.output)
+    folder = runs_folder(plan.output)
+    prepare(plan, folder, fresh)
+    todo = pending(plan, folder)
+    if len(todo) < len(set(plan.identities)):
+        report(f"{len(set(plan.identities)) - len(todo)} of {len(set(plan.identities))} runs are there from before")
     try:
-        with open(path, newline="", encoding="utf-8-sig") as file:
-            rows = [(number, [cell.strip() for cell in row]) for number, row in enumerate(csv.reader(file), start=1)]
-    except OSError as error:
-        raise InputError(f"cannot read '{path}': {error.strerror}") from None
-    except (UnicodeDecodeError, csv.Error):
-        raise InputError(f"'{path}' is no table: text is expected, its columns separated by commas") from None
-    rows = [(number, row) for number, row in rows if any(row) and not row[0].startswith("#")]
-    if not rows:
-        raise InputError(f"'{path}' is empty; its first line names parameters of the model, each further line is a run")
-    number, names = rows[0]
-    if len(names) == 1 and len(re.split(r"[;\s]+", names[0])) > 1:
-        raise InputError(f"{path}:{number}: columns are separated by commas; found '{names[0]}'")
-    for name in names:
-        if not name or names.count(name) > 1:
-            raise InputError(f"{path}:{number}: the column name '{name}' is " + ("missing" if not name else "there twice"))
-    for number, row in rows[1:]:
-        if len(row) != len(names) or not all(row):
-            raise InputError(f"{path}:{number}: "
-                             f"{counted(len([c for c in row if c]), 'value')} for {counted(len(names), 'parameter')}")
-    if len(rows) == 1:
-        raise InputError(f"'{path}' has a header but no runs")
-    first = {}
-    for run, (_, row) in enumerate(rows[1:], start=1):
-        if first.setdefault(tuple(row), run) != run:
-            note(f"{path}: run {run} has the values of run {first[tuple(row)]}")
-    return names, [row for _, row in rows[1:]]
-
-
-def run_study(program, model, names, rows, output, *, jobs=1, keep=None, report=print):
-    """Runs all rows, `jobs` at a time. @returns number of runs that failed. @raises InputError"""
-    try:
-        with open(model, encoding="utf-8") as file:
-            text = file.read()
-    except OSError as error:
-        raise InputError(f"cannot read '{model}': {error.strerror}") from None
-    _check_output(output)
-    partial = output + ".part"
-    try:
-        study = h5py.File(partial, "w")
-    except OSError as error:
-        raise InputError(f"cannot write '{output}': {os.strerror(error.errno) if error.errno else error}") from None
-    try:
-        failed = _run_all(study, program, model, text, names, rows, jobs, keep or KEPT, report)
-    except BaseException:
-        os.remove(partial)
+        _run_all(plan, folder, todo, jobs, report)
+    except KeyboardInterrupt:
+        note(f"interrupted: finished runs are kept in '{folder}'; the same command goes on with the others")
         raise
-    os.replace(partial, output)
-    return failed
+    except InputError:
+        if not any((facts(os.path.join(folder, name)) or {}).get("status") == 0 for name in os.listdir(folder)):
+            shutil.rmtree(folder)
+        raise
+    collected = collect(plan, folder)
+    shutil.rmtree(folder)
+    return collected
 
 
-def _check_output(path):
+def prepare(plan, folder, fresh=False):
+    """Makes the folder of the runs, with the plan and those runs that an earlier study of this name has. @raises InputError"""
+    if fresh and os.path.isdir(folder):
+        shutil.rmtree(folder)
+    try:
+        plan.write(folder)
+    except OSError as error:
+        raise InputError(f"cannot write '{plan.output}': '{folder}': {error.strerror}") from None
+    for name in os.listdir(folder):
+        if name.endswith(".part"):  # of a study that was killed
+            os.remove(os.path.join(folder, name))
+    if not fresh and os.path.exists(plan.output):
+        _take_over(plan, folder)
+
+
+def _take_over(plan, folder):
+    """Runs of the study file become files again."""
+    with h5py.File(plan.output, "r") as study:
+        if "identity" not in study:
+            return
+        wanted = set(plan.identities)
+        for number, identity in enumerate(study["identity"].asstr()[:], start=1):
+            path = run_path(folder, identity)
+            if identity not in wanted or os.path.exists(path) or f"runs/{number}" not in study:
+                continue
+            group = study[f"runs/{number}"]
+            if group.attrs.get("study_status", 1) != 0:
+                continue
+            with h5py.File(path + ".part", "w") as file:
+                copy_results(group, file, ["all"])
+            os.replace(path + ".part", path)
+
+
+def pending(plan, folder):
+    """Numbers, from 0, of the runs to make: one of each identity."""
+    first = {}
+    for index, identity in enumerate(plan.identities):
+        if first.setdefault(identity, index) != index:
+            note(f"run {index + 1} has the values of run {first[identity] + 1}: it is not run by itself")
+    return [index for index in first.values() if not is_done(plan, folder, index)]
+
+
+def _run_all(plan, folder, todo, jobs, report):
+    checked = False
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        started = {pool.submit(make_run, plan, folder, index): index for index in todo}
+        try:
+            for count, future in enumerate(concurrent.futures.as_completed(started), start=1):
+                index = started[future]
+                status, message = future.result()
+                report(f"[{count}/{len(todo)}] {told(plan, index, status, message)}")
+                check_no_parameter(message)
+                if status == 0 and not checked:
+                    check_gather(plan, folder, index)
+                    checked = True
+        except BaseException:
+            pool.shutdown(cancel_futures=True)
+            raise
+
+
+def told(plan, index, status, message):
+    """`run 3: speed = 1: done`"""
+    return f"run {index + 1}: {plan.values(index)}: " + ("done" if status == 0 else f"FAILED: {message}")
+
+
+def check_no_parameter(message):
+    """@raises InputError where a run says that the model has no such parameter: no run can succeed"""
+    if "has no parameter" in message:
+        raise InputError(message.rpartition("error: ")[2])
+
+
+def check_gather(plan, folder, index):
+    """Of the first run, so that a wrong name does not cost a night. @raises InputError"""
+    for each in plan.wanted:
+        try:
+            with Results(run_path(folder, plan.identities[index])) as results:
+                each.value(results)
+        except Missing:
+            pass
+        except InputError as error:
+            raise InputError(f"gather: {each.name}: {error} (in run {index + 1}; finished runs are kept)") from None
+
+
+def check_output(path):
     """@raises InputError where something stands that is no study"""
     folder = os.path.dirname(path) or "."
     if not os.path.isdir(folder):
@@ -95,46 +175,93 @@ def _check_output(path):
         raise InputError(f"'{path}' exists and is no study: say with -o where the results of this one shall go, or remove it")
 
 
-def _run_all(study, program, model, text, names, rows, jobs, keep, report):
-    """@returns number of runs that failed"""
-    failed = 0
-    with study, tempfile.TemporaryDirectory(prefix="bielle-study-") as folder:
-        study.attrs.update({"format": "bielle study", "version": 1, "model": os.path.abspath(model), "complete": False})
-        _text(study, "input", text)
-        for column, name in enumerate(names):
-            _text(study, f"parameters/{name}", [row[column] for row in rows])
-        status, messages = np.full(len(rows), -1), [""] * len(rows)
+def collect(plan, folder):
+    """Writes the study's file and table from the runs that are there. @returns Collected"""
+    check_output(plan.output)
+    partial = plan.output + ".part"
+    try:
+        study = h5py.File(partial, "w")
+    except OSError as error:
+        raise InputError(f"cannot write '{plan.output}': {os.strerror(error.errno) if error.errno else error}") from None
+    try:
+        with study:
+            status, messages, numbers, units = _write(study, plan, folder)
+        os.replace(partial, plan.output)
+    except BaseException:
+        if os.path.exists(partial):
+            os.remove(partial)
+        raise
+    if plan.wanted:
+        _write_table(plan, status, numbers)
+    return Collected(status, messages, numbers, units)
 
-        def run(index):
-            target = os.path.join(folder, f"{index}.h5")
-            settings = [word for name, value in zip(names, rows[index]) for word in ("--set", f"{name}={value}")]
-            done = subprocess.run([program, model, "-o", target, "--quiet", "--threads", "1", *settings],
-                                  capture_output=True, text=True, check=False)
-            said = done.stderr.strip()
-            if done.returncode < 0:
-                said += f" ended by signal {-done.returncode}"
-            return target, done.returncode, said.strip()
 
-        with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-            pending = {pool.submit(run, index): index for index in range(len(rows))}
-            for count, future in enumerate(concurrent.futures.as_completed(pending), start=1):
-                index = pending[future]
-                target, status[index], messages[index] = future.result()
-                if "has no parameter" in messages[index]:  # no run can succeed
-                    pool.shutdown(cancel_futures=True)
-                    raise InputError(messages[index].rpartition("error: ")[2])
-                if os.path.exists(target):
-                    _keep(study, index + 1, target, keep)
-                    os.remove(target)
-                failed += status[index] != 0
-                values = ", ".join(f"{name} = {value}" for name, value in zip(names, rows[index]))
-                said = "done" if status[index] == 0 else f"FAILED: {messages[index]}"
-                report(f"[{count}/{len(rows)}] run {index + 1}: {values}: {said}")
-        study["status"] = status
-        study["status"].attrs["description"] = "exit status of each run: 0 done, 1 wrong input, 2 failed"
-        _text(study, "message", messages)
-        study.attrs["complete"] = True
-    return failed
+def _write(study, plan, folder):
+    runs = len(plan.rows)
+    study.attrs.update({"format": "bielle study", "version": 1, "model": plan.model, "complete": False})
+    _text(study, "input", read_model(plan.model))
+    for column, name in enumerate(plan.names):
+        _text(study, f"parameters/{name}", [row[column] for row in plan.rows])
+    status, messages = np.full(runs, -1), [""] * runs
+    numbers, units = {each.name: np.full(runs, np.nan) for each in plan.wanted}, {}
+    for index, identity in enumerate(plan.identities):
+        path = run_path(folder, identity)
+        about = facts(path)
+        if about is None:
+            messages[index] = "not run yet"
+            continue
+        status[index], messages[index] = about["status"], about["message"]
+        with h5py.File(path, "r") as run:
+            if len(run):
+                copy_results(run, study.create_group(f"runs/{index + 1}"), ["all"])
+        if status[index] == 0:
+            _gather(plan, path, index, numbers, units)
+    study["status"] = status
+    study["status"].attrs["description"] = "exit status of each run: 0 done, 1 wrong input, 2 failed; -1 not run yet"
+    _text(study, "message", messages)
+    _text(study, "identity", plan.identities)
+    for each in plan.wanted:
+        study[f"gathered/{each.name}"] = numbers[each.name]
+        study[f"gathered/{each.name}"].attrs.update({"of": each.words, "units": units.get(each.name, "")})
+    study.attrs["complete"] = bool(np.all(status >= 0))
+    return status, messages, numbers, units
+
+
+def _gather(plan, path, index, numbers, units):
+    for each in plan.wanted:
+        try:
+            with Results(path) as results:
+                numbers[each.name][index] = each.value(results)
+                if each.name not in units:
+                    units[each.name] = units_of(each, results)
+        except (Missing, InputError) as error:
+            note(f"run {index + 1}: {plan.values(index)}: {each.name} is missing: {error}")
+
+
+def units_of(gathered, results):
+    """Of a gathered number."""
+    if gathered.place is None:
+        return ""
+    if (gathered.take or "").startswith("time_of_"):
+        return "-" if results.static else "s"
+    units = column_units(results, gathered.place) if gathered.rows else [results.units(gathered.place)]
+    return units[0] if units and len(set(units)) == 1 else ""
+
+
+def table_path(plan):
+    """Of what was gathered."""
+    return os.path.splitext(plan.output)[0] + "-table.csv"
+
+
+def _write_table(plan, status, numbers):
+    path = table_path(plan)
+    with open(path + ".part", "w", newline="", encoding="utf-8", errors="surrogatepass") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["run", *plan.names, "status", *numbers])
+        for index, row in enumerate(plan.rows):
+            values = [numbers[name][index] for name in numbers]
+            writer.writerow([index + 1, *row, status[index], *("" if np.isnan(value) else repr(float(value)) for value in values)])
+    os.replace(path + ".part", path)
 
 
 def find_program():
@@ -148,23 +275,6 @@ def find_program():
             return path
     raise InputError("bielle-mechanism is not built: run 'cmake --preset release && cmake --build build/release', "
                      "or say where it is with BIELLE_BIN=FOLDER")
-
-
-def _keep(study, number, path, keep):
-    try:
-        with h5py.File(path, "r") as results:
-            group = study.create_group(f"runs/{number}")
-            for key, value in results.attrs.items():
-                group.attrs[key] = value
-            names = list(results) if keep == ["all"] else ["time", *keep, *(["crossings"] if "events" in keep else [])]
-            for name in names:
-                link = results.get(name, getlink=True)
-                if keep == ["all"] and isinstance(link, h5py.SoftLink):
-                    group[name] = h5py.SoftLink(f"{group.name}{link.path}")
-                elif name in results and name != "input":
-                    results.copy(name, group, expand_soft=True)
-    except (OSError, RuntimeError, KeyError) as error:
-        print(f"run {number} left no readable results: {error}", file=sys.stderr)
 
 
 def _text(file, name, value):

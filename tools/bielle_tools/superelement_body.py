@@ -92,6 +92,16 @@ class SuperelementBody:
         return frame[:3] + (self.points + scale * u) @ R.T, u @ R.T
 
 
+def interfaces_of(path, group=""):
+    """[(name, directions that are kept (6), rotation matrix: interface axes -> body axes)] in the order of the coordinates."""
+    with _open(path, group) as opened, reading(path, "interface"):
+        found = (opened[group] if group else opened)["interface"]
+        names, dofs, rotations = found["names"].asstr()[:], np.asarray(found["dofs"]) != 0, np.asarray(found["rotations"], float)
+        if dofs.shape != (len(names), 6) or rotations.shape != (len(names), 3, 3):
+            raise ValueError
+        return list(zip(names, dofs, rotations))
+
+
 def _open(path, group):
     if not group:
         return open_hdf5(path, "bielle superelement", "a superelement of bielle-reduce")

@@ -53,7 +53,8 @@ class Results(Mapping):
 
     Datasets over time have one row per recorded instant: "time" (rows), "nodes/pin/position" (rows, 3). They are arrays of
     NumPy that are not to be written: views of the recorded numbers, without a copy. (While the analysis is still under way,
-    they are copies of what there is so far.) Others are arrays or numbers: "peaks/rod/all/von_mises/value".
+    they are copies of what there is so far.) Others are arrays or numbers, "peaks/rod/all/von_mises/value", or lists of texts,
+    "eigen/nodes".
     """
 
     def __init__(self, recorder: _core.Recorder | NothingKept, number: int, found: tuple[str, dict, int] | None = None):
@@ -91,7 +92,7 @@ class Results(Mapping):
         """What there is, besides "time": shapes and units by name."""
         return {name: Dataset(*about) for name, about in self._recorder.datasets(self._number).items()}
 
-    def __getitem__(self, name: str) -> np.ndarray | float:
+    def __getitem__(self, name: str) -> np.ndarray | float | list[str]:
         """A dataset. Raises InputError with the nearest name."""
         return self._recorder.read(self._number, name)
 

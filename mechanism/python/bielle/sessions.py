@@ -69,6 +69,18 @@ class Session:
         """The same with the forces of drives and joints that bring the motion about: the analysis `inverse_dynamics`."""
         return self.run({"type": "inverse_dynamics", "duration": duration, "step": step}, record=record)
 
+    def modes(self, *, count: int | None = None, near: float | None = None, below: float | None = None,
+              rotation: Any = None, shapes: bool | None = None, record: bool = True) -> Results:
+        """Frequencies, damping and complex shapes of small motions about where the session stands, which stays: the analysis
+        `eigen`, with its keys.
+
+            modes = session.modes(count=6)
+            modes["eigen/frequency"], modes["eigen/kind"]
+            tip = modes["eigen/nodes"].index("tip")
+            modes["eigen/displacement"][0, tip] @ [1, 1j]      # complex amplitudes x y z in the first mode
+        """
+        return self.run(_given(type="eigen", count=count, near=near, below=below, rotation=rotation, shapes=shapes), record=record)
+
     def dynamics(self, duration: float | str, step: float | str | None = None, *, tolerance: float | None = None,
                  largest_step: float | None = None, scheme: str | None = None, rho: float | None = None,
                  alpha: float | None = None, constraints: str | None = None, start: str | None = None,

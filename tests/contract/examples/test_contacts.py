@@ -1,37 +1,16 @@
 """mechanism/examples/contacts.yaml: the ball rolls, falls, hits the tile, and the tile falls on its face."""
 
-import os
-import subprocess
-import sys
-import tempfile
 import unittest
 
 import numpy as np
 
-REPOSITORY = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", ".."))
-sys.path.insert(0, os.path.join(REPOSITORY, "tools"))
-from bielle_tools.results_file import Results  # noqa: E402
+from example import ExampleTest
 
-PROGRAM = os.path.join(os.environ["BIELLE_PROGRAMS"], "bielle-mechanism")
 GRAVITY, RADIUS, SLOPE = 9.81, 0.02, 0.35
 
 
-class Contacts(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        target = os.path.join(cls.folder.name, "run.h5")
-        model = os.path.join(REPOSITORY, "mechanism", "examples", "contacts.yaml")
-        done = subprocess.run([PROGRAM, model, "-o", target, "--quiet"], capture_output=True, text=True, timeout=600)
-        if done.returncode:
-            raise AssertionError(done.stderr)
-        cls.results = Results(target)
-        cls.time = cls.results.rows("time")
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.results.file.close()
-        cls.folder.cleanup()
+class Contacts(ExampleTest):
+    model = "contacts.yaml"
 
     def test_the_ball_rolls_down_the_ramp(self):
         # From rest: 5/7 g sin(slope).

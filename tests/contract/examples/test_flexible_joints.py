@@ -1,37 +1,16 @@
 """mechanism/examples/flexible_joints.yaml: mounts, bearings and play, held against closed forms."""
 
 import os
-import subprocess
-import sys
-import tempfile
 import unittest
 
 import numpy as np
 
-REPOSITORY = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", ".."))
-sys.path.insert(0, os.path.join(REPOSITORY, "tools"))
-from bielle_tools.results_file import Results  # noqa: E402
-
-PROGRAM = os.path.join(os.environ["BIELLE_PROGRAMS"], "bielle-mechanism")
-EXAMPLES = os.path.join(REPOSITORY, "mechanism", "examples")
+from example import EXAMPLES, ExampleTest
 
 
-class FlexibleJoints(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        target = os.path.join(cls.folder.name, "run.h5")
-        model = os.path.join(EXAMPLES, "flexible_joints.yaml")
-        done = subprocess.run([PROGRAM, model, "-o", target, "--quiet"], capture_output=True, text=True, timeout=600)
-        if done.returncode:
-            raise AssertionError(done.stderr)
-        cls.results = Results(target)
-        cls.time = np.array(cls.results.rows("time"))
 
-    @classmethod
-    def tearDownClass(cls):
-        cls.results.file.close()
-        cls.folder.cleanup()
+class FlexibleJoints(ExampleTest):
+    model = "flexible_joints.yaml"
 
     def rows(self, name):
         return np.array(self.results.rows(name))

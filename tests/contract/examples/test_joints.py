@@ -4,37 +4,22 @@ closed form says."""
 import math
 import os
 import re
-import subprocess
-import sys
-import tempfile
 import unittest
 
 import numpy as np
 
-REPOSITORY = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", ".."))
-sys.path.insert(0, os.path.join(REPOSITORY, "tools"))
-from bielle_tools.results_file import Results  # noqa: E402
+from example import EXAMPLES, REPOSITORY, ExampleTest
 
-PROGRAM = os.path.join(os.environ["BIELLE_PROGRAMS"], "bielle-mechanism")
-MODEL = os.path.join(REPOSITORY, "mechanism", "examples", "joints.yaml")
+MODEL = os.path.join(EXAMPLES, "joints.yaml")
 
 
-class Joints(unittest.TestCase):
+class Joints(ExampleTest):
+    model = "joints.yaml"
+
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        target = os.path.join(cls.folder.name, "run.h5")
-        done = subprocess.run([PROGRAM, MODEL, "-o", target, "--quiet"], capture_output=True, text=True, timeout=600)
-        if done.returncode:
-            raise AssertionError(done.stderr)
-        cls.results = Results(target)
-        cls.time = np.array(cls.results.rows("time"))
+        super().setUpClass()
         cls.turned = 6 * cls.time ** 2
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.results.file.close()
-        cls.folder.cleanup()
 
     def coordinate(self, joint, which=0):
         return np.array(self.results.rows(f"joints/{joint}/coordinate"))[:, which]

@@ -3,19 +3,12 @@
 The top moves by a few centimetres: the weight on the moved mast changes the moments by less than 2 %.
 """
 
-import os
-import subprocess
-import sys
-import tempfile
 import unittest
 
 import numpy as np
 
-REPOSITORY = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", ".."))
-sys.path.insert(0, os.path.join(REPOSITORY, "tools"))
-from bielle_tools.results_file import Results  # noqa: E402
+from example import ExampleTest
 
-PROGRAM = os.path.join(os.environ["BIELLE_PROGRAMS"], "bielle-mechanism")
 HEIGHT, ELEMENTS = 12.0, 12
 
 
@@ -30,23 +23,14 @@ def wind_moment(z):
     return np.trapz(wind(above) * (above - z), above)
 
 
-class Mast(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        target = os.path.join(cls.folder.name, "run.h5")
-        model = os.path.join(REPOSITORY, "mechanism", "examples", "mast.yaml")
-        done = subprocess.run([PROGRAM, model, "-o", target, "--quiet"], capture_output=True, text=True, timeout=600)
-        if done.returncode:
-            raise AssertionError(done.stderr)
-        cls.results = Results(target)
-        cls.static = cls.results.file["analysis_1"]
-        cls.z = (np.arange(ELEMENTS) + 0.5) * HEIGHT / ELEMENTS
+class Mast(ExampleTest):
+    model = "mast.yaml"
 
     @classmethod
-    def tearDownClass(cls):
-        cls.results.file.close()
-        cls.folder.cleanup()
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.static = cls.results.file["analysis_1"]
+        cls.z = (np.arange(ELEMENTS) + 0.5) * HEIGHT / ELEMENTS
 
     def test_moments_are_those_of_the_wind_above(self):
         moments = self.static["elements/mast/resultants"][-1, :, 5]

@@ -1,39 +1,22 @@
 """mechanism/examples/servo.yaml: stands still, is lifted within what its motor has, and falls when it is let go."""
 
-import os
-import subprocess
-import sys
-import tempfile
 import unittest
 
 import numpy as np
 
-REPOSITORY = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", ".."))
-sys.path.insert(0, os.path.join(REPOSITORY, "tools"))
-from bielle_tools.results_file import Results  # noqa: E402
+from example import ExampleTest
 
-PROGRAM = os.path.join(os.environ["BIELLE_PROGRAMS"], "bielle-mechanism")
 MASS, LENGTH, LIFT, MOST, GRAVITY = 4.0, 0.8, 0.8, 28.0, 9.81
 
 
-class Servo(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        target = os.path.join(cls.folder.name, "run.h5")
-        model = os.path.join(REPOSITORY, "mechanism", "examples", "servo.yaml")
-        done = subprocess.run([PROGRAM, model, "-o", target, "--quiet"], capture_output=True, text=True, timeout=600)
-        if done.returncode:
-            raise AssertionError(done.stderr)
-        cls.results = Results(target)
-        cls.time = cls.results.rows("time")
-        cls.angle = cls.results.rows("joints/shoulder/coordinate")[:, 0]
-        cls.torque = cls.results.rows("joints/shoulder/drive_force")[:, 0]
+class Servo(ExampleTest):
+    model = "servo.yaml"
 
     @classmethod
-    def tearDownClass(cls):
-        cls.results.file.close()
-        cls.folder.cleanup()
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.angle = cls.results.rows("joints/shoulder/coordinate")[:, 0]
+        cls.torque = cls.results.rows("joints/shoulder/drive_force")[:, 0]
 
     def test_the_arm_stands_still_until_it_is_told_to_move(self):
         before = self.time < 0.199

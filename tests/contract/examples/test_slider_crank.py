@@ -4,41 +4,19 @@ The rod bends and stretches by well under a tenth of a millimetre or two: rigid 
 """
 
 import os
-import shutil
 import subprocess
-import sys
-import tempfile
 import unittest
 
 import numpy as np
 
-REPOSITORY = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", ".."))
-sys.path.insert(0, os.path.join(REPOSITORY, "tools"))
-from bielle_tools.results_file import Results  # noqa: E402
+from example import PROGRAM, ExampleTest, Results
 
-PROGRAM = os.path.join(os.environ["BIELLE_PROGRAMS"], "bielle-mechanism")
-SUPERELEMENT = os.environ["BIELLE_SUPERELEMENT"]
 R, L, SPEED, RUN_UP = 0.05, 0.2, 2 * np.pi * 50, 0.06
 
 
-class SliderCrank(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        shutil.copy(os.path.join(REPOSITORY, "mechanism", "examples", "slider_crank.yaml"), cls.folder.name)
-        os.symlink(SUPERELEMENT, os.path.join(cls.folder.name, "conrod.h5"))
-        target = os.path.join(cls.folder.name, "run.h5")
-        done = subprocess.run([PROGRAM, os.path.join(cls.folder.name, "slider_crank.yaml"), "-o", target, "--quiet"],
-                              capture_output=True, text=True, timeout=600)
-        if done.returncode:
-            raise AssertionError(done.stderr)
-        cls.results = Results(target)
-        cls.time = cls.results.time
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.results.file.close()
-        cls.folder.cleanup()
+class SliderCrank(ExampleTest):
+    model = "slider_crank.yaml"
+    superelement = "conrod.h5"
 
     def test_motor_reaches_its_speed_and_keeps_it(self):
         rate = self.results.rows("joints/main/rate")[:, 0]
@@ -58,7 +36,7 @@ class SliderCrank(unittest.TestCase):
 
     def test_a_rod_that_is_drawn_roughly_is_assembled_without_deforming(self):
         """Drawn 10 mm and 10 degrees off, the flexible rod moves to its joints as a whole."""
-        with open(os.path.join(self.folder.name, "slider_crank.yaml")) as file:
+        with open(os.path.join(self.folder, "slider_crank.yaml")) as file:
             text = file.read()
         bent = "rotation_vector: [0, 0, 0.17]"
         for old, new in (
@@ -71,7 +49,7 @@ class SliderCrank(unittest.TestCase):
                 ("nodes: [small_end, piston]}", "nodes: [small_end, piston], at: [[0, 0, 0], [0, 0, 0]]}")):
             self.assertIn(old, text)
             text = text.replace(old, new)
-        rough = os.path.join(self.folder.name, "rough.yaml")
+        rough = os.path.join(self.folder, "rough.yaml")
         with open(rough, "w") as file:
             file.write(text[:text.index("analysis:")] + "analysis: [{type: assembly}]\n")
         done = subprocess.run([PROGRAM, rough], capture_output=True, text=True, timeout=600)

@@ -12,14 +12,12 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
-import unittest
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "programs"))
 sys.path.insert(0, os.path.join(HERE, "..", "tools"))
-from command import PROGRAMS  # noqa: E402
+from command import PROGRAMS, InFolder  # noqa: E402
 
 SEED = int(os.environ.get("BIELLE_FUZZ_SEED", "0"))
 TIMES = int(os.environ.get("BIELLE_FUZZ_CASES", "1"))
@@ -44,15 +42,7 @@ def ended(run, processor_seconds=20, seconds=200):
     return False
 
 
-class FuzzTest(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
+class FuzzTest(InFolder):
     def write(self, name, data):
         with open(self.path(name), "wb") as file:
             file.write(data.encode() if isinstance(data, str) else data)

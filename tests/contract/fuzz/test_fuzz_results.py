@@ -10,6 +10,7 @@ import unittest
 
 from fuzzing import KEEP, NEVER, FuzzTest, damaged_bytes
 from test_fuzz_hdf5 import changed, near_structures
+import synthetic_modes
 import synthetic_results as synthetic
 from box_mesh import REPOSITORY
 
@@ -43,7 +44,7 @@ class Results(FuzzTest):
         shutil.copy(self.path("sound.h5"), self.path("sound_stacked.h5"))
         synthetic.stack(self.path("sound_stacked.h5"))
 
-    def run_tool(self, name):
+    def run_tool(self, name, more=()):
         """@returns the exit status, negative for a signal, and what was said."""
         said = os.open(self.path("said"), os.O_RDWR | os.O_CREAT | os.O_TRUNC)
         child = os.fork()
@@ -53,7 +54,7 @@ class Results(FuzzTest):
             os.dup2(os.open(os.devnull, os.O_RDWR), 1)
             os.dup2(said, 2)
             sys.stdout, sys.stderr = os.fdopen(1, "w", closefd=False), os.fdopen(2, "w", closefd=False)
-            sys.argv = [name, "run.h5", *ARGUMENTS[name]]
+            sys.argv = [name, "run.h5", *ARGUMENTS[name], *more]
             status, messages.longest_reading = 0, 3
             try:
                 messages.run(name, self.modules[name].main)
@@ -65,12 +66,12 @@ class Results(FuzzTest):
         os.close(said)
         return status, self.read("said").decode(errors="replace")
 
-    def judge_tools(self, case, note, names=tuple(ARGUMENTS)):
+    def judge_tools(self, case, note, names=tuple(ARGUMENTS), more=()):
         note = f"{case} {note}"
         for name in names:
             if name == "bielle-plot" and case % 3:  # takes ten times as long as the others
                 continue
-            status, said = self.run_tool(name)
+            status, said = self.run_tool(name, more if name != "bielle-plot" else ())
             sentences = [line for line in said.splitlines() if line.startswith(name + ": ")]
             # A crash of the HDF5 library becomes a sentence in the process that waits for this one.
             fine = -status in messages.CRASHES or (status in (0, 1) and len(sentences) == status)
@@ -103,6 +104,12 @@ class Results(FuzzTest):
         for case, rng in self.cases(14):
             source = rng.choice(["sound.h5", "sound_stacked.h5"])
             self.judge_tools(case, f"{source} {self.damaged(rng, source, 'run.h5')}")
+
+    def test_modes(self):
+        synthetic_modes.write_whirl(self.path("sound_modes.h5"))
+        for case, rng in self.cases(10):
+            self.judge_tools(case, self.damaged(rng, "sound_modes.h5", "run.h5"), ["bielle-plot", "bielle-animate", "bielle-paraview"],
+                             ["--mode", "1"])
 
     def test_superelements(self):
         shutil.copy(self.path("sound.h5"), self.path("run.h5"))

@@ -3,25 +3,15 @@
 import os
 import subprocess
 import sys
-import tempfile
-import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+from in_folder import InFolder  # noqa: E402
 
 PROGRAMS = os.environ["BIELLE_PROGRAMS"]  # folder of the built programs, set by ctest
 
 
-class CommandTest(unittest.TestCase):
+class CommandTest(InFolder):
     program = ""  # name of the program under test
-
-    def setUp(self):
-        self._folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self._folder.cleanup)
-        self.folder = self._folder.name
-
-    def write(self, name, text):
-        path = os.path.join(self.folder, name)
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(text)
-        return path
 
     def run_program(self, *arguments, timeout=120):
         return subprocess.run([os.path.join(PROGRAMS, self.program), *arguments], cwd=self.folder, text=True,
@@ -37,3 +27,10 @@ class CommandTest(unittest.TestCase):
         for text in says:
             self.assertIn(text, lines[0])
         return done
+
+    def summary(self, model):
+        """What the program prints of a model, given as text, that it runs."""
+        self.write("model.yaml", model)
+        done = self.run_program("model.yaml")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout

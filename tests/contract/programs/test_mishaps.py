@@ -29,9 +29,6 @@ def rewrite(path, dataset, change):
 class Files(CommandTest):
     program = "bielle-mechanism"
 
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
     def test_damaged_checkpoints(self):
         self.write("model.yaml", MODEL)
         self.assertEqual(self.run_program("model.yaml", "-o", "good.h5", "--quiet").returncode, 0)

@@ -20,12 +20,6 @@ EIGEN = "[{type: eigen}]"
 class Modes(CommandTest):
     program = "bielle-mechanism"
 
-    def summary(self, model):
-        self.write("model.yaml", model)
-        done = self.run_program("model.yaml")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        return done.stdout
-
     def test_a_hanging_pendulum_swings(self):
         text = self.summary(PENDULUM.format(x=0, z=-1, analysis=EIGEN))
         self.assertIn("eigen, 1 mode about the state at t = 0 s", text)

@@ -40,9 +40,6 @@ class Meshes(CommandTest):
         self.points, self.cells = box(size=SIZE)
         self.left = np.flatnonzero(self.points[:, 0] == 0)
 
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
     def reduce(self, file, region="all", surface=SIDE):
         """Reduces the body in the file; @returns its fixed-boundary frequencies after checking mass and centre."""
         self.write("body.yaml", BODY.format(file=file, region=region, surface=surface))

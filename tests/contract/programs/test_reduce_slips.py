@@ -17,9 +17,6 @@ from test_reduce import BAR, BODY
 class Slips(BarTest):
     geometry = BAR
 
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
     def body(self, old="", new=""):
         self.assertIn(old, BODY)
         self.write("body.yaml", BODY.replace(old, new))

@@ -21,9 +21,6 @@ class Verdict(CommandTest):
         super().setUp()
         self.write("bar.geo", BAR)
 
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
     def said(self, text, *changes):
         """The lines of the verdict on a body file."""
         for old, new in changes:

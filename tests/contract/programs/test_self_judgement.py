@@ -48,12 +48,6 @@ analysis: [{type: dynamic, duration: 0.1, step: 1e-3}]
 class SelfJudgement(CommandTest):
     program = "bielle-mechanism"
 
-    def summary(self, model):
-        self.write("model.yaml", model)
-        done = self.run_program("model.yaml")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        return done.stdout
-
     def test_a_loop_that_is_exact_moves(self):
         text = self.summary(FOUR_BAR.format(tilt=0))
         self.assertIn("\n  1 degree of freedom\n", text)

@@ -1,4 +1,10 @@
-"""Models that the tests share, as text of files."""
+"""Models that the tests share, as text of files, and tests that write such files."""
+
+import os
+import sys
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+from in_folder import InFolder  # noqa: E402
 
 # A double pendulum of bars that falls through large angles, with a formula of the state.
 PENDULUM = """\
@@ -43,3 +49,9 @@ joints: {axle: {type: hinge, nodes: [ground, wheel], axis: [0, 0, 1]}}
 inputs: {torque: {start: 0, units: N m}}
 drives: {motor: {joint: axle, torque: torque}}
 """
+
+
+class WithModel(InFolder):
+    def write_model(self, text, name="model.yaml"):
+        """@returns the path"""
+        return self.write(name, text)

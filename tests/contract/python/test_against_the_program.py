@@ -2,14 +2,13 @@
 
 import os
 import subprocess
-import tempfile
 import unittest
 
 import h5py
 import numpy as np
 
 import bielle
-from samples import BEAM, PENDULUM
+from samples import BEAM, PENDULUM, WithModel
 
 PROGRAM = os.path.join(os.environ["BIELLE_PROGRAMS"], "bielle-mechanism")
 EXAMPLES = os.path.abspath(os.path.join(os.path.dirname(__file__), *[os.pardir] * 3, "mechanism", "examples"))
@@ -29,18 +28,7 @@ def recorded(group):
     return found
 
 
-class AgainstTheProgram(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
-    def write(self, text, name="model.yaml"):
-        path = os.path.join(self.folder, name)
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(text)
-        return path
-
+class AgainstTheProgram(WithModel):
     def run_program(self, model, *arguments):
         output = os.path.join(self.folder, "program.h5")
         subprocess.run([PROGRAM, model, "-o", output, "--quiet", *arguments], check=True, stdin=subprocess.DEVNULL)
@@ -76,19 +64,38 @@ class AgainstTheProgram(unittest.TestCase):
                     self.assertTrue(np.array_equal(expected[name], found[name], equal_nan=True), name)
 
     def test_fixed_steps(self):
-        self.expect_same_run(self.write(PENDULUM))
+        self.expect_same_run(self.write_model(PENDULUM))
 
     def test_adaptive_steps(self):
-        self.expect_same_run(self.write(PENDULUM.replace("step: 2e-3", "tolerance: 1e-6")))
+        self.expect_same_run(self.write_model(PENDULUM.replace("step: 2e-3", "tolerance: 1e-6")))
 
     def test_statics_and_dynamics_of_a_beam(self):
-        self.expect_same_run(self.write(BEAM))
+        self.expect_same_run(self.write_model(BEAM))
 
     def test_states_events_and_equilibrium_of_an_example(self):
         self.expect_same_run(os.path.join(EXAMPLES, "servo.yaml"))
 
     def test_a_path_past_limit_points(self):
         self.expect_same_run(os.path.join(EXAMPLES, "snap_through.yaml"))
+
+    def test_modes(self):
+        model = os.path.join(EXAMPLES, "rotor.yaml")
+        results = bielle.load(model).session().modes(count=8)
+        self.assertEqual(results.type, "eigen")
+        compared = 0
+        with h5py.File(self.run_program(model)) as program:
+            for name, dataset in program["analysis_1/eigen"].items():
+                text = h5py.check_string_dtype(dataset.dtype)
+                expected = dataset.asstr()[:].tolist() if text else dataset[()]
+                self.assertEqual(tuple(results.datasets[f"eigen/{name}"].shape), dataset.shape)
+                np.testing.assert_array_equal(results[f"eigen/{name}"], expected, name)
+                self.assertIsInstance(results[f"eigen/{name}"], list if text else np.ndarray)
+                compared += 1
+        self.assertGreater(compared, 12)
+        head = results["eigen/displacement"][2, results["eigen/nodes"].index("head")] @ [1, 1j]
+        self.assertGreater(np.abs(head).max(), 0.5)  # the slowest bending moves the head
+        with self.assertRaisesRegex(bielle.InputError, "did you mean 'eigen/kind'"):
+            results["eigen/kinds"]
 
     def test_contacts(self):
         self.expect_same_run(os.path.join(EXAMPLES, "contacts.yaml"))
@@ -100,7 +107,7 @@ analysis:
   - {type: kinematic, duration: 0.5, step: 0.01}
   - {type: inverse_dynamics, duration: 0.5, step: 0.01}
 """
-        model = self.write(PENDULUM.partition("analysis:")[0] + drives)
+        model = self.write_model(PENDULUM.partition("analysis:")[0] + drives)
         self.expect_same_run(model)
         session = bielle.load(model).session()
         session.kinematics(0.5, 0.01)
@@ -109,7 +116,7 @@ analysis:
             self.expect_equal(program["analysis_2"], results)
 
     def test_a_motion_step_by_step(self):
-        model = self.write(PENDULUM)
+        model = self.write_model(PENDULUM)
         session = bielle.load(model).session()
         names = ("nodes/lower/position", "nodes/lower/rotation", "joints/elbow/coordinate", "joints/elbow/reaction",
                  "measures/reach", "energy/kinetic", "solver/newton_iterations")
@@ -129,7 +136,7 @@ analysis:
             self.assertTrue(np.array_equal(expected[name] * signs, np.array(rows[name])), name)
 
     def test_a_motion_that_is_recorded(self):
-        model, output = self.write(PENDULUM), os.path.join(self.folder, "motion.h5")
+        model, output = self.write_model(PENDULUM), os.path.join(self.folder, "motion.h5")
         session = bielle.load(model).session()
         with session.record(output) as recording:
             motion = session.dynamics(duration=1.2, step=2e-3)
@@ -163,15 +170,15 @@ joints: {{main: {{type: hinge, nodes: [ground, arm], position: [0, 0, 0], axis: 
 drives: {{motor: {{joint: main, torque: "sin(3*t)"}}}}
 analysis: [{{type: dynamic, duration: 0.5, step: 1e-3}}]
 """
-        with h5py.File(self.run_program(self.write(text))) as program:
+        with h5py.File(self.run_program(self.write_model(text))) as program:
             self.expect_equal(program["analysis_1"], bielle.read(keys).run()[0])
             self.expect_equal(program["analysis_1"], bielle.read(text).run()[0])
         # The text that the dictionary has become is a file.
-        with h5py.File(self.run_program(self.write(bielle.read(keys).text))) as program:
+        with h5py.File(self.run_program(self.write_model(bielle.read(keys).text))) as program:
             self.expect_equal(program["analysis_1"], bielle.run(keys)[0])
 
     def test_a_sweep_equals_single_runs(self):
-        model = self.write(PENDULUM.replace("duration: 1.2", "duration: 0.2"))
+        model = self.write_model(PENDULUM.replace("duration: 1.2", "duration: 0.2"))
         ends = set()
         for mass in np.linspace(0.5, 4, 20):
             run = bielle.run(model, parameters={"mass": mass})
@@ -181,9 +188,9 @@ analysis: [{{type: dynamic, duration: 0.5, step: 1e-3}}]
         self.assertEqual(len(ends), 20)
 
     def test_a_restarted_run_goes_on(self):
-        model = self.write(PENDULUM + "output: {checkpoint: 100}\n")
+        model = self.write_model(PENDULUM + "output: {checkpoint: 100}\n")
         whole = bielle.run(model)
-        first = self.write(PENDULUM.replace("duration: 1.2", "duration: 0.6") + "output: {checkpoint: 100}\n", "first.yaml")
+        first = self.write_model(PENDULUM.replace("duration: 1.2", "duration: 0.6") + "output: {checkpoint: 100}\n", "first.yaml")
         output, rest = os.path.join(self.folder, "first.h5"), os.path.join(self.folder, "rest.h5")
         bielle.run(first, output)
         run = bielle.run(model, rest, restart=output)

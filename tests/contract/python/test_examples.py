@@ -13,6 +13,7 @@ sys.path.insert(0, EXAMPLES)
 
 import controller  # noqa: E402
 import identification  # noqa: E402
+import optimisation  # noqa: E402
 import sweep  # noqa: E402
 
 import bielle  # noqa: E402
@@ -42,6 +43,23 @@ class Examples(unittest.TestCase):
         self.assertAlmostEqual(values[0] / 37 - 1, (omega * 2e-3)**2 / 6, delta=2e-6)
         self.assertAlmostEqual(values[1], 0.4, delta=1e-4)
         self.assertRegex(self.run_script("identification.py"), r"stiffness 3[67]\.\d+ \+- 0\.0\d+\ndamping 0\.[34]")
+
+    def test_the_optimisation_finds_the_four_bar(self):
+        lengths = np.array([0.32, 1.05, 0.85, 0.6, 0.45])
+        target = optimisation.coupler_path(*lengths, 2 * np.pi * np.arange(optimisation.PLACES) / optimisation.PLACES)
+        np.testing.assert_allclose(optimisation.computed(lengths), target, rtol=0, atol=1e-12)
+        self.assertGreater(np.abs(optimisation.computed(optimisation.START) - target).max(), 0.2)
+        found, missed = optimisation.synthesise(target)
+        np.testing.assert_allclose(found, lengths, rtol=0, atol=1e-9)
+        self.assertLess(missed, 1e-9)
+        # Places that no four-bar reaches: what is found is a minimum, the sum of squares grows in all directions.
+        wanted = target + 0.01 * np.random.default_rng(2).standard_normal(target.shape)
+        found, missed = optimisation.synthesise(wanted)
+        self.assertLess(missed, 0.04)
+        least = np.sum((optimisation.computed(found) - wanted) ** 2)
+        for step in 1e-4 * np.vstack([np.eye(5), -np.eye(5)]):
+            self.assertGreater(np.sum((optimisation.computed(found + step) - wanted) ** 2), least)
+        self.assertIn("crank 0.320000, coupler 1.050000, rocker 0.850000", self.run_script("optimisation.py"))
 
     def test_the_sweep_equals_single_runs(self):
         masses = [1, 2, 0, 4]

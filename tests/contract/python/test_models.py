@@ -4,13 +4,12 @@ import ast
 import os
 import pathlib
 import subprocess
-import tempfile
 import unittest
 
 import numpy as np
 
 import bielle
-from samples import BEAM, PENDULUM, WHEEL
+from samples import BEAM, PENDULUM, WHEEL, WithModel
 
 PROGRAM = os.path.join(os.environ["BIELLE_PROGRAMS"], "bielle-mechanism")
 # Two parts that the ground holds, and a bar between them that is longer than their distance.
@@ -35,18 +34,7 @@ analysis: [{type: static}]
 """
 
 
-class Models(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
-    def write(self, text, name="model.yaml"):
-        path = os.path.join(self.folder, name)
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(text)
-        return path
-
+class Models(WithModel):
     def expect_same_refusal(self, kind, status, path):
         """Python raises what the program prints."""
         done = subprocess.run([PROGRAM, path, "-o", os.path.join(self.folder, "out.h5"), "--quiet"], text=True,
@@ -59,7 +47,7 @@ class Models(unittest.TestCase):
         return str(caught.exception)
 
     def test_a_wrong_key(self):
-        sentence = self.expect_same_refusal(bielle.InputError, 1, self.write(PENDULUM.replace("damping:", "dampng:")))
+        sentence = self.expect_same_refusal(bielle.InputError, 1, self.write_model(PENDULUM.replace("damping:", "dampng:")))
         self.assertIn("did you mean 'damping'?", sentence)
         self.assertIn("model.yaml:11: joints.shoulder:", sentence)
 
@@ -67,10 +55,10 @@ class Models(unittest.TestCase):
         self.expect_same_refusal(bielle.InputError, 1, os.path.join(self.folder, "nowhere.yaml"))
 
     def test_a_model_that_cannot_be_assembled(self):
-        self.expect_same_refusal(bielle.ComputationError, 2, self.write(OPEN))
+        self.expect_same_refusal(bielle.ComputationError, 2, self.write_model(OPEN))
 
     def test_a_singular_model(self):
-        self.assertIn("wheel", self.expect_same_refusal(bielle.ComputationError, 2, self.write(SINGULAR)))
+        self.assertIn("wheel", self.expect_same_refusal(bielle.ComputationError, 2, self.write_model(SINGULAR)))
 
     def test_no_analysis(self):
         with self.assertRaisesRegex(bielle.InputError, "nothing to do"):
@@ -107,7 +95,7 @@ class Models(unittest.TestCase):
                          "model: 'engine.yaml' is the name of a file, which bielle.load reads")
         self.assertIn("bielle.load reads", self.refusal(lambda: bielle.read(pathlib.Path("engine"))))
         self.assertIn("bielle.read reads texts", self.refusal(lambda: bielle.run(PENDULUM)))
-        path = self.write(PENDULUM)
+        path = self.write_model(PENDULUM)
         self.assertEqual(bielle.load(pathlib.Path(path)).path, path)
 
     def test_words_of_yaml_in_dictionaries_stay_texts(self):
@@ -120,7 +108,7 @@ class Models(unittest.TestCase):
             self.assertEqual(titled(title), title)
 
     def test_parameters(self):
-        path = self.write(PENDULUM)
+        path = self.write_model(PENDULUM)
         self.assertEqual(bielle.load(path).parameters, {"mass": 2, "length": 1})
         self.assertEqual(bielle.load(path, parameters={"mass": 1 / 3}).parameters["mass"], 1 / 3)
         self.assertEqual(bielle.load(path, parameters={"length": "2*mass"}).parameters["length"], 4)
@@ -141,7 +129,7 @@ class Models(unittest.TestCase):
         self.assertEqual(bielle.read(WHEEL).inputs, ["torque"])
 
     def test_describe_is_what_check_prints(self):
-        path = self.write(BEAM)
+        path = self.write_model(BEAM)
         done = subprocess.run([PROGRAM, path, "--check"], text=True, capture_output=True, check=True)
         self.assertEqual(bielle.load(path).describe(), done.stdout)
 
@@ -152,14 +140,14 @@ class Models(unittest.TestCase):
         self.assertTrue(doubts[0].startswith("model: gravity: "), doubts[0])
 
     def test_files_are_relative_to_the_folder(self):
-        self.write("0 0\n1 1\n", "way.csv")
+        self.write_model("0 0\n1 1\n", "way.csv")
         keys = {"nodes": {"p": {"motion": {"x": "table('way.csv', t)"}}},
                 "elements": {"m": {"type": "point_mass", "node": "p", "mass": 1}}}
         bielle.read(keys, folder=self.folder)
         self.assertIn("way.csv", self.refusal(lambda: bielle.read(keys)))
 
     def test_a_run_replaces_results_only(self):
-        path = self.write(PENDULUM)
+        path = self.write_model(PENDULUM)
         sentence = self.refusal(lambda: bielle.run(path, path))
         self.assertIn("no results file", sentence)
         session = bielle.load(path).session()

@@ -5,7 +5,8 @@ import sys
 
 import numpy as np
 
-REPOSITORY = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", ".."))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+from in_folder import REPOSITORY, InFolder  # noqa: E402, F401
 sys.path.insert(0, os.path.join(REPOSITORY, "tools"))
 
 SIX = [[0, 1, 3, 7], [0, 3, 2, 7], [0, 2, 6, 7], [0, 6, 4, 7], [0, 4, 5, 7], [0, 5, 1, 7]]  # tetrahedra of a cube

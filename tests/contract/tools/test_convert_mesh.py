@@ -2,13 +2,12 @@
 
 import os
 import subprocess
-import tempfile
 import unittest
 
 import meshio
 import numpy as np
 
-from box_mesh import REPOSITORY, area, box
+from box_mesh import REPOSITORY, InFolder, area, box
 from gmsh_library import GmshFile
 
 
@@ -20,18 +19,13 @@ SIZE = (0.3, 0.2, 0.1)
 VOLUME = 0.3 * 0.2 * 0.1
 
 
-class Converter(unittest.TestCase):
+class Converter(InFolder):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
+        super().setUp()
         self.points, self.cells = box(size=SIZE)
         self.left = np.flatnonzero(self.points[:, 0] == 0)
         middle = self.points[self.cells].mean(axis=1)
         self.half = np.flatnonzero(middle[:, 0] < 0.15)
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
 
     def run_tool(self, name):
         return subprocess.run(["/usr/bin/python3", CONVERT, self.path(name), self.path("out.msh")], capture_output=True,
@@ -70,10 +64,6 @@ class Converter(unittest.TestCase):
         for part in parts:
             self.assertIn(part, done.stderr)
         self.assertFalse(os.path.exists(self.path("out.msh")))
-
-    def write(self, name, text):
-        with open(self.path(name), "w", encoding="utf-8") as file:
-            file.write(text)
 
     def inp(self, extra="", kind="C3D10", elset=""):
         nodes = "".join(f"{i + 1}, {x:.17g}, {y:.17g}, {z:.17g}\n" for i, (x, y, z) in enumerate(self.points))

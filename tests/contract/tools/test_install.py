@@ -3,10 +3,9 @@
 import os
 import stat
 import subprocess
-import tempfile
 import unittest
 
-from box_mesh import REPOSITORY
+from box_mesh import REPOSITORY, InFolder
 
 INSTALL = os.path.join(REPOSITORY, "tools", "install")
 ALL_THERE = "echo installed"
@@ -14,11 +13,9 @@ ONE_MISSING = 'case "$*" in *libgmsh-dev*) exit 1 ;; esac; echo installed'
 LOGGED = 'echo "$*" >> "$LOG"'
 
 
-class Install(unittest.TestCase):
+class Install(InFolder):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
+        super().setUp()
         self.log = os.path.join(self.folder, "log")
         for name in ("bash", "sed", "env", "mktemp", "rm", "tail", "readlink", "dirname"):
             os.symlink(f"/usr/bin/{name}", os.path.join(self.folder, name))

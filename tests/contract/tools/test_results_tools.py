@@ -3,7 +3,6 @@
 import os
 import re
 import subprocess
-import tempfile
 import unittest
 import xml.etree.ElementTree as ElementTree
 
@@ -13,19 +12,14 @@ import meshio
 import numpy as np
 
 import synthetic_results as synthetic
-from box_mesh import REPOSITORY
+from box_mesh import REPOSITORY, InFolder
 
 
-class ResultsTool(unittest.TestCase):
+class ResultsTool(InFolder):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
+        super().setUp()
         self.points, self.cells = synthetic.write_superelement(self.path("box.h5"))
         self.time = synthetic.write_results(self.path("run.h5"), "box.h5")
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
 
     def run_tool(self, tool, *arguments):
         command = ["/usr/bin/python3", "-B", os.path.join(REPOSITORY, "tools", tool), *arguments]

@@ -1,64 +1,16 @@
 """study: every line of a table becomes a run, failed ones among them; a stand-in plays bielle-mechanism."""
 
 import os
-import stat
+import signal
 import subprocess
-import tempfile
+import time
 import unittest
 
 import h5py
 
-from box_mesh import REPOSITORY
+from study_stand_in import STAND_IN, STUDY, WithStandIn
 
-STUDY = os.path.join(REPOSITORY, "tools", "study")
-# Takes the arguments of bielle-mechanism; doubles the parameter `speed`, fails when `mass` is negative.
-STAND_IN = """#!/usr/bin/python3
-import os, sys, h5py
-arguments = sys.argv[1:]
-values = dict(a.split("=", 1) for k, a in enumerate(arguments) if arguments[k - 1] == "--set")
-if "sped" in values:
-    print("bielle-mechanism: error: --set sped=1: model.yaml has no parameter 'sped'; did you mean 'speed'?", file=sys.stderr)
-    sys.exit(1)
-if values["speed"] == "13":
-    os.kill(os.getpid(), 9)
-if float(values["mass"]) < 0:
-    print("model.yaml:3: mass: expected a positive number", file=sys.stderr)
-    sys.exit(1)
-with h5py.File(arguments[arguments.index("-o") + 1], "w") as file:
-    file.attrs["format"] = "bielle results"
-    file["analysis_1/time"] = [0.0, 1.0]
-    file["analysis_1/joints/main/rate"] = [[0.0], [2 * float(values["speed"])]]
-    file["analysis_1/nodes/hub/position"] = [[0.0, 0, 0], [1, 0, 0]]
-    file["analysis_1/measures/power"] = [0.0, 1.0]
-    file["analysis_1/events/time"] = [0.5]
-    file["crossings"] = "event 'landed'"
-    for name in ("time", "joints", "nodes", "measures", "events"):
-        file[name] = h5py.SoftLink("/analysis_1/" + name)
-"""
-
-
-class Study(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-        self.write("bielle-mechanism", STAND_IN)
-        os.chmod(self.path("bielle-mechanism"), stat.S_IRWXU)
-        self.write("model.yaml", "mechanism: a\nparameters: {speed: 1, mass: 2}\n")
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
-    def write(self, name, text):
-        with open(self.path(name), "w", encoding="utf-8", errors="surrogatepass") as file:
-            file.write(text)
-
-    def study(self, table, *options):
-        self.write("table.csv", table)
-        return subprocess.run(["/usr/bin/python3", "-B", STUDY, self.path("model.yaml"), self.path("table.csv"), "-o",
-                               self.path("study.h5"), *options], capture_output=True, text=True, timeout=120,
-                              env={**os.environ, "BIELLE_BIN": self.folder})
-
+class Study(WithStandIn):
     def test_gathers_all_runs_in_order(self):
         done = self.study("speed, mass\n1, 2\n2, 2\n\n# a comment\n3.5, 4\n", "--jobs", "2")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -69,6 +21,7 @@ class Study(unittest.TestCase):
             for number, speed in ((1, 1), (2, 2), (3, 3.5)):
                 self.assertEqual(file[f"runs/{number}/joints/main/rate"][1, 0], 2 * speed)
                 self.assertNotIn("nodes", file[f"runs/{number}"])
+        self.assertEqual([name for name in os.listdir(self.folder) if "study" in name], ["study.h5"])
 
     def test_keeps_what_is_asked_for(self):
         self.assertEqual(self.study("speed,mass\n1,2\n", "--keep", "nodes").returncode, 0)
@@ -78,7 +31,7 @@ class Study(unittest.TestCase):
     def test_a_failed_run_is_told_and_the_others_are_kept(self):
         done = self.study("speed,mass\n1,2\n1,-2\n2,2\n")
         self.assertEqual(done.returncode, 2)
-        self.assertIn("expected a positive number", done.stdout)
+        self.assertIn("run 2: speed = 1, mass = -2: FAILED: model.yaml:3: mass: expected a positive number", done.stdout)
         with h5py.File(self.path("study.h5")) as file:
             self.assertEqual(file["status"][:].tolist(), [0, 1, 0])
             self.assertIn("positive", file["message"].asstr()[1])
@@ -93,7 +46,7 @@ class Study(unittest.TestCase):
 
     def test_a_parameter_that_no_run_has_ends_the_study(self):
         self.refuse("sped,mass\n1,2\n2,2\n1,3\n", "study: --set sped=1: model.yaml has no parameter 'sped'; did you mean 'speed'?")
-        self.assertEqual([name for name in os.listdir(self.folder) if "study.h5" in name], [])
+        self.assertEqual([name for name in os.listdir(self.folder) if "study." in name], [])
 
     def test_only_studies_are_replaced(self):
         os.mkdir(self.path("folder"))
@@ -109,17 +62,23 @@ class Study(unittest.TestCase):
     def test_measures_and_events_are_kept_and_all_is_kept_once(self):
         self.assertEqual(self.study("speed,mass\n1,2\n").returncode, 0)
         with h5py.File(self.path("study.h5")) as file:
-            self.assertEqual(sorted(file["runs/1"]), ["crossings", "events", "joints", "measures", "time"])
-        self.assertEqual(self.study("speed,mass\n1,2\n", "--keep", "all").returncode, 0)
-        with h5py.File(self.path("study.h5")) as file:
-            self.assertEqual(file["runs/1"].get("joints", getlink=True).path, "/runs/1/analysis_1/joints")
-            self.assertEqual(file["runs/1/joints/main/rate"][1, 0], 2)
+            self.assertEqual(sorted(file["runs/1"]), ["crossings", "eigen", "events", "joints", "measures", "time"])
+        for _ in range(2):  # a run that is taken over keeps its links
+            self.assertEqual(self.study("speed,mass\n1,2\n", "--keep", "all").returncode, 0)
+            with h5py.File(self.path("study.h5")) as file:
+                self.assertEqual(file["runs/1"].get("joints", getlink=True).path, "/runs/1/analysis_1/joints")
+                self.assertEqual(file["runs/1/joints/main/rate"][1, 0], 2)
+        self.assertEqual(self.runs(), ["1 2", "1 2"])  # `all` is more than was kept at first
 
     def test_runs_with_the_same_values_and_a_run_that_was_killed_are_told(self):
         done = self.study("speed,mass\n1,2\n13,2\n1,2\n")
         self.assertIn("run 3 has the values of run 1", done.stderr)
         self.assertEqual(done.returncode, 2)
         self.assertIn("speed = 13, mass = 2: FAILED: ended by signal 9", done.stdout)
+        self.assertEqual(self.runs(), ["1 2", "13 2"])
+        with h5py.File(self.path("study.h5")) as file:
+            self.assertEqual(file["status"][:].tolist(), [0, -9, 0])
+            self.assertEqual(file["runs/3/joints/main/rate"][1, 0], 2)
 
     def test_wrong_tables_are_told_with_their_line(self):
         for table, part in (("", "is empty"), ("speed,mass\n", "no runs"),
@@ -132,6 +91,74 @@ class Study(unittest.TestCase):
             self.assertEqual(done.returncode, 1)
             self.assertIn(part, done.stderr)
             self.assertNotIn("Traceback", done.stderr)
+
+
+class Resumed(WithStandIn):
+    def test_finished_runs_are_not_made_again(self):
+        self.study("speed,mass\n1,2\n1,-2\n2,2\n")
+        self.assertEqual(self.runs(), ["1 -2", "1 2", "2 2"])
+        done = self.study("mass,speed\n2,3\n2,2\n-2,1\n2,1\n")  # in another order, with a new run
+        self.assertEqual(self.runs(), ["-2 1", "2 3"])
+        self.assertIn("2 of 4 runs are there from before", done.stdout)
+        with h5py.File(self.path("study.h5")) as file:
+            self.assertEqual(file["status"][:].tolist(), [0, 0, 1, 0])
+            self.assertEqual([file[f"runs/{k}/joints/main/rate"][1, 0] for k in (1, 2, 4)], [6, 4, 2])
+
+    def test_what_has_changed_is_made_anew(self):
+        table = "speed,mass\n1,2\n"
+        self.write("cam.csv", "0, 1\n")
+        self.write("model.yaml", "cam: {file: cam.csv}\n")
+        self.study(table)
+        self.assertEqual(self.runs(), ["1 2"])
+        self.study(table)
+        self.assertEqual(self.runs(), [])
+        for change in (lambda: self.write("cam.csv", "0, 2\n"), lambda: self.write("model.yaml", "cam: {file:  cam.csv}\n"),
+                       lambda: self.write("bielle-mechanism", STAND_IN + "\n")):
+            change()
+            self.study(table)
+            self.assertEqual(self.runs(), ["1 2"])
+        self.study(table, "--fresh")
+        self.assertEqual(self.runs(), ["1 2"])
+
+    def test_a_study_that_is_interrupted_or_killed_goes_on(self):
+        for number in (signal.SIGINT, signal.SIGKILL):
+            self.goes_on_after(number)
+
+    def goes_on_after(self, number):
+        table = "speed,mass\n1,2\n2,2\n1000,2\n"
+        self.write("table.csv", table)
+        child = subprocess.Popen(["/usr/bin/python3", "-B", STUDY, "model.yaml", "table.csv", "--jobs", "1"], cwd=self.folder,
+                                 env={**os.environ, "BIELLE_BIN": self.folder}, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                 text=True, start_new_session=True, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+        for _ in range(600):
+            if os.path.exists(self.path("log")):
+                with open(self.path("log"), encoding="utf-8") as log:
+                    if "1000" in log.read():
+                        break
+            time.sleep(0.1)
+        os.killpg(child.pid, number)
+        said = child.communicate()[1]
+        if number == signal.SIGINT:
+            self.assertEqual(child.returncode, 130)
+            self.assertIn("note: interrupted: finished runs are kept in", said)
+            self.assertNotIn("Traceback", said)
+        self.runs()
+        done = self.call("model.yaml", "--grid", "speed=1,2,3", "--set", "mass=2", "-o", "table.h5")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.runs(), ["2 3"])
+        self.assertFalse(os.path.exists(self.path("table.runs")))
+        os.remove(self.path("table.h5"))
+
+    def test_gathering_something_else_needs_runs_only_where_it_was_not_kept(self):
+        self.study("speed,mass\n1,2\n")
+        self.runs()
+        self.study("speed,mass\n1,2\n", "--gather", "rate=max joints/main/rate")
+        self.assertEqual(self.runs(), [])
+        self.study("speed,mass\n1,2\n", "--gather", "reach=last nodes/hub/position[z]")
+        self.assertEqual(self.runs(), ["1 2"])
+        with h5py.File(self.path("study.h5")) as file:
+            self.assertEqual(list(file["runs/1/nodes/hub"]), ["position"])
+            self.assertEqual(file["gathered/reach"][0], 2)
 
 
 if __name__ == "__main__":

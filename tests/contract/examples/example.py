@@ -1,0 +1,41 @@
+"""An example of mechanism/examples as a user runs it: once for all tests of a class."""
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+from in_folder import REPOSITORY  # noqa: E402
+
+sys.path.insert(0, os.path.join(REPOSITORY, "tools"))
+from bielle_tools.results_file import Results  # noqa: E402
+
+PROGRAM = os.path.join(os.environ["BIELLE_PROGRAMS"], "bielle-mechanism")
+EXAMPLES = os.path.join(REPOSITORY, "mechanism", "examples")
+
+
+class ExampleTest(unittest.TestCase):
+    """results, time: of the run of `model`; superelement: the name by which the model knows BIELLE_SUPERELEMENT."""
+
+    model = ""
+    superelement = ""
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = folder.name
+        path = os.path.join(EXAMPLES, cls.model)
+        if cls.superelement:
+            path = shutil.copy(path, cls.folder)
+            os.symlink(os.environ["BIELLE_SUPERELEMENT"], os.path.join(cls.folder, cls.superelement))
+        target = os.path.join(cls.folder, "run.h5")
+        done = subprocess.run([PROGRAM, path, "-o", target, "--quiet"], capture_output=True, text=True, timeout=600)
+        if done.returncode:
+            raise AssertionError(done.stderr)
+        cls.results = Results(target)
+        cls.addClassCleanup(cls.results.file.close)
+        cls.time = cls.results.time

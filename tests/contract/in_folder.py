@@ -1,0 +1,25 @@
+"""What most tests of commands and files begin with: a folder of their own that goes away with the test."""
+
+import os
+import tempfile
+import unittest
+
+REPOSITORY = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", ".."))
+
+
+class InFolder(unittest.TestCase):
+    """folder: of this test alone; `path` and `write` name files in it."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def write(self, name, text, errors="strict"):
+        """@returns the path"""
+        with open(self.path(name), "w", encoding="utf-8", errors=errors) as file:
+            file.write(text)
+        return self.path(name)
