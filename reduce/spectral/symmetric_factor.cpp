@@ -13,6 +13,7 @@
 #include <omp.h>
 #include <sys/mman.h>
 
+#include "reduce/common/free_memory.hpp"
 #include "reduce/spectral/blas.hpp"
 #include "reduce/spectral/supernodal_solver.hpp"
 
@@ -179,6 +180,23 @@ std::pair<std::int64_t, double> smallest_pivot(const cholmod_factor& factor, con
   return smallest;
 }
 
+/// What CHOLMOD allocates for the values of L, padded supernodes and all, its row indices and the largest update
+/// matrix.
+double estimated_memory(const cholmod_factor& factor) {
+  return 8e-6 *
+         (static_cast<double>(factor.xsize) + static_cast<double>(factor.ssize) + static_cast<double>(factor.maxcsize));
+}
+
+/// The machine would otherwise run out of memory minutes later, or end the process without a word.
+void refuse_what_does_not_fit(double estimate, std::int64_t unknowns) {
+  const double free = free_memory_MB();
+  if (estimate <= free) return;
+  throw ComputationError(fmt::format(
+      "the factorised stiffness matrix of {} unknowns needs about {:.0f} MB, but only {:.0f} MB of memory are "
+      "free; take a coarser mesh, end other programs, or raise the limit (ulimit -v)",
+      unknowns, estimate, free));
+}
+
 }  // namespace
 
 NotPositiveDefinite::NotPositiveDefinite(std::int64_t unknown)
@@ -226,6 +244,8 @@ SymmetricFactor::SymmetricFactor(const SymmetricMatrix& a, std::span<const std::
   statistics.flops = common->fl;
   statistics.nonzeros = static_cast<std::int64_t>(common->lnz);
   statistics.analysis_seconds = seconds_since(start);
+  statistics.estimated_MB = estimated_memory(*factor);
+  refuse_what_does_not_fit(statistics.estimated_MB, a.size);
 
   start = std::chrono::steady_clock::now();
   cholmod_l_factorize(&matrix, factor, common);

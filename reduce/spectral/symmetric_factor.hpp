@@ -20,6 +20,7 @@ struct FactorStatistics {
   std::int64_t unknowns = 0;
   std::int64_t nonzeros = 0;  ///< of L
   double flops = 0;
+  double estimated_MB = 0;  ///< of memory for the factorisation, known before it starts [1e6 bytes]
   double ordering_seconds = 0, analysis_seconds = 0, factorisation_seconds = 0;  ///< wall time
   double reciprocal_condition = 0;  ///< rough: (smallest / largest diagonal entry of L)^2
 
@@ -45,7 +46,8 @@ class SymmetricFactor {
   /// @param block_starts  first unknown of each block, then `a.size`; empty: every unknown is its own block
   /// @param threads       >= 1, for the factorisation and for solutions
   /// @throws NotPositiveDefinite also when a pivot is so small (1e-14 of its diagonal entry) that A is singular to
-  ///         working precision; ComputationError when memory does not suffice
+  ///         working precision; ComputationError when memory does not suffice, as far as the
+  ///         symbolic factorisation tells before the numerical one starts
   explicit SymmetricFactor(const SymmetricMatrix& a, std::span<const std::int64_t> block_starts = {}, int threads = 1);
   SymmetricFactor(SymmetricFactor&&) noexcept;
   SymmetricFactor& operator=(SymmetricFactor&&) noexcept;

@@ -1,8 +1,14 @@
 #include <numeric>
+#include <string>
 
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
+#include <sys/resource.h>
 
+#include "reduce/common/address_space.hpp"
+#include "reduce/common/error.hpp"
+#include "reduce/common/free_memory.hpp"
 #include "reduce/spectral/blas.hpp"
 #include "reduce/spectral/symmetric_factor.hpp"
 #include "tests/unit/reduce/spectral/laplacian.hpp"
@@ -84,6 +90,31 @@ TEST_CASE("A floating chain of springs is singular to working precision and refu
   } catch (const NotPositiveDefinite& error) {
     CHECK(error.unknown() >= n);
   }
+}
+
+TEST_CASE("A factor that will not fit is refused before it is computed, with the estimate") {
+  const SymmetricMatrix a = test::grid_laplacian({40, 40, 40});
+  const FactorStatistics whole = SymmetricFactor(a).statistics();
+  CHECK(whole.estimated_MB >= whole.memory_MB());  // padding, indices and the update matrix come on top
+  CHECK(whole.estimated_MB < 2.5 * whole.memory_MB());
+  rlimit before{};
+  REQUIRE(getrlimit(RLIMIT_AS, &before) == 0);
+  // Lowers the limit until less is left than the factor needs, yet enough for its symbolic analysis.
+  const double wanted = 0.9 * whole.estimated_MB;
+  rlimit lower = before;
+  lower.rlim_cur = address_space() + static_cast<rlim_t>(1e6 * wanted);
+  REQUIRE(setrlimit(RLIMIT_AS, &lower) == 0);
+  std::string said;
+  const double left = free_memory_MB();
+  try {
+    const SymmetricFactor factor(a);
+  } catch (const ComputationError& error) {
+    said = error.what();
+  }
+  setrlimit(RLIMIT_AS, &before);
+  CHECK(left == Approx(wanted).margin(1));
+  CHECK_THAT(said, Catch::Contains(fmt::format("needs about {:.0f} MB", whole.estimated_MB)));
+  CHECK_NOTHROW(SymmetricFactor(a));
 }
 
 TEST_CASE("The BLAS says what it is") {

@@ -1,0 +1,10 @@
+// How much memory the process may still take.
+#pragma once
+
+namespace bielle {
+
+/// The less of what the machine has left (Linux: MemAvailable and free swap) and what a limit of the address space
+/// (`ulimit -v`) leaves [MB = 1e6 bytes]; infinite where neither is known. Limits of containers are not seen.
+double free_memory_MB();
+
+}  // namespace bielle
