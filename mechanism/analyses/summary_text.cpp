@@ -36,9 +36,10 @@ std::string format_moved(const StartReport& start) {
   for (std::size_t k = 0; k < std::min(most_moved, start.moved_coordinates.size()); ++k) {
     const MovedCoordinate& coordinate = start.moved_coordinates[k];
     const double change = coordinate.to - coordinate.from;
-    text += fmt::format("    {}: {}, to {:.6g} {}\n", coordinate.name,
-                        coordinate.units == "rad" ? with_degrees(change) : fmt::format("{:.3g} {}", change, coordinate.units),
-                        coordinate.to, coordinate.units);
+    text += fmt::format(
+        "    {}: {}, to {:.6g} {}\n", coordinate.name,
+        coordinate.units == "rad" ? with_degrees(change) : fmt::format("{:.3g} {}", change, coordinate.units),
+        coordinate.to, coordinate.units);
   }
   return text + rest(start.moved_coordinates.size(), "coordinates");
 }
@@ -55,7 +56,8 @@ std::string format_start(const StartReport& start) {
     text += fmt::format("  static equilibrium moved node '{}' by {:.3g} m\n", start.settled_node, start.settled);
   if (start.unstable > 0)
     text += fmt::format(
-        "  the static equilibrium is unstable: its stiffness is negative along {}, most at {}. It stands as on its tip\n",
+        "  the static equilibrium is unstable: its stiffness is negative along {}, most at {}. It stands as on its "
+        "tip\n",
         counted(start.unstable, "motion"), start.unstable_motion);
   if (!start.held.empty()) text += fmt::format("  {}\n", describe_held(start.held));
   if (start.balanced > 1e-9)
@@ -71,7 +73,8 @@ std::string format_start(const StartReport& start) {
     text += fmt::format("  start velocities were changed by up to {:.3g} m/s to satisfy joints and drives\n",
                         start.velocity_change);
   if (!start.following.empty())
-    text += fmt::format("  start rates that follow from others, and agree with them: {}\n", fmt::join(start.following, ", "));
+    text += fmt::format("  start rates that follow from others, and agree with them: {}\n",
+                        fmt::join(start.following, ", "));
   return text;
 }
 
@@ -111,15 +114,34 @@ std::string format_mobility(const Session& session) {
         "freedom away and may bear any force: are axes and positions exact?\n",
         name);
   if (const auto joints = joints_not_unique(session.system(), session.acting(), session.state()); !joints.empty())
-    text += fmt::format("  {}{}\n", describe_not_unique(joints),
-                        session.system().reads_reactions() ? ", and forces that depend on them (friction) are of these"
-                                                           : "");
+    text += fmt::format(
+        "  {}{}\n", describe_not_unique(joints),
+        session.system().reads_reactions() ? ", and forces that depend on them (friction) are of these" : "");
   return text;
 }
 
 std::string format_steps(long steps, long iterations, long records) {
   return fmt::format("  {}, {:.2f} Newton iterations per step, {} recorded", counted(steps, "step"),
                      static_cast<double>(iterations) / static_cast<double>(steps), counted(records, "row"));
+}
+
+std::string format_setting(const LinearisedSetting& setting, const char* what) {
+  constexpr double balanced = 1e-6;  // of the largest force: equilibria are found to 1e-9
+  if (!setting.steadiness)
+    return setting.unbalance <= balanced
+               ? ""
+               : fmt::format(
+                     "  the state is at rest but no equilibrium: {} lacks {:.2g} of the largest force; {} are those of "
+                     "the equations as they are there (a static analysis before this one finds the equilibrium)\n",
+                     setting.unbalanced, setting.unbalance, what);
+  std::string text = fmt::format("  in motion, seen in axes that {}\n",
+                                 setting.axes == ModeAxes::turning ? "turn with each node" : "do not turn");
+  if (!setting.steadiness->steady())
+    text += fmt::format(
+        "  the motion is not steady, or not in axes of these kinds: the equations change while it goes on, and {} are "
+        "those of the equations as they are at this moment\n",
+        what);
+  return text;
 }
 
 }  // namespace bielle::mechanism

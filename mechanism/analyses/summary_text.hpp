@@ -17,6 +17,9 @@ std::string format_mobility(const Session& session);
 std::string describe_not_unique(const std::vector<std::string>& joints);
 /// "joined to nothing that is held: the part of node 'lost'"; nothing where all parts are.
 std::string describe_loose(const System& system);
+/// What a user should know of the state that small motions are about, and of their axes.
+/// @param what  "modes": what belongs to the equations as they are there
+std::string format_setting(const LinearisedSetting& setting, const char* what);
 /// @param records  rows
 std::string format_steps(long steps, long iterations, long records);
 
