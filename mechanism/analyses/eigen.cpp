@@ -18,7 +18,6 @@ namespace bielle::mechanism {
 namespace {
 
 constexpr std::size_t most_listed = 50;
-constexpr double balanced = 1e-6;  // of the largest force: equilibria are found to 1e-9
 
 /// "element 'rod' 93 %, joint 'main' 6 %": what holds a twentieth of the energy or more, the largest first.
 std::string main_parts(const ModeParts& parts, Eigen::Index mode) {
@@ -67,21 +66,7 @@ std::string format_remarks(const ModesReport& report) {
                         growing.size() == 1 ? "mode" : "modes", fmt::join(growing, ", "),
                         growing.size() == 1 ? "grows" : "grow", std::numbers::ln2 / fastest);
   if (rigid > 0) text += fmt::format("  {}: no force resists\n", counted(rigid, "rigid mode"));
-  if (report.unbalance > balanced)
-    text += fmt::format(
-        "  the state is at rest but no equilibrium: {} lacks {:.2g} of the largest force; modes are those of the "
-        "equations as they are there (a static analysis before this one finds the equilibrium)\n",
-        report.unbalanced, report.unbalance);
-  if (report.steadiness) {
-    const Steadiness& steadiness = *report.steadiness;
-    text += fmt::format("  in motion, seen in axes that {}\n",
-                        report.axes == ModeAxes::turning ? "turn with each node" : "do not turn");
-    if (!steadiness.steady())
-      text +=
-          "  the motion is not steady, or not in axes of these kinds: the equations change while it goes on, and modes "
-          "are "
-          "those of the equations as they are at this moment\n";
-  }
+  text += format_setting(report, "modes");
   return text;
 }
 

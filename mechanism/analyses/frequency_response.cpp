@@ -1,61 +1,17 @@
 #include "mechanism/analyses/frequency_response.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "mechanism/analyses/analysis_table.hpp"
+#include "mechanism/analyses/response_reader.hpp"
 #include "mechanism/analyses/rotation_reader.hpp"
-#include "mechanism/measures/input_measure.hpp"
-#include "mechanism/reading/names.hpp"
+#include "mechanism/analyses/summary_text.hpp"
 #include "reduce/common/counted.hpp"
 
 namespace bielle::mechanism {
 namespace {
-
-/// Names of entries that are read as measures.
-template <class Kind>
-std::string named_measure(const YamlValue& item, const Model& model, const char* of) {
-  const std::string name = item.text();
-  std::vector<std::string> names;
-  for (const Member& member : model.members()) {
-    if (member.entry.section == Section::measures && dynamic_cast<const Kind*>(member.component.get()))
-      names.push_back(member.entry.name);
-  }
-  if (std::find(names.begin(), names.end(), name) == names.end())
-    item.fail(fmt::format("there is no {} '{}'{}", of, name, did_you_mean(name, names)));
-  return name;
-}
-
-struct Directed {
-  int node;
-  bool turning;
-  Vector3 direction;
-  std::string name;
-};
-
-/// `{node: tip, direction: z}`. @param straight,turning  words of `quantity`
-Directed read_directed(const YamlValue& item, const Model& model, const char* straight, const char* turning,
-                       const char* what) {
-  item.check_keys({"node", "direction", "quantity"}, what);
-  Directed result;
-  result.node = node_named_by(item.at("node"), model);
-  const std::string quantity =
-      item.has("quantity") ? item.at("quantity").word({straight, turning}, "a quantity") : std::string(straight);
-  result.turning = quantity == turning;
-  const YamlValue direction = item.at("direction");
-  std::string axis;
-  if (direction.is_sequence()) {
-    result.direction = direction.direction();
-    axis = fmt::format("({:.3g}, {:.3g}, {:.3g})", result.direction.x(), result.direction.y(), result.direction.z());
-  } else {
-    axis = direction.word({"x", "y", "z"}, "a direction (x, y, z or a vector)");
-    result.direction = Vector3::Unit(axis[0] - 'x');
-  }
-  result.name = fmt::format("{} {} of node '{}'", quantity, axis, model.node(result.node).name);
-  return result;
-}
 
 /// `{from: 1, to: 100, count: 200, spacing: logarithmic}`, or a list.
 std::vector<double> read_frequencies(const YamlValue& entry) {
@@ -88,24 +44,8 @@ std::vector<double> read_frequencies(const YamlValue& entry) {
 std::unique_ptr<Analysis> read_frequency_response(const YamlValue& entry, const Model& model) {
   entry.check_keys({"type", "inputs", "outputs", "frequencies", "rotation"}, "the analysis 'frequency_response'");
   FrequencyResponseOptions options;
-  for (const YamlValue& item : entry.at("inputs").items()) {
-    if (item.is_map()) {
-      const Directed directed = read_directed(item, model, "force", "moment", "an input: a force on a node");
-      options.inputs.push_back({directed.name, directed.node, directed.turning, directed.direction});
-    } else {
-      options.inputs.push_back({named_measure<InputMeasure>(item, model, "input"), -1, false, Vector3::Zero()});
-    }
-  }
-  for (const YamlValue& item : entry.at("outputs").items()) {
-    if (item.is_map()) {
-      const Directed directed = read_directed(item, model, "displacement", "rotation", "an output: what a node does");
-      options.outputs.push_back({directed.name, directed.node, directed.turning, directed.direction});
-    } else {
-      options.outputs.push_back({named_measure<Measure>(item, model, "measure"), -1, false, Vector3::Zero()});
-    }
-  }
-  if (options.inputs.empty()) entry.at("inputs").fail("expected at least one input");
-  if (options.outputs.empty()) entry.at("outputs").fail("expected at least one output");
+  options.inputs = read_response_inputs(entry, model);
+  options.outputs = read_response_outputs(entry, model);
   options.frequencies = read_frequencies(entry.at("frequencies"));
   if (const auto rotation = entry.find("rotation")) options.rotation = read_rotation(*rotation);
   return std::make_unique<FrequencyResponseAnalysis>(std::move(options));
@@ -135,6 +75,7 @@ void FrequencyResponseAnalysis::solve(Session& session, AnalysisSummary& summary
   summary.text =
       fmt::format("frequency_response, {} from {:.6g} to {:.6g} Hz\n", counted(frequencies, "frequency", "frequencies"),
                   options_.frequencies.front(), options_.frequencies.back());
+  summary.text += format_setting(result, "responses");
   for (std::size_t i = 0; i < outputs; ++i)
     for (std::size_t j = 0; j < inputs; ++j) {
       const auto size = [&](std::size_t k) {

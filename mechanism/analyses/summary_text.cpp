@@ -136,4 +136,23 @@ std::string format_steps(long steps, long iterations, long records) {
                      static_cast<double>(iterations) / static_cast<double>(steps), counted(records, "row"));
 }
 
+std::string format_setting(const LinearisedSetting& setting, const char* what) {
+  constexpr double balanced = 1e-6;  // of the largest force: equilibria are found to 1e-9
+  if (!setting.steadiness)
+    return setting.unbalance <= balanced
+               ? ""
+               : fmt::format(
+                     "  the state is at rest but no equilibrium: {} lacks {:.2g} of the largest force; {} are those of "
+                     "the equations as they are there (a static analysis before this one finds the equilibrium)\n",
+                     setting.unbalanced, setting.unbalance, what);
+  std::string text = fmt::format("  in motion, seen in axes that {}\n",
+                                 setting.axes == ModeAxes::turning ? "turn with each node" : "do not turn");
+  if (!setting.steadiness->steady())
+    text += fmt::format(
+        "  the motion is not steady, or not in axes of these kinds: the equations change while it goes on, and {} are "
+        "those of the equations as they are at this moment\n",
+        what);
+  return text;
+}
+
 }  // namespace bielle::mechanism

@@ -21,6 +21,9 @@ std::string describe_not_unique(const std::vector<std::string>& joints);
 std::string describe_loose(const System& system);
 /// "energy at the end [J]: kinetic .., .."
 std::string format_energies(const Energy& energy);
+/// What a user should know of the state that small motions are about, and of their axes.
+/// @param what  "modes": what belongs to the equations as they are there
+std::string format_setting(const LinearisedSetting& setting, const char* what);
 /// @param records  rows
 std::string format_steps(long steps, long iterations, long records);
 

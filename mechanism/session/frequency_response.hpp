@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "mechanism/math/types.hpp"
-#include "mechanism/solvers/linearised/equations.hpp"
+#include "mechanism/session/linearised_setting.hpp"
 #include "mechanism/solvers/linearised/steady_rotation.hpp"
 
 namespace bielle::mechanism {
@@ -35,12 +35,11 @@ struct FrequencyResponseOptions {
   std::optional<SteadyRotation> rotation = {};
 };
 
-struct FrequencyResponse {
+struct FrequencyResponse : LinearisedSetting {
   /// Of each frequency (outputs, inputs): the output's complex amplitude per unit of the input, both as Re(x exp(i w
   /// t)).
   std::vector<Eigen::MatrixXcd> response;
   std::vector<std::string> output_units;
-  ModeAxes axes = ModeAxes::inertial;
 };
 
 }  // namespace bielle::mechanism

@@ -2,11 +2,10 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
+#include "mechanism/session/linearised_setting.hpp"
 #include "mechanism/solvers/linearised/mode_parts.hpp"
 #include "mechanism/solvers/linearised/modes.hpp"
-#include "mechanism/solvers/linearised/steadiness.hpp"
 #include "mechanism/solvers/linearised/steady_rotation.hpp"
 #include "mechanism/solvers/start/start_report.hpp"
 
@@ -24,13 +23,9 @@ struct ModesOptions {
   std::optional<SteadyRotation> rotation = {};  ///< modes about the steady rotation that begins at the state
 };
 
-struct ModesReport {
+struct ModesReport : LinearisedSetting {
   StandingState about;
   Modes found;  ///< shapes of unit size (unit_factor)
-  ModeAxes axes = ModeAxes::inertial;
-  std::optional<Steadiness> steadiness;  ///< nothing at rest
-  double unbalance = 0;                  ///< at rest: the largest missing force relative to the largest that acts
-  std::string unbalanced;                ///< its equation, with the force: "force y at node 'pin'"
   MemberEnergies energies;
 };
 

@@ -31,6 +31,7 @@
 #include "mechanism/session/recording.hpp"
 #include "mechanism/session/result_sink.hpp"
 #include "mechanism/session/results_rows.hpp"
+#include "mechanism/session/state_space.hpp"
 #include "mechanism/session/statics_options.hpp"
 #include "mechanism/solvers/constraints/reaction_norm.hpp"
 #include "mechanism/solvers/constraints/redundancy.hpp"
@@ -88,6 +89,9 @@ class Session {
   /// How small motions about the present state answer to harmonic inputs. @throws InputError for names that the model
   /// does not have; ComputationError at a frequency of an undamped mode
   FrequencyResponse frequency_response(const FrequencyResponseOptions& options) const;
+  /// Small motions about the present state as a state space, without constraints. @throws InputError for names that the
+  /// model does not have; ComputationError where an output follows the derivative of an input, or nothing can move
+  StateSpace state_space(const StateSpaceOptions& options) const;
 
   // -- reading
   const State& state() const { return *shown_; }  ///< of the motion, while one is under way

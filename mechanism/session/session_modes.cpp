@@ -58,14 +58,7 @@ ModesReport Session::modes(const ModesOptions& options) const {
   if (options.rotation) settle_in_rotation(system_, report.about.environment, *options.rotation, report.about.state);
   const State& state = report.about.state;
   const Environment& environment = report.about.environment;
-  report.steadiness = find_steadiness(system_, environment, state);
-  if (report.steadiness) {
-    report.axes = report.steadiness->axes();
-  } else {
-    int equation = -1;
-    report.unbalance = unbalance(system_, environment, state, equation);
-    if (equation >= 0) report.unbalanced = system_.equation_name(equation);
-  }
+  static_cast<LinearisedSetting&>(report) = linearised_setting(system_, environment, state);
   const LinearisedEquations equations = linearised_equations(system_, environment, state, report.axes);
   try {
     report.found = find_modes(equations, options.search);

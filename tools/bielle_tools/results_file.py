@@ -66,7 +66,7 @@ class Results:
                     raise InputError(f"'{path}' holds no analysis {analysis} (it has {known})")
                 self.root = self.file[f"analysis_{analysis}"]
             self._stacked = StackedLayout(self.root) if _text(self.file.attrs.get("layout", "named")) == "stacked" else None
-            other = "eigen" in self.root or "frequency_response" in self.root
+            other = any(name in self.root for name in ("eigen", "frequency_response", "state_space"))
             complete = bool(np.all(self.file.attrs.get("complete", True)))
         self.time = self._times()
         if not len(self.time) and not other:

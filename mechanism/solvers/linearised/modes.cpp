@@ -6,9 +6,9 @@
 #include <memory>
 #include <numbers>
 
+#include "mechanism/solvers/linearised/finite_states.hpp"
 #include "mechanism/solvers/linearised/shifted_operator.hpp"
 #include "reduce/common/error.hpp"
-#include "reduce/common/orthogonal_factors.hpp"
 #include "reduce/common/symmetric_eigenpairs.hpp"
 #include "reduce/spectral/operator_eigenpairs.hpp"
 
@@ -19,29 +19,6 @@ using Complex = std::complex<double>;
 using VectorXc = Eigen::VectorXcd;
 using MatrixXc = Eigen::MatrixXcd;
 using Sparse = LinearisedEquations::Sparse;
-
-/// An orthonormal basis of the scaled states that satisfy the constraints and their rates.
-MatrixX consistent_states(const LinearisedEquations& e, const VectorX& scale) {
-  const int n = e.unknowns(), m = e.constraints(), dofs = e.dofs;
-  if (m == 0) return MatrixX::Identity(e.states(), e.states());
-  const MatrixX B = MatrixX(e.B), S = MatrixX(e.S), BW = MatrixX(Sparse(e.B * e.W));
-  MatrixX rows = MatrixX::Zero(2 * m, e.states());
-  for (int k = 0; k < m; ++k) {
-    if (e.nonholonomic[static_cast<std::size_t>(k)]) {
-      rows.row(k).head(n) = S.row(k);
-      rows.row(k).tail(dofs) = B.row(k).head(dofs);
-    } else {
-      rows.row(k).head(n) = B.row(k);
-      rows.row(m + k).head(n) = -BW.row(k);
-      rows.row(m + k).tail(dofs) = B.row(k).head(dofs);
-    }
-  }
-  rows *= scale.asDiagonal();
-  for (int k = 0; k < 2 * m; ++k)
-    if (const double size = rows.row(k).norm(); size > 0) rows.row(k) /= size;
-  constexpr double dependent = 1e-11;
-  return null_space(rows, dependent);
-}
 
 /// An orthonormal basis of the same span, by Gram and Schmidt twice; what rounding makes of a repeated column is left
 /// out.

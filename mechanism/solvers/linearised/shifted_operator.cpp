@@ -139,12 +139,11 @@ VectorXc ShiftedOperator::solve(const VectorXc& right) const {
   return x;
 }
 
-template <class Vector, class Matrix, class Solve>
-Vector ShiftedOperator::apply_with(const Vector& x, const Matrix& rates, typename Vector::Scalar shift,
-                                   const Solve& solution_of) const {
+/// Of [u; lambda] for T x. @param in  physical state
+template <class Vector, class Matrix>
+Vector ShiftedOperator::right_side(const Vector& in, const Matrix& rates) const {
   const LinearisedEquations& e = equations_;
   const int n = e.unknowns();
-  const Vector in = scale_.template cast<typename Vector::Scalar>().cwiseProduct(x);
   Vector w = Vector::Zero(n);
   w.head(e.dofs) = in.tail(e.dofs);
   Vector right(n + e.constraints());
@@ -155,11 +154,27 @@ Vector ShiftedOperator::apply_with(const Vector& x, const Matrix& rates, typenam
     for (int k = 0; k < e.constraints(); ++k)
       if (e.nonholonomic[static_cast<std::size_t>(k)]) right[n + k] = -of_constraints[k];
   }
-  const Vector solution = solution_of(right);
+  return right;
+}
+
+template <class Vector, class Matrix, class Solve>
+Vector ShiftedOperator::apply_with(const Vector& x, const Matrix& rates, typename Vector::Scalar shift,
+                                   const Solve& solution_of) const {
+  const LinearisedEquations& e = equations_;
+  const int n = e.unknowns();
+  const Vector in = scale_.template cast<typename Vector::Scalar>().cwiseProduct(x);
+  const Vector solution = solution_of(right_side(in, rates));
   Vector out(e.states());
   out.head(n) = solution.head(n);
   out.tail(e.dofs) = (shift * solution.head(n) + e.W * solution.head(n) + in.head(n)).head(e.dofs);
   return out.cwiseQuotient(scale_.template cast<typename Vector::Scalar>());
+}
+
+VectorX ShiftedOperator::multipliers(const VectorX& x) const {
+  if (!is_real()) throw std::logic_error("a complex shift makes complex vectors");
+  VectorX solution = right_side(VectorX(scale_.cwiseProduct(x)), real_rates_);
+  factors_->solve(solution);
+  return solution.tail(equations_.constraints());
 }
 
 VectorXc ShiftedOperator::apply(const VectorXc& x) const {

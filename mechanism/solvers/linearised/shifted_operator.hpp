@@ -39,6 +39,8 @@ class ShiftedOperator {
   /// T x of scaled states. @param x (states)
   VectorXc apply(const VectorXc& x) const;
   VectorX apply(const VectorX& x) const;  ///< of a real shift alone
+  /// The multipliers that belong to T x, of a real shift alone. @returns (constraints)
+  VectorX multipliers(const VectorX& x) const;
   /// [u; lambda] for right-hand sides of the equations of motion and of the constraints (their rows of D).
   VectorXc solve(const VectorXc& right) const;
 
@@ -49,6 +51,8 @@ class ShiftedOperator {
   using SparseC = Eigen::SparseMatrix<Complex>;
   void build();
   void set_scale(const SparseC& D);
+  template <class Vector, class Matrix>
+  Vector right_side(const Vector& in, const Matrix& rates) const;
   template <class Vector, class Matrix, class Solve>
   Vector apply_with(const Vector& x, const Matrix& rates, typename Vector::Scalar shift,
                     const Solve& solution_of) const;

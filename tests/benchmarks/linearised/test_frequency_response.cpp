@@ -18,6 +18,12 @@ const std::string oscillator =
     "loads: {p: {node: m, force: [\"2*push\", 0, 0]}}\n"
     "measures: {place: m.position.x, speed: m.velocity.x, both: {formula: \"place + 0.1*push\", units: m}}\n";
 
+/// The oscillator with another force for its input.
+std::string oscillator_pushed_by(const std::string& force) {
+  const std::size_t at = oscillator.find("2*push");
+  return oscillator.substr(0, at) + force + oscillator.substr(at + 6);
+}
+
 }  // namespace
 
 TEST_CASE("an oscillator answers with 1/(k - m w^2 + i c w) to forces, twice that to an input that pushes twice",
@@ -135,4 +141,25 @@ TEST_CASE("a frequency at which the mechanism moves by itself has no response", 
   CHECK_THROWS_WITH(free.session.frequency_response(options), Catch::Contains("no response at 0 Hz"));
   options.outputs[0] = {"speeed", -1, false, {}};
   CHECK_THROWS_WITH(free.session.frequency_response(options), Catch::Contains("there is no measure 'speeed'"));
+}
+
+TEST_CASE("inputs that act on nothing are refused, and the summary says what the state is", "[linearised]") {
+  const ModesOf model(oscillator);
+  const int node = *model.file.model.find_node("m");
+  FrequencyResponseOptions options{{{"force y", node, false, Vector3::UnitY()}}, {{"place", -1, false, {}}}, {1}, {}};
+  CHECK_THROWS_WITH(model.session.frequency_response(options),
+                    Catch::Contains("'force y' acts on nothing: the node is held in that direction"));
+  const ModesOf without(oscillator_pushed_by("0"));
+  options.inputs = {{"push", -1, false, Vector3::Zero()}};
+  CHECK_THROWS_WITH(without.session.frequency_response(options), Catch::Contains("no force, motion or output depends"));
+  options.outputs = {{"both", -1, false, {}}};  // which contains the input itself
+  CHECK(std::abs(without.session.frequency_response(options).response[0](0, 0) - 0.1) < 1e-12);
+
+  const MechanismFile file = read_mechanism_text(
+      oscillator_pushed_by("7 + 2*push") +
+          "analysis: [{type: frequency_response, inputs: [push], outputs: [place], frequencies: [1]}]\n",
+      "model.yaml");
+  Session session(file.model);
+  CHECK_THAT(file.analyses[0]->run(session).text,
+             Catch::Contains("no equilibrium") && Catch::Contains("responses are those of the equations"));
 }

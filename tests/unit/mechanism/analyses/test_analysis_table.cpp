@@ -5,6 +5,7 @@
 #include "mechanism/analyses/dynamic.hpp"
 #include "mechanism/analyses/eigen.hpp"
 #include "mechanism/analyses/frequency_response.hpp"
+#include "mechanism/analyses/state_space.hpp"
 #include "mechanism/analyses/static.hpp"
 #include "tests/support/messages.hpp"
 
@@ -32,7 +33,7 @@ TEST_CASE("each type of the table gives an analysis of its name") {
   CHECK(dynamic->duration() == 2);
   CHECK(dynamic->can_go_on());
   CHECK(dynamic_cast<const DynamicAnalysis&>(*dynamic).options().equilibrium);
-  CHECK(analysis_table().size() == 7);
+  CHECK(analysis_table().size() == 8);
 }
 
 TEST_CASE("keys of statics are read") {
@@ -47,10 +48,8 @@ TEST_CASE("keys of statics are read") {
   CHECK(read("{type: static, steps: auto}")->expected_rows({}) == 0);
 }
 
-TEST_CASE("types that do not exist, or not yet, are refused") {
+TEST_CASE("types that do not exist are refused") {
   CHECK_THAT(refusal("{type: dynamc}"), Contains("did you mean 'dynamic'"));
-  CHECK_THAT(refusal("{type: state_space}"),
-             Contains("the analysis 'state_space' is not in this version; there are assembly, static, dynamic, kinematic, inverse_dynamics, eigen and frequency_response"));
   CHECK_THAT(refusal("{type: assembly, steps: 2}"), Contains("'steps'") && Contains("the analysis 'assembly'"));
 }
 
@@ -119,4 +118,17 @@ TEST_CASE("the analysis `frequency_response` says what it does not understand") 
   CHECK_THAT(with(force, moves, "{from: 1, to: 2, spacing: uneven}"), Contains("spacing"));
   CHECK_THAT(with(force, moves, "[]"), Contains("at least one frequency"));
   CHECK_THAT(with(force, moves, "[-1]"), Contains("0 or more"));
+}
+
+TEST_CASE("the analysis `state_space` reads inputs and outputs as `frequency_response` does") {
+  const std::string force = "[{node: ground, direction: x}]";
+  const auto read_analysis = read("{type: state_space, inputs: " + force + ", outputs: " + force.substr(0, 1) +
+                                  "{node: ground, direction: z, quantity: rotation}]}");
+  const auto& options = dynamic_cast<const StateSpaceAnalysis&>(*read_analysis).options();
+  CHECK(options.inputs[0].name == "force x of node 'ground'");
+  CHECK(options.outputs[0].rotation);
+  CHECK_THAT(refusal("{type: state_space, inputs: " + force + "}"), Contains("outputs"));
+  CHECK_THAT(refusal("{type: state_space, inputs: [psh], outputs: " + force + "}"), Contains("there is no input 'psh'"));
+  CHECK_THAT(refusal("{type: state_space, inputs: " + force + ", outputs: " + force + ", frequencies: [1]}"),
+             Contains("'frequencies' is not a key of the analysis 'state_space'"));
 }

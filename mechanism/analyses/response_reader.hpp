@@ -1,0 +1,17 @@
+// `inputs` and `outputs` of analyses of small motions.
+#pragma once
+
+#include <vector>
+
+#include "mechanism/model/model.hpp"
+#include "mechanism/session/frequency_response.hpp"
+#include "reduce/common/yaml_file.hpp"
+
+namespace bielle::mechanism {
+
+/// `inputs: [push, {node: tip, direction: z, quantity: moment}]` of an analysis; at least one.
+std::vector<ResponseInput> read_response_inputs(const YamlValue& entry, const Model& model);
+/// `outputs: [error, {node: tip, direction: z, quantity: rotation}]` of an analysis; at least one.
+std::vector<ResponseOutput> read_response_outputs(const YamlValue& entry, const Model& model);
+
+}  // namespace bielle::mechanism

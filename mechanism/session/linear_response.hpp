@@ -1,0 +1,54 @@
+// Small motions about a state between inputs and outputs: right-hand sides and values. For the files of Session alone.
+#pragma once
+
+#include <complex>
+#include <string>
+#include <vector>
+
+#include "mechanism/session/frequency_response.hpp"
+#include "mechanism/session/modes_report.hpp"
+#include "mechanism/solvers/linearised/shifted_operator.hpp"
+#include "mechanism/solvers/linearised/variations.hpp"
+
+namespace bielle::mechanism {
+
+class LinearResponse {
+ public:
+  using Complex = std::complex<double>;
+  /// All must outlive this.
+  LinearResponse(const System& system, const StandingState& about, const LinearisedEquations& equations)
+      : system_(system), state_(about.state), environment_(about.environment), equations_(equations) {}
+
+  /// Derivatives of the residual by each input (n + constraints). @throws InputError of an input that acts on nothing
+  std::vector<VectorX> right_sides(const std::vector<ResponseInput>& inputs,
+                                   const std::vector<ResponseOutput>& outputs) const;
+  /// The motion exp(shift t) of that right-hand side.
+  Variation answer(const ShiftedOperator& D, const VectorX& right) const;
+  /// Variation of an output by a motion.
+  Complex value(const ResponseOutput& output, const Variation& variation) const;
+  /// Derivative of an output by an input of the model that it contains itself.
+  double direct(const ResponseOutput& output, const ResponseInput& input) const;
+  std::string units(const ResponseOutput& output) const;
+
+ private:
+  VectorX right_side(const ResponseInput& input) const;
+  /// Inputs of the model act through the forces that formulas make of them: central differences, exact where these are
+  /// linear in them.
+  struct InputStep {
+    int place;  ///< in the state's memory
+    double size;
+  };
+  InputStep step_of(const std::string& name) const;
+  State with(const InputStep& step, double steps) const;
+
+  const System& system_;
+  const State& state_;
+  const Environment& environment_;
+  const LinearisedEquations& equations_;
+};
+
+/// @throws InputError with the nearest name
+void check_response_names(const Model& model, const std::vector<ResponseInput>& inputs,
+                          const std::vector<ResponseOutput>& outputs);
+
+}  // namespace bielle::mechanism
