@@ -70,10 +70,9 @@ std::string format_stability(const StaticsLog& log, bool path, bool hint) {
   for (const LoadJump& jump : log.jumps)
     text += fmt::format(
         "  jump at load factor {:.6g}: no equilibrium is near beyond it, and the one that was found is {:.3g} m away "
-        "at "
-        "node '{}'; `arc_length` follows the path in between\n",
+        "at node '{}'; `arc_length` follows the path in between\n",
         jump.factor, jump.distance, jump.node);
-  if (!log.fell.empty()) text += fmt::format("  {}: it was let go, down to where it rests\n", log.fell);
+  if (!log.fell.empty()) text += fmt::format("  let go until it rested elsewhere: {}\n", log.fell);
   if (!log.loose.empty()) text += format_loose(log.loose);
   if (!log.unstable && log.critical.empty() && !path)
     text += "  stability is not known: the stiffness is not symmetric, or forces depend on controllers or fluids\n";

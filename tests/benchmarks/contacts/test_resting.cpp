@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/benchmarks/contacts/contact_runs.hpp"
+#include "tests/support/messages.hpp"
 
 using namespace bielle::mechanism;
 using namespace bielle::test;
@@ -228,27 +229,39 @@ TEST_CASE("what a contact tells formulas is what it records") {
   CHECK_THROWS_WITH(read_mechanism_text(read("force.x"), "model.yaml"), Catch::Contains("'it' has no 'force.x'"));
 }
 
-TEST_CASE("a static analysis that finds nothing to hold a part says which contact is open") {
-  const std::vector<Body> ball = {{"ball", "position: [0, 0, 0.13], fixed: [x, y, rx, ry, rz]"}};
-  const std::string law = "stiffness: 1e5";
-  const auto refused = [&](const std::string& joint) {
-    CHECK_THROWS_WITH(rest(contact_model(ball, joint, "[0, 0, -9.81]"), [](const Session&) {}),
-                      Catch::Contains("joint 'it' is open, its ") && Catch::Contains("0.03 m apart") &&
-                          Catch::Contains("holds nothing"));
-  };
-  refused(
-      "  it: {type: contact, shapes: [{node: ground, plane: [0, 0, 1]}, {node: ball, sphere: 0.1}], stiffness: 1e5}\n");
-  refused(
+TEST_CASE("what nothing holds is let go until a contact holds it, and statics say which contact was open") {
+  const std::vector<Body> ball = {{"ball", "position: [0, 0, 0.13], fixed: [x, y, rx, ry, rz]", 2}};
+  const std::string plane =
+      "  it: {type: contact, shapes: [{node: ground, plane: [0, 0, 1]}, {node: ball, sphere: 0.1}], stiffness: 1e5}\n";
+  const std::string socket =
       "  it: {type: clearance_spherical, nodes: [ground, ball], position: [0, 0, 0], radial_gap: 0.03, radius: 0.01, "
-      "contact: {stiffness: 1e5}}\n");
+      "contact: {stiffness: 1e5}}\n";
+  const auto says_open = [](const std::string& text) {
+    CHECK_THAT(text, Catch::Contains("joint 'it' is open, its ") && Catch::Contains("0.03 m apart"));
+  };
+  const auto height = [&](const std::string& joint) {
+    const MechanismFile file = read_mechanism_text(contact_model(ball, joint, "[0, 0, -9.81]"), "model.yaml");
+    Session session(file.model);
+    says_open(session.statics().log.fell);
+    return session.node("ball").x[2];
+  };
+  // Linear laws: 2 g/k into the plane; the ball of the joint stands at the bottom of its gap.
+  CHECK_THAT(height(plane), Catch::WithinAbs(0.1 - 2 * g / 1e5, 1e-12));
+  CHECK_THAT(height(socket), Catch::WithinAbs(0.13 - 0.03 - 2 * g / 1e5, 1e-12));
+  // Nothing is above the plane.
+  const std::string message =
+      message_of<std::runtime_error>([&] { rest(contact_model(ball, plane, "[0, 0, 9.81]"), [](const Session&) {}); });
+  says_open(message);
+  CHECK_THAT(message, Catch::Contains("holds nothing"));
 }
 
 TEST_CASE("in a group a static analysis names the shapes that touch nothing") {
-  const std::string text = contact_model(
-      {{"low", "position: [0, 0, 0.099], fixed: [x, y, rx, ry, rz]"},
-       {"high", "position: [1, 0, 0.3], fixed: [x, y, rx, ry, rz]"}},
-      "  it: {type: contact, shapes: [{node: ground, plane: [0, 0, 1]}, {node: low, sphere: 0.1}, {node: high, sphere: "
-      "0.1}], stiffness: 1e5}\n",
-      "[0, 0, -9.81]");
+  // One stands on a ball of ground, the other falls past it.
+  const std::string text =
+      contact_model({{"low", "position: [0, 0, 0.099], fixed: [x, y, rx, ry, rz]"},
+                     {"high", "position: [3, 0, 0.3], fixed: [x, y, rx, ry, rz]"}},
+                    "  it: {type: contact, shapes: [{node: ground, sphere: 1, at: [0, 0, -1]}, {node: low, sphere: "
+                    "0.1}, {node: high, sphere: 0.1}], stiffness: 1e5}\n",
+                    "[0, 0, -9.81]");
   CHECK_THROWS_WITH(rest(text, [](const Session&) {}), Catch::Contains("joint 'it' is open at sphere on 'high'"));
 }

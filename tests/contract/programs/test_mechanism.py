@@ -119,9 +119,6 @@ class Mechanism(CommandTest):
         with h5py.File(os.path.join(self.folder, "model.h5")) as results:
             self.assertAlmostEqual(results["nodes/bob/position"][0, 0], 0.7, places=12)
 
-    def test_an_analysis_of_a_later_version_is_refused_and_says_so(self):
-        self.refuse("type: dynamic", "type: state_space", "model.yaml:11", "state_space", "not in this version")
-
     def test_check_describes_without_running(self):
         self.write("model.yaml", PENDULUM)
         done = self.run_program("model.yaml", "--check")
