@@ -21,6 +21,9 @@ namespace bielle::mechanism {
 struct SlidingSurface {
   std::vector<std::size_t> coordinates;
   double lead = 0;  ///< of a thread, whose displacement and angle are one motion: [m] per radian; 0: none
+  /// Radius of a roller [m] that turns on its pin: `coordinates` are the way of its middle along what it rolls on and
+  /// the angle of what bears the pin, and the roller turns relative to its pin at way/roller - angle. 0: none
+  double roller = 0;
 };
 
 class Joint : public Component {

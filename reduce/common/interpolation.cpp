@@ -90,6 +90,12 @@ Eigen::VectorXd spline_curvature(const Eigen::VectorXd& x, const Eigen::VectorXd
   return M;
 }
 
+/// Integral of a cubic over a length h, from its values and second derivatives at both ends: the trapezoidal rule and
+/// its first correction.
+double area_of_cubic(double h, double y_0, double y_1, double M_0, double M_1) {
+  return h / 2 * (y_0 + y_1) - h * h * h / 24 * (M_0 + M_1);
+}
+
 }  // namespace
 
 Interpolation::Interpolation(Eigen::VectorXd x, Eigen::VectorXd y, Kind kind, std::string name)
@@ -99,12 +105,16 @@ Interpolation::Interpolation(Eigen::VectorXd x, Eigen::VectorXd y, Kind kind, st
     if (x_(i) <= x_(i - 1))
       throw InputError(fmt::format("{}: the first column must ascend, but {} follows {}", name_, x_(i), x_(i - 1)));
   if (kind_ == Kind::periodic) {
-    if (x_.size() < 4) throw InputError(fmt::format("{}: a periodic spline needs three points and the first again", name_));
+    if (x_.size() < 4)
+      throw InputError(fmt::format("{}: a periodic spline needs three points and the first again", name_));
     if (y_(0) != y_(y_.size() - 1)) throw InputError(fmt::format("{}: the last value must repeat the first", name_));
     curvature_ = periodic_curvature(x_, y_);
-    return;
+  } else {
+    curvature_ = kind_ == Kind::cubic ? spline_curvature(x_, y_) : Eigen::VectorXd(Eigen::VectorXd::Zero(x_.size()));
   }
-  curvature_ = kind_ == Kind::cubic ? spline_curvature(x_, y_) : Eigen::VectorXd(Eigen::VectorXd::Zero(x_.size()));
+  area_ = Eigen::VectorXd::Zero(x_.size());
+  for (Eigen::Index i = 1; i < x_.size(); ++i)
+    area_(i) = area_(i - 1) + area_of_cubic(x_(i) - x_(i - 1), y_(i - 1), y_(i), curvature_(i - 1), curvature_(i));
 }
 
 Interpolation Interpolation::from_file(const std::string& path, Kind kind) {
@@ -112,7 +122,7 @@ Interpolation Interpolation::from_file(const std::string& path, Kind kind) {
   return {table.col(0), table.col(1), kind, path};
 }
 
-Interpolation::Values Interpolation::operator()(double x, bool from_right) const {
+Eigen::Index Interpolation::find_piece(double& x, bool from_right) const {
   const double first = x_(0), last = x_(x_.size() - 1), rounding = 1e-9 * (last - first);
   if (kind_ == Kind::periodic) x -= (last - first) * std::floor((x - first) / (last - first));
   if (!(x >= first - rounding && x <= last + rounding))
@@ -121,7 +131,20 @@ Interpolation::Values Interpolation::operator()(double x, bool from_right) const
   const double* begin = x_.data();
   const double* end = begin + x_.size();
   const double* right = from_right ? std::upper_bound(begin, end, x) : std::lower_bound(begin, end, x);
-  const Eigen::Index i = std::clamp<Eigen::Index>(right - begin - 1, 0, x_.size() - 2);
+  return std::clamp<Eigen::Index>(right - begin - 1, 0, x_.size() - 2);
+}
+
+double Interpolation::integral(double x) const {
+  double periods = 0;
+  if (kind_ == Kind::periodic) periods = std::floor((x - x_(0)) / (x_(x_.size() - 1) - x_(0)));
+  const Eigen::Index i = find_piece(x, true);
+  const Values at = (*this)(x);
+  return periods * area_(area_.size() - 1) + area_(i) +
+         area_of_cubic(x - x_(i), y_(i), at.value, curvature_(i), at.curvature);
+}
+
+Interpolation::Values Interpolation::operator()(double x, bool from_right) const {
+  const Eigen::Index i = find_piece(x, from_right);
   const double h = x_(i + 1) - x_(i), a = (x_(i + 1) - x) / h, b = (x - x_(i)) / h;
   const double M0 = curvature_(i), M1 = curvature_(i + 1);
   return {a * y_(i) + b * y_(i + 1) + ((a * a * a - a) * M0 + (b * b * b - b) * M1) * h * h / 6,

@@ -12,8 +12,8 @@ namespace bielle {
 /// y(x) through points with ascending x; defined between the first and the last point only.
 ///
 /// `linear` has kinks at the points. `cubic` is the spline with continuous second derivative and the not-a-knot
-/// condition at both ends (a cubic is reproduced exactly; three points give a parabola, two a straight line). `periodic`
-/// is the cubic spline that repeats itself: the last point has the first value, and x may be any number.
+/// condition at both ends (a cubic is reproduced exactly; three points give a parabola, two a straight line).
+/// `periodic` is the cubic spline that repeats itself: the last point has the first value, and x may be any number.
 /// Reference: C. de Boor, A Practical Guide to Splines, chapter IV.
 class Interpolation {
  public:
@@ -31,12 +31,18 @@ class Interpolation {
   /// @param from_right  at a point, the derivatives on its right (or else left)
   /// @throws ComputationError outside the range of the points (rounding of 1e-9 of the range is tolerated)
   Values operator()(double x, bool from_right = true) const;
+  /// Of y, from the first point to x; exact, over any number of periods. @throws as the function
+  double integral(double x) const;
   std::span<const double> points() const { return {x_.data(), static_cast<std::size_t>(x_.size())}; }
   Kind kind() const { return kind_; }
 
  private:
+  /// Of the piece in which x lies; brings x of a periodic spline into its first period.
+  /// @throws ComputationError outside the range
+  Eigen::Index find_piece(double& x, bool from_right) const;
   Eigen::VectorXd x_, y_;
   Eigen::VectorXd curvature_;  ///< y'' at the points; zero when linear
+  Eigen::VectorXd area_;       ///< integral up to the points
   Kind kind_;
   std::string name_;
 };

@@ -124,11 +124,31 @@ std::vector<Sample> coupling_samples() {
                 {"radius", "-1", ""},
                 {"at", "[1, 2]", ""}});
   knife.scales.amplitude = 0.1;
-  for (Sample* sample : {&lift, &knife}) {
+  const std::string creeps = ", friction: {coefficient: 0.3, velocity: 0.4";
+  Sample edge = coupling("cam", "knife edge that rubs",
+                         "joints: [one, three], profile: profile.csv, follower: roller, radius: 0" + creeps + "}",
+                         {{"friction.radius", "1", "does not turn"}, {"friction", "0.3", "expected a map"}});
+  Sample roller = coupling(
+      "cam", "roller on its pin",
+      "joints: [one, three], profile: profile.csv, follower: roller, radius: 0.2" + creeps + ", radius: 0.1}",
+      {{"friction.radius", "", "radius"}, {"friction.arm", "1", "no moment"}, {"friction.coefficient", "0", ""}});
+  for (Sample* sample : {&edge, &roller}) sample->scales.amplitude = 0.1;
+  const std::string normal = "joints: [one, three], profile: round.csv, follower: flat, normal: [2, -1, 0]";
+  Sample face = coupling("cam", "flat face", normal + ", at: [0.1, 0.2, 0.3]",
+                         {{"normal", "[1, 2, 3]", "right angles"},
+                          {"profile", "hollow.csv", "hollow"},
+                          {"at", "[1, 2]", ""},
+                          {"radius", "1", "roller"}});
+  Sample rubbing_face =
+      coupling("cam", "flat face that rubs", normal + creeps + "}",
+               {{"friction.radius", "1", "does not turn"}, {"friction.coefficient", "", "coefficient"}});
+  for (Sample* sample : {&lift, &knife, &edge, &roller, &face, &rubbing_face}) {
     // Few knots, away from the reference: finite differences stay within a piece of the splines.
     sample->files = [](const std::string& folder) {
       std::ofstream(folder + "/lift.csv") << "-0.8,0\n0.8,0.3\n2.4,0.1\n4,-0.2\n5.4831853071795862,0\n";
       std::ofstream(folder + "/profile.csv") << "0,1\n1.5,1.3\n2.9,0.9\n4.5,1.1\n";
+      std::ofstream(folder + "/round.csv") << "0,1\n1,1.05\n2.1,1\n3.1,0.95\n4.2,1\n5.2,1.02\n";
+      std::ofstream(folder + "/hollow.csv") << "0,1\n1,0.3\n2.1,1\n3.1,0.3\n4.2,1\n5.2,0.3\n";
     };
     list.push_back(*sample);
   }

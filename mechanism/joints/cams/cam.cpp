@@ -10,16 +10,43 @@ namespace bielle::mechanism {
 // -- flat follower
 
 FlatFollower::FlatFollower(std::string name, JointFrames frames, Interpolation support, const Model& model)
-    : MeasuredPair("cam", std::move(name), std::move(frames), {}, {{"push", "N"}}, model),
-      support_(std::move(support)) {}
+    : MeasuredPair("cam", std::move(name), std::move(frames),
+                   {{"angle", JointCoordinate::Kind::angle, JointCoordinate::by_type},
+                    {"displacement", JointCoordinate::Kind::displacement, JointCoordinate::by_type}},
+                   {{"push", "N"}}, model),
+      support_(std::move(support)) {
+  const Frame A = model.node(this->frames().first).frame * this->frames().on_first,
+              B = model.node(this->frames().second).frame * this->frames().on_second;
+  psi_drawn_ = std::atan2(A.R.col(1).dot(B.R.col(2)), A.R.col(0).dot(B.R.col(2)));
+  s_drawn_ = B.R.col(0).dot(B.x - A.x) + support_.integral(psi_drawn_);
+}
+
+PairMeasure FlatFollower::calc_turn(const LocalState& state) const {
+  // From x and y of J_A turned to where the face is drawn.
+  const Matrix3 axes = frames().on_first.R * Eigen::AngleAxisd(psi_drawn_, Vector3::UnitZ());
+  const auto along = [&](int axis) {
+    return measure_alignment(state.node(0), state.node(1), axes.col(axis), frames().on_second.R.col(2));
+  };
+  return atan2(along(1), along(0));
+}
+
+PairMeasure FlatFollower::calc_way_to_cam(int axis, const LocalState& state) const {
+  const Frame &A = frames().on_first, &B = frames().on_second;
+  return exchanged(measure_position(state.node(1), state.node(0), B.R.col(axis), B.x, A.x));
+}
 
 void FlatFollower::calc_rows(const LocalState& state, std::span<PairMeasure> rows) const {
-  const Frame &A = frames().on_first, &B = frames().on_second;
-  const PairMeasure psi = atan2(alignment(1, 2, state), alignment(0, 2, state));
-  const Interpolation::Values H = support_(psi.value);
-  // z_B . (x_A - p_F), seen from the follower.
-  const PairMeasure back = exchanged(measure_position(state.node(1), state.node(0), B.R.col(2), B.x, A.x));
-  rows[0] = compose(psi, H.value, H.slope, H.curvature) + back;
+  const PairMeasure turn = calc_turn(state);
+  const Interpolation::Values H = support_(psi_drawn_ + turn.value);
+  rows[0] = compose(turn, H.value, H.slope, H.curvature) + calc_way_to_cam(2, state);
+}
+
+PairMeasure FlatFollower::calc_own_coordinate(std::size_t index, const LocalState& state) const {
+  const PairMeasure turned = calc_turn(state);
+  if (index == turn) return turned;
+  const double psi = psi_drawn_ + coordinate(turn, state).value;
+  const Interpolation::Values H = support_(psi);
+  return compose(turned, support_.integral(psi) - s_drawn_, H.value, H.slope) - calc_way_to_cam(0, state);
 }
 
 void FlatFollower::declare(Declaration& declaration) const {

@@ -3,8 +3,8 @@
 
 #include "mechanism/joints/cams/cam.hpp"
 #include "mechanism/joints/cams/cam_contour.hpp"
+#include "mechanism/joints/friction/friction_reader.hpp"
 #include "mechanism/joints/pairs/point_on_curve.hpp"
-#include "mechanism/math/axes_along.hpp"
 #include "mechanism/model/model.hpp"
 #include "mechanism/reading/read_file.hpp"
 #include "reduce/common/table_file.hpp"
@@ -43,6 +43,13 @@ void add_lift(const std::string& name, const YamlValue& entry, Model& model) {
   model.add(std::make_unique<LiftedCoordinate>(name, angle, lifted, std::move(lift)), Entry{Section::joints, name});
 }
 
+/// Adds cam and follower, and what rubs between them.
+void add_contact(std::unique_ptr<Joint> made, const YamlValue& entry, Model& model) {
+  const Joint& joint = *made;
+  model.add(std::move(made), Entry{Section::joints, joint.name()});
+  if (const auto friction = entry.find("friction")) read_joint_friction(*friction, joint, model);
+}
+
 void add_roller(const std::string& name, const YamlValue& entry, Model& model) {
   const double radius = entry.has("radius") ? entry.at("radius").non_negative_number() : 0;
   const YamlValue joints = entry.at("joints");
@@ -61,9 +68,9 @@ void add_roller(const std::string& name, const YamlValue& entry, Model& model) {
   Vector3 drawn = cam.R.transpose() * (node.x + node.R * middle.x - cam.x);
   drawn.z() = 0;
   const double start = pitch.nearest(drawn);
-  model.add(std::make_unique<PointOnCurve>("cam", name, std::move(frames), std::move(pitch), start,
-                                           PointOnCurve::Guide::plane, model),
-            Entry{Section::joints, name});
+  add_contact(std::make_unique<PointOnCurve>("cam", name, std::move(frames), std::move(pitch), start,
+                                             PointOnCurve::Guide::plane, model, radius),
+              entry, model);
 }
 
 void add_flat(const std::string& name, const YamlValue& entry, Model& model) {
@@ -76,21 +83,23 @@ void add_flat(const std::string& name, const YamlValue& entry, Model& model) {
   const Vector3 normal = entry.at("normal").direction();
   Frame face;
   if (const auto at = entry.find("at")) face.x = at->vector3();
-  face.R = node.R.transpose() * axes_along(normal);
+  const Frame cam = model.node(camshaft.frames().second).frame * camshaft.frames().on_second;
+  const Vector3 axis = cam.R.col(2);
+  if (std::abs(normal.dot(axis)) > 1e-6) entry.at("normal").fail("is not at right angles to the camshaft's axis");
+  const Vector3 across = axis.cross(normal).normalized();
+  face.R.col(0) = node.R.transpose() * across;
+  face.R.col(1) = node.R.transpose() * normal.cross(across);
+  face.R.col(2) = node.R.transpose() * normal;
   JointFrames frames = frames_of(camshaft, follower, face);
-  const Frame cam = model.node(frames.first).frame * frames.on_first;
-  if (std::abs(normal.dot(cam.R.col(2))) > 1e-6)
-    entry.at("normal").fail("is not at right angles to the camshaft's axis");
   Interpolation support = read_named_file(
       entry.at("profile"), [](const std::string& path) { return CamContour(read_table(path, 2), path).support(); });
-  model.add(std::make_unique<FlatFollower>(name, std::move(frames), std::move(support), model),
-            Entry{Section::joints, name});
+  add_contact(std::make_unique<FlatFollower>(name, std::move(frames), std::move(support), model), entry, model);
 }
 
 }  // namespace
 
 void read_cam(const std::string& name, const YamlValue& entry, Model& model) {
-  entry.check_keys({"type", "joints", "lift", "profile", "follower", "radius", "at", "normal"}, "a cam");
+  entry.check_keys({"type", "joints", "lift", "profile", "follower", "radius", "at", "normal", "friction"}, "a cam");
   const YamlValue joints = entry.at("joints");
   if (!joints.is_sequence() || joints.size() != 2) joints.fail("expected two joints: [camshaft, follower]");
   if (entry.has("lift") == entry.has("profile"))
@@ -99,7 +108,7 @@ void read_cam(const std::string& name, const YamlValue& entry, Model& model) {
   const bool lift = entry.has("lift");
   bool flat = false;
   if (lift) {
-    for (const char* key : {"follower", "radius", "at", "normal"})
+    for (const char* key : {"follower", "radius", "at", "normal", "friction"})
       if (const auto too_much = entry.find(key)) too_much->fail("belongs to a cam with `profile`");
   } else {
     flat = entry.at("follower").word({"roller", "flat"}, "a follower") == "flat";

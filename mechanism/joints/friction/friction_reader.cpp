@@ -48,6 +48,13 @@ FrictionSurface read_surface(const YamlValue& entry, const Joint& joint, const S
     surface.components = 1;
     surface.thread_radius = r;
   }
+  if (slides.roller != 0) {  // on its pin, of the radius r
+    for (FrictionSurface::Part& part : surface.parts) {
+      part.component = 0;
+      part.arm = turns(part.coordinate) ? -r : r / slides.roller;
+    }
+    surface.components = 1;
+  }
   if (const auto arm = entry.find("arm")) {
     if (!bears_moments(joint)) arm->fail(fmt::format("a {} joint bears no moment that could press", joint.type()));
     surface.moment_arm = arm->positive_number();

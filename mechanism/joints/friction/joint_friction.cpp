@@ -157,7 +157,7 @@ void JointFriction::describe(const LocalState& /*state*/, Description& descripti
     const JointCoordinate& coordinate = joint_.coordinates()[part.coordinate];
     text += fmt::format(" {}", coordinate.name);
     if (coordinate.kind != JointCoordinate::Kind::displacement && surface_.thread_radius == 0)
-      text += fmt::format(" (at {:.6g} m)", part.arm);
+      text += fmt::format(" (at {:.6g} m)", std::abs(part.arm));
   }
   if (surface_.thread_radius > 0) text += fmt::format(" along the thread at {:.6g} m", surface_.thread_radius);
   text += ", pressed by the reaction's force";

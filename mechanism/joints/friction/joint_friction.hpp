@@ -2,7 +2,8 @@
 //
 // The bodies slide on each other at a surface whose velocity v [m/s] has a component for each of some coordinates of
 // the joint, c rate: c = 1 for displacements, the radius of the bearing for angles and rotations. A thread of radius r
-// and lead l per radian slides along its helix, v = (l zdot + r^2 thetadot)/sqrt(r^2 + l^2). They are pressed by
+// and lead l per radian slides along its helix, v = (l zdot + r^2 thetadot)/sqrt(r^2 + l^2). A roller of radius R
+// slides on its pin of radius r, v = r (sdot/R - thetadot), s the way of its middle. They are pressed by
 //     N = |F| + |M|/arm + preload,
 // F and M the reaction of the joint's constraints. Along what is free there is none, so that F is normal to the motion
 // and M across it. In a thread F has a fourth component M_z/r: the force normal to the thread is made of F_z and it.

@@ -15,16 +15,23 @@ namespace bielle::mechanism {
 namespace {
 constexpr int parameter = 12;  ///< local row of u
 constexpr int first_row = 13;  ///< of the constraints
+
+/// A roller also knows the angle of what bears its pin.
+std::vector<JointCoordinate> coordinates_of(double roller) {
+  std::vector<JointCoordinate> all = {{"displacement", JointCoordinate::Kind::displacement, JointCoordinate::by_type}};
+  if (roller > 0) all.push_back({"angle", JointCoordinate::Kind::angle, 2});
+  return all;
+}
 }  // namespace
 
 PointOnCurve::PointOnCurve(std::string type, std::string name, JointFrames frames, Curve curve, double start,
-                           Guide guide, const Model& model)
-    : Joint(std::move(type), std::move(name), std::move(frames),
-            {{"displacement", JointCoordinate::Kind::displacement, JointCoordinate::by_type}}, model),
+                           Guide guide, const Model& model, double roller)
+    : Joint(std::move(type), std::move(name), std::move(frames), coordinates_of(roller), model),
       curve_(std::move(curve)),
       start_(start),
       length_to_start_(curve_.arc_length(start)),
-      guide_(guide) {}
+      guide_(guide),
+      roller_(roller) {}
 
 void PointOnCurve::declare(Declaration& declaration) const {
   Joint::declare(declaration);
@@ -45,16 +52,20 @@ void PointOnCurve::declare(Declaration& declaration) const {
 }
 
 std::vector<SlidingSurface> PointOnCurve::sliding_surfaces() const {
-  return guide_ == Guide::plane ? std::vector<SlidingSurface>{} : Joint::sliding_surfaces();
+  std::vector<SlidingSurface> all = Joint::sliding_surfaces();
+  for (SlidingSurface& each : all) each.roller = roller_;
+  return all;
 }
 
 Vector6 PointOnCurve::calc_press(const LocalState& state) const {
+  if (roller_ > 0) return calc_reaction(state);
   return take_out_along_path(calc_reaction(state), curve_(state.amplitude()[0]).first);
 }
 
 Vector6 PointOnCurve::calc_press(const LocalState& state, MatrixX& derivatives) const {
-  const Curve::Place c = curve_(state.amplitude()[0]);
   const Vector6 reaction = calc_reaction(state, derivatives);
+  if (roller_ > 0) return reaction;
+  const Curve::Place c = curve_(state.amplitude()[0]);
   thread_local Eigen::Matrix<double, 3, Eigen::Dynamic> by_position;
   by_position.setZero(3, derivatives.cols());
   by_position.col(parameter) = c.second;
@@ -108,12 +119,14 @@ double PointOnCurve::turning_rate(const LocalState& state) const {
   return Joint::turning_rate(state) + along;
 }
 
-CoordinateRate PointOnCurve::principal_coordinate(std::size_t /*index*/, const LocalState& state) const {
+CoordinateRate PointOnCurve::principal_coordinate(std::size_t index, const LocalState& state) const {
+  if (index > 0) return Joint::principal_coordinate(index, state);
   const double u = state.amplitude()[0];
   return {curve_.arc_length(u) - length_to_start_, curve_(u).first.norm() * state.amplitude_rate()[0]};
 }
 
 void PointOnCurve::calc_coordinate(std::size_t index, const LocalState& state, CoordinateJet& jet) const {
+  if (index > 0) return Joint::calc_coordinate(index, state, jet);
   const Curve::Place c = curve_(state.amplitude()[0]);
   const double speed = c.first.norm();
   jet.prepare(state.slots().size());

@@ -7,7 +7,9 @@
 // acts on u, its part along the curve bears it, and the rest presses. That holds at any curvature, and u tells places
 // apart where the curve passes the same point twice. Coordinate `displacement`: the arc length from where the point is
 // drawn. In the plane of J_A alone (a roller on a cam) there are two rows, and the curve only pushes: where it would
-// have to pull, an event is noted.
+// have to pull, an event is noted. A roller has no mass. Relative to the curve it turns at displacement'/R, and its pin
+// at the rate of the coordinate `angle`, of J_B relative to J_A about z. What rubs on the pin holds the roller up, so
+// that the curve drags its middle; the pin bears all of the reaction. A follower without a roller rubs on the curve.
 #pragma once
 
 #include "mechanism/joints/joint.hpp"
@@ -21,10 +23,10 @@ class PointOnCurve final : public Joint {
   /// @param curve  in J_A; of a plane guide closed, anticlockwise about z   @param start  the value of u next to which
   /// the
   ///               point is drawn
+  /// @param roller  radius [m] of the roller about the point of a plane guide, whose middle moves on `curve`; 0: none
   PointOnCurve(std::string type, std::string name, JointFrames frames, Curve curve, double start, Guide guide,
-               const Model& model);
+               const Model& model, double roller = 0);
 
-  /// None of a roller, which rolls.
   std::vector<SlidingSurface> sliding_surfaces() const override;
   Vector6 calc_press(const LocalState& state) const override;
   Vector6 calc_press(const LocalState& state, MatrixX& derivatives) const override;
@@ -44,6 +46,7 @@ class PointOnCurve final : public Joint {
   Curve curve_;
   double start_, length_to_start_;
   Guide guide_;
+  double roller_;
 };
 
 /// `curve`: a file of three columns, inertial positions as drawn [m]; `closed`

@@ -103,3 +103,87 @@ TEST_CASE("contours that a follower cannot follow are refused") {
   CHECK_THROWS_WITH(run("0, 1\n1, -1\n3, 1\n", "follower: roller, radius: 0"), Catch::Contains("greater than 0"));
   CHECK_THROWS_WITH(run("0, 1\n1, 1\n3, 1\n", "follower: flat, normal: [0, 1, 1]"), Catch::Contains("right angles"));
 }
+
+// Friction. The guide has none, so that the push of the cam has the vertical component V = m (y'' + g). The torque
+// follows from the power of V and of what rubs, and for the roller once more from the force that the cam bears.
+
+TEST_CASE("a flat follower rubs on its cam by the push times the way along the contour") {
+  // The contour slides past the face at w (R + e sin(theta)), with mu V against it.
+  const double mu = 0.3;
+  const bielle::test::TemporaryFolder folder;
+  const std::string text = cam(
+      folder, R, fmt::format("follower: flat, normal: [0, 1, 0], friction: {{coefficient: {}, velocity: 1e-6}}", mu));
+  double way = 0, before = 0;
+  move(text, 1e-3, 0.7, [&](const Session& session) {
+    const double t = session.time(), theta = speed * t;
+    const double push = m * (g - e * speed * speed * std::sin(theta)), along = R + e * std::sin(theta);
+    CHECK(session.read("joints/contact/normal_force")[1] == Approx(push).margin(2e-3));
+    CHECK(session.read("joints/contact/friction")[1] == Approx(mu * push).margin(1e-3));
+    if (t > 0)
+      CHECK(session.read("joints/camshaft/drive_force")[0] ==
+            Approx(push * (e * std::cos(theta) + mu * along)).margin(1e-4));
+    // Coordinates: of the follower relative to the cam, counted over turns.
+    const std::vector<double> c = session.read("joints/contact/coordinate");
+    CHECK(c[0] == Approx(-theta).margin(1e-9));
+    way = R * theta + e * (1 - std::cos(theta));  // integral of H
+    CHECK(c[1] == Approx(-way).margin(1e-7));
+    CHECK(std::abs(c[1] - before) < 1e-3);  // without jumps of a round
+    before = c[1];
+  });
+  CHECK(way > 2 * 2 * M_PI * R);
+}
+
+TEST_CASE("a roller turns on its pin, and is dragged by what rubs there") {
+  const double mu = 0.4, pin = 0.005;
+  const bielle::test::TemporaryFolder folder;
+  const double reach = R + r;
+  const std::string text = cam(folder, std::sqrt(reach * reach - e * e),
+                               fmt::format("follower: roller, radius: {}, friction: {{coefficient: {}, radius: {}, "
+                                           "velocity: 1e-6}}",
+                                           r, mu, pin));
+  move(text, 1e-3, 0.7, [&](const Session& session) {
+    if (session.time() == 0) return;  // nothing slides yet: the drive's speed begins here
+    const double theta = speed * session.time(), s = std::sin(theta), c = std::cos(theta);
+    const double root = std::sqrt(reach * reach - e * e * c * c);
+    const double y1 = e * c + e * e * s * c / root;
+    const double y2 = -e * s + e * e * ((c * c - s * s) / root - e * e * s * s * c * c / std::pow(root, 3));
+    const double V = m * (y2 * speed * speed + g);
+    // The normal from the circle's middle to the roller's, and the force of the cam on the roller, turned from it by
+    // beta to where the contour runs: the cam turns anticlockwise, its surface to -x. sin(beta) = mu pin/r.
+    const double beta = std::asin(mu * pin / r), alpha = std::atan2(root, -e * c) + beta;
+    const double force = V / std::sin(alpha);
+    CHECK(session.read("joints/contact/normal_force")[1] == Approx(force).margin(3e-3));
+    // At the place of contact, about the camshaft.
+    const double n_x = -e * c / reach, n_y = root / reach;
+    const double x = e * c + R * n_x, y = e * s + R * n_y;
+    const double torque = force * (x * std::sin(alpha) - y * std::cos(alpha));
+    CHECK(session.read("joints/camshaft/drive_force")[0] == Approx(torque).margin(2e-4));
+    // The roller turns clockwise, relative to the pin by R/r of the cam's rate and what its middle adds.
+    const double n_rate = e * s * speed / root;  // of the normal
+    const double spin = (reach * (n_rate - speed) + speed * r) / r;
+    CHECK(V * y1 * speed + mu * pin * force * std::abs(spin) == Approx(torque * speed).epsilon(1e-9));
+    const std::vector<double> rate = session.read("joints/contact/rate");
+    CHECK(rate[0] / r - rate[1] == Approx(spin).epsilon(1e-5));
+  });
+}
+
+TEST_CASE("a knife edge rubs on the contour itself") {
+  // A circle about the shaft's axis would do nothing but rub; on the eccentric one the force leans by mu from the
+  // normal.
+  const double mu = 0.2;
+  const bielle::test::TemporaryFolder folder;
+  const std::string text =
+      cam(folder, std::sqrt(R * R - e * e),
+          fmt::format("follower: roller, radius: 0, friction: {{coefficient: {}, velocity: 1e-6}}", mu));
+  move(text, 1e-3, 0.7, [&](const Session& session) {
+    if (session.time() == 0) return;
+    const double theta = speed * session.time(), s = std::sin(theta), c = std::cos(theta);
+    const double root = std::sqrt(R * R - e * e * c * c);
+    const double y2 = -e * s + e * e * ((c * c - s * s) / root - e * e * s * s * c * c / std::pow(root, 3));
+    const double alpha = std::atan2(root, -e * c) + std::atan(mu);
+    const double force = m * (y2 * speed * speed + g) / std::sin(alpha);
+    CHECK(session.read("joints/contact/normal_force")[0] == Approx(force * std::cos(std::atan(mu))).margin(3e-3));
+    const double torque = -force * (e * s + root) * std::cos(alpha);  // acts at x = 0
+    CHECK(session.read("joints/camshaft/drive_force")[0] == Approx(torque).margin(2e-4));
+  });
+}

@@ -77,7 +77,8 @@ TEST_CASE("A periodic spline repeats itself, and converges with fourth order to 
     y(n) = y(0);
     const Interpolation spline(x, y, Interpolation::Kind::periodic, "curve");
     error.push_back(0);
-    for (double at = 0; at < 2 * M_PI; at += 0.01) error.back() = std::max(error.back(), std::abs(spline(at).value - f(at)));
+    for (double at = 0; at < 2 * M_PI; at += 0.01)
+      error.back() = std::max(error.back(), std::abs(spline(at).value - f(at)));
     for (const double at : {0.0, 1.3, 5.9}) {
       CHECK_THAT(spline(at + 6 * M_PI).value, WithinAbs(spline(at).value, 1e-13));
       CHECK_THAT(spline(at - 4 * M_PI).slope, WithinAbs(spline(at).slope, 1e-12));
@@ -93,6 +94,25 @@ TEST_CASE("A periodic spline repeats itself, and converges with fourth order to 
   };
   CHECK_THAT(message(Eigen::Vector4d(0, 1, 2, 3), Eigen::Vector4d(1, 2, 3, 2)), Catch::Contains("repeat the first"));
   CHECK_THAT(message(Eigen::Vector3d(0, 1, 2), Eigen::Vector3d(1, 2, 1)), Catch::Contains("three points"));
+}
+
+TEST_CASE("The integral is that of the pieces, over any number of periods") {
+  const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(5, -1, 2);
+  const Interpolation cubic(x, x.array().cube() - 2 * x.array().square() + 3, Interpolation::Kind::cubic, "curve");
+  const auto primitive = [](double at) { return std::pow(at, 4) / 4 - 2 * std::pow(at, 3) / 3 + 3 * at; };
+  for (const double at : {-1.0, -0.7, 0.5, 1.99, 2.0})
+    CHECK_THAT(cubic.integral(at), WithinAbs(primitive(at) - primitive(-1), 1e-13));
+  const Interpolation pieces(Eigen::Vector3d(0, 1, 3), Eigen::Vector3d(0, 2, 0), Interpolation::Kind::linear, "curve");
+  CHECK_THAT(pieces.integral(0.5), WithinAbs(0.25, 1e-14));
+  CHECK_THAT(pieces.integral(2), WithinAbs(2.5, 1e-14));
+  const Interpolation periodic(Eigen::Vector4d(0.5, 1, 2, 3), Eigen::Vector4d(1, 2, -0.5, 1),
+                               Interpolation::Kind::periodic, "curve");
+  for (const double at : {0.5, 0.6, 1.7, 2.9}) {
+    CHECK_THAT(periodic.integral(at + 7.5) - periodic.integral(at), WithinAbs(3 * periodic.integral(3), 1e-13));
+    CHECK_THAT(periodic.integral(at - 5) - periodic.integral(at), WithinAbs(-2 * periodic.integral(3), 1e-13));
+    const double h = 1e-5;
+    CHECK_THAT((periodic.integral(at + h) - periodic.integral(at - h)) / (2 * h), WithinAbs(periodic(at).value, 1e-8));
+  }
 }
 
 TEST_CASE("Straight pieces have the slope of the side asked for") {
