@@ -104,6 +104,7 @@ Eigenpairs shift_invert_eigenpairs(const ShiftInvertProblem& problem, int count,
   }
   const bool dense = n <= small || (n <= large && 2 * static_cast<Eigen::Index>(count) + 20 > n);
   Eigenpairs pairs = dense                                   ? dense_eigenpairs(problem, count)
+                     : options.iteration                     ? options.iteration(problem, count, options)
                      : options.method == EigenMethod::arpack ? arpack_eigenpairs(problem, count, options)
                                                              : block_lanczos_eigenpairs(problem, count, options);
   polish(problem, pairs);
