@@ -50,8 +50,8 @@ void measure_frequencies(const FullModel& model, const Superelement& body, RowMa
   const Eigen::MatrixXd amplitudes = free.vectors.leftCols(count);
   const Eigen::VectorXd lambda = free.omega.head(count).cwiseAbs2();
   const RowMatrix modes = model.basis.shapes * amplitudes;
-  const RowMatrix inertia = model.matrices.mass_times(modes) * lambda.asDiagonal();
-  const RowMatrix forces = model.matrices.stiffness_times(modes) - inertia;
+  RowMatrix forces = model.matrices.stiffness_times(modes);
+  forces -= model.matrices.mass_times(modes) * lambda.asDiagonal();
   const RowMatrix answers = model.held.expand(model.held.solve(model.held.restrict(forces)));
   result.mode_error = excess(lambda, enriched_eigenvalues(model, body, free, answers, count));
   lowest = modes.leftCols(std::min(count, most_meshed));

@@ -31,6 +31,20 @@ RowMatrix linear_inertia(const Solid& solid, const BodyMatrices& matrices, const
   return result;
 }
 
+/// The held body under one displacement after the other of its interfaces, then under the inertia of linear fields: one
+/// block of right-hand sides, since solutions are bound by memory, not by their number.
+/// @param carried  displacements of the tied points (3 points, kept directions)
+Eigen::MatrixXd static_solutions(const BodyMatrices& matrices, const Ties& ties, const HeldBody& held,
+                                 const RowMatrix& carried, const RowMatrix& inertia) {
+  Eigen::MatrixXd loads(held.size(), carried.cols() + inertia.cols());
+  loads << -held.restrict(matrices.stiffness_times(carried)), held.restrict(inertia);
+  Eigen::MatrixXd averages = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(ties.averages.size()), loads.cols());
+  for (Eigen::Index k = 0; k < averages.rows(); ++k) {
+    averages(k, ties.averages[k]) = 1;
+  }
+  return held.solve(loads, averages);
+}
+
 /// Keeps the first pairs, and the eigenvalue of the next.
 void keep_first(Eigenpairs& pairs, Eigen::Index count) {
   if (count >= pairs.values.size()) return;
@@ -125,27 +139,23 @@ Basis make_basis(const Solid& solid, const BodyMatrices& matrices, const Ties& t
   const auto kept = static_cast<Eigen::Index>(ties.kept.size());
   const Eigen::Index released = ties.carry_released.cols();
   basis.linear.inertia = linear_inertia(solid, matrices, body.centre);
-  // One block of right-hand sides: solutions are bound by memory, not by their number.
-  Eigen::MatrixXd loads(held.size(), kept + LinearFields::count);
   const RowMatrix carried(ties.carry_kept);
-  loads << -held.restrict(matrices.stiffness_times(carried)), held.restrict(basis.linear.inertia);
-  Eigen::MatrixXd averages = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(ties.averages.size()), loads.cols());
-  for (Eigen::Index k = 0; k < averages.rows(); ++k) {
-    averages(k, ties.averages[k]) = 1;
-  }
-  const Eigen::MatrixXd solutions = held.solve(loads, averages);
+  Eigen::MatrixXd solutions = static_solutions(matrices, ties, held, carried, basis.linear.inertia);
   basis.linear.held = held.expand(solutions.rightCols(LinearFields::count));
+  solutions.conservativeResize(Eigen::NoChange, kept);
 
   progress.start("fixed-boundary modes");
-  const Eigenpairs pairs = fixed_boundary_modes(matrices, held, modes, progress, threads);
+  Eigenpairs pairs = fixed_boundary_modes(matrices, held, modes, progress, threads);
   basis.eigenvalues = pairs.values;
   basis.residuals = pairs.residuals;
   basis.solves = pairs.solves;
   basis.sweeps = pairs.sweeps;
   basis.next = pairs.next;
   Eigen::MatrixXd inside(held.size(), kept + pairs.values.size());
-  inside.leftCols(kept) = solutions.leftCols(kept);
+  inside.leftCols(kept) = solutions;
   if (pairs.vectors.cols() > 0) inside.rightCols(pairs.vectors.cols()) = pairs.vectors;
+  solutions.resize(0, 0);  // large, as all that counts points
+  pairs.vectors.resize(0, 0);
   basis.released = inside.bottomRows(released);
   basis.shapes = held.expand(inside);
   basis.shapes.leftCols(kept) += carried;

@@ -6,6 +6,7 @@
 #include <new>
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <mpi.h>
 
 #include "reduce/common/error.hpp"
@@ -51,6 +52,7 @@ void work(int argc, char** argv, int rank) {
 
 int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
+  mallopt(M_MMAP_THRESHOLD, 1 << 20);  // what is large goes back to the machine when it is done with
   MPI_Init(&argc, &argv);
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);

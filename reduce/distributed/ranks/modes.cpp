@@ -67,11 +67,9 @@ class Search {
       std::sort(sorted.begin(), sorted.end());
       const auto wanted = std::min<std::size_t>(sorted.size(), static_cast<std::size_t>(request_.count));
       const double highest = sorted[wanted - 1];
-      const std::size_t before = values_.size();
+      const auto before = static_cast<std::ptrdiff_t>(values_.size());
       add_lowest(1);
-      if (values_.size() == before || *std::min_element(values_.begin() + static_cast<std::ptrdiff_t>(before),
-                                                        values_.end()) >= (1 - same) * highest)
-        break;
+      if (*std::min_element(values_.begin() + before, values_.end()) >= (1 - same) * highest) break;
     }
   }
 
@@ -203,7 +201,7 @@ class Search {
   void take(EPS eps, int count) {
     PetscInt found = 0;
     check(EPSGetConverged(eps, &found));
-    if (found < count && found + static_cast<PetscInt>(values_.size()) < request_.size && values_.empty())
+    if (found < count)
       throw ComputationError(
           fmt::format("only {} of {} modes converged in {} restarts", found, count, request_.restarts));
     for (PetscInt k = 0; k < found; ++k) {

@@ -52,7 +52,7 @@ MumpsFactor::MumpsFactor(Team& team, int size, Entries entries, const std::vecto
   for (const int place : {1, 2, 3}) m.control(place) = -1;  // says nothing itself
   m.control(4) = 0;
   m.control(18) = 3;   // entries are distributed
-  m.control(14) = 30;  // per cent more workspace than estimated
+  m.control(14) = 20;  // per cent more workspace than estimated
   m.control(27) = 16;  // right-hand sides at a time
   m.id.n = size;
   m.id.nnz_loc = static_cast<MUMPS_INT8>(m.entries.values.size());
