@@ -100,7 +100,7 @@ class Distributed(CommandTest):
         for name, values in alone.items():
             if "checks/" in name or name.endswith("checks"):
                 continue
-            if values.dtype.kind != "f":
+            if getattr(values, "dtype", numpy.dtype("O")).kind != "f":
                 numpy.testing.assert_array_equal(values, shared[name], name)
             elif values.size > 0:
                 error = numpy.abs(values - shared[name]).max()
@@ -125,11 +125,11 @@ class Distributed(CommandTest):
 
     def test_repeated_frequencies_are_found_as_often_as_they_are_there(self):
         self.write("pairs.msh", symmetric_bar(16, 2))
-        alone, shared = self.both(PAIRS.replace("COUNT", "12"))
+        alone, shared = self.both(PAIRS.replace("COUNT", "9"))
         frequencies = shared["modes/frequencies"]
         numpy.testing.assert_allclose(frequencies, alone["modes/frequencies"], rtol=1e-9)
         pairs = numpy.isclose(frequencies[1:], frequencies[:-1], rtol=1e-9)
-        self.assertGreaterEqual(pairs.sum(), 4)
+        self.assertEqual(pairs.sum(), 3)
         # Within a pair modes turn: the products with what is left of mass and stiffness do not.
         kept = len(shared["reduced/mass"]) - len(frequencies)
         for name in ("reduced/mass", "reduced/stiffness"):
@@ -140,9 +140,13 @@ class Distributed(CommandTest):
         starts = numpy.append(0, ends[:-1])
         for start, end in zip(starts, ends):
             a, b = (file["reduced/mass"][:kept, kept + start:kept + end] for file in (alone, shared))
-            if end == len(frequencies) and end - start == 1:
-                continue  # one of a pair that the count divides
             numpy.testing.assert_allclose(a @ a.T, b @ b.T, atol=1e-8 * numpy.abs(alone["reduced/mass"]).max() ** 2)
+
+    def test_the_lowest_pair_alone_is_found(self):
+        self.write("pairs.msh", symmetric_bar(16, 2))
+        alone, shared = self.both(PAIRS.replace("COUNT", "2"))
+        numpy.testing.assert_allclose(shared["modes/frequencies"], alone["modes/frequencies"], rtol=1e-9)
+        self.assertAlmostEqual(shared["modes/frequencies"][1] / shared["modes/frequencies"][0], 1, 9)
 
     def test_errors_are_one_sentence_with_the_status_of_bielle_reduce(self):
         self.write("bar.geo", BAR)
