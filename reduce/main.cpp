@@ -1,11 +1,15 @@
 // bielle-reduce: a body file in, a superelement out.
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <optional>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <malloc.h>
+#include <sys/prctl.h>
 #include <unistd.h>
 
 #include "reduce/body_file.hpp"
@@ -14,6 +18,8 @@
 #include "reduce/common/file_checks.hpp"
 #include "reduce/common/progress.hpp"
 #include "reduce/common/run_program.hpp"
+#include "reduce/distributed/distributed_matrices.hpp"
+#include "reduce/distributed/greeting.hpp"
 #include "reduce/mesh/checks.hpp"
 #include "reduce/mesh/describe.hpp"
 #include "reduce/mesh/import.hpp"
@@ -44,10 +50,35 @@ std::string written(const std::string& path) {
   return fmt::format("written: {} ({:.1f} MB)\n", path, 1e-6 * std::filesystem::file_size(path));
 }
 
+/// Where the mesh's matrices are kept: in this process, or on the ranks of bielle-reduce-mpi, which started it.
+class Workplace {
+ public:
+  /// @param ranks_at  number of the open socket to them; negative: there are none
+  explicit Workplace(int ranks_at) {
+    if (ranks_at < 0) return;
+    prctl(PR_SET_PDEATHSIG, SIGKILL);    // without the ranks nothing is left to do
+    mallopt(M_MMAP_THRESHOLD, 1 << 20);  // what is large goes back to the machine when it is done with
+    ranks_ = std::make_unique<Channel>(ranks_at, "the ranks");
+    greeting_ = ranks_->receive_number<Greeting>();
+  }
+  /// Processors are shared with the other ranks of this machine.
+  int threads(int available) const { return std::max(1, available / static_cast<int>(greeting_.ranks_here)); }
+  MatrixMaker matrices() const {
+    if (!ranks_) return assembled_matrices;
+    return [this](const Solid& solid, int threads) {
+      return distributed_matrices(*ranks_, static_cast<int>(greeting_.ranks), solid, threads);
+    };
+  }
+
+ private:
+  std::unique_ptr<Channel> ranks_;
+  Greeting greeting_;
+};
+
 void reduce_whole(const Mesh& mesh, const BodyFile& file, const std::string& output, Progress& progress,
-                  const CommonOptions& common) {
+                  const CommonOptions& common, const MatrixMaker& matrices) {
   ReductionReport report;
-  const Superelement body = reduce_body(mesh, file.options, progress, common.threads, &report);
+  const Superelement body = reduce_body(mesh, file.options, progress, common.threads, &report, matrices);
   progress.start("writing");
   write_superelement(body, output);
   progress.finish();
@@ -58,10 +89,10 @@ void reduce_whole(const Mesh& mesh, const BodyFile& file, const std::string& out
 }
 
 void reduce_in_pieces(const Mesh& mesh, const BodyFile& file, const std::string& output, Progress& progress,
-                      const CommonOptions& common) {
+                      const CommonOptions& common, const MatrixMaker& matrices) {
   std::vector<Check> checks;
   const CutBody body =
-      reduce_pieces(mesh, file.mesh.cuts, file.options, *file.pieces, progress, common.threads, &checks);
+      reduce_pieces(mesh, file.mesh.cuts, file.options, *file.pieces, progress, common.threads, &checks, matrices);
   progress.start("writing");
   write_cut_body(body, output);
   progress.finish();
@@ -71,7 +102,8 @@ void reduce_in_pieces(const Mesh& mesh, const BodyFile& file, const std::string&
   }
 }
 
-void reduce(const std::string& input, std::string output, bool system_calls, const CommonOptions& common) {
+void reduce(const std::string& input, std::string output, bool system_calls, const CommonOptions& common,
+            const MatrixMaker& matrices) {
   BodyFile file = read_body_file(input);
   file.mesh.system_calls = system_calls;
   if (output.empty()) {
@@ -87,8 +119,8 @@ void reduce(const std::string& input, std::string output, bool system_calls, con
     progress.warn(doubt);
   }
   const Mesh mesh = import_mesh(file.mesh, progress);
-  file.pieces ? reduce_in_pieces(mesh, file, output, progress, common)
-              : reduce_whole(mesh, file, output, progress, common);
+  file.pieces ? reduce_in_pieces(mesh, file, output, progress, common, matrices)
+              : reduce_whole(mesh, file, output, progress, common, matrices);
 }
 
 /// @param title  what stands before the description
@@ -147,6 +179,7 @@ int body(int argc, char** argv) {
   std::string input, output, geometry, superelement;
   std::optional<std::string> length_unit;
   bool system_calls = false;
+  int ranks_at = -1;
   CommonOptions common;
   const auto* input_option = app.add_option("BODY", input, "body file (YAML)");
   const auto* output_option =
@@ -160,6 +193,7 @@ int body(int argc, char** argv) {
       app.add_option("--inspect", superelement, "show what is in a superelement file, check it again");
   app.add_flag("--allow-system-calls", system_calls,
                "let a .geo run shell commands (SystemCall): for files that you trust");
+  app.add_option("--ranks-at", ranks_at)->group("");  // from bielle-reduce-mpi, not from users
   add_common_options(app, common);
   if (!parse_command_line(app, argc, argv)) {
     return 0;
@@ -184,7 +218,9 @@ int body(int argc, char** argv) {
     inspect(superelement);
     return 0;
   }
-  reduce(input, output, system_calls, common);
+  const Workplace workplace(ranks_at);
+  if (app.count("--threads") == 0) common.threads = workplace.threads(common.threads);
+  reduce(input, output, system_calls, common, workplace.matrices());
   return 0;
 }
 

@@ -42,8 +42,7 @@ Eigen::Vector3d inertia_answer(const Basis& basis) {
   return share;
 }
 
-void measure_frequencies(const FullModel& model, const Superelement& body, int threads, RowMatrix& lowest,
-                         Adequacy& result) {
+void measure_frequencies(const FullModel& model, const Superelement& body, RowMatrix& lowest, Adequacy& result) {
   const FreeModes free = free_modes(body.stiffness, body.mass, rigid_coordinates(body, body.centre));
   const Eigen::Index count = examined(free.omega, result.next_mode);
   result.frequencies = free.omega.head(count) / hertz;
@@ -51,15 +50,15 @@ void measure_frequencies(const FullModel& model, const Superelement& body, int t
   const Eigen::MatrixXd amplitudes = free.vectors.leftCols(count);
   const Eigen::VectorXd lambda = free.omega.head(count).cwiseAbs2();
   const RowMatrix modes = model.basis.shapes * amplitudes;
-  const RowMatrix inertia = model.mass.multiply(modes, 3, threads) * lambda.asDiagonal();
-  const RowMatrix forces = model.stiffness.multiply(modes, threads) - inertia;
+  RowMatrix forces = model.matrices.stiffness_times(modes);
+  forces -= model.matrices.mass_times(modes) * lambda.asDiagonal();
   const RowMatrix answers = model.held.expand(model.held.solve(model.held.restrict(forces)));
-  result.mode_error = excess(lambda, enriched_eigenvalues(model, body, free, answers, count, threads));
+  result.mode_error = excess(lambda, enriched_eigenvalues(model, body, free, answers, count));
   lowest = modes.leftCols(std::min(count, most_meshed));
   const Eigen::Index few = std::min(count, most_released);
-  const RowMatrix released = deformation_without_rigid_ties(model, forces.leftCols(few), threads);
+  const RowMatrix released = deformation_without_rigid_ties(model, forces.leftCols(few));
   if (released.cols() > 0)
-    result.tie_error = excess(lambda.head(few), enriched_eigenvalues(model, body, free, released, few, threads));
+    result.tie_error = excess(lambda.head(few), enriched_eigenvalues(model, body, free, released, few));
 }
 
 }  // namespace
@@ -74,7 +73,7 @@ Adequacy measure_adequacy(const FullModel& model, const Superelement& body, cons
     if (model.ties.surfaces[i].tie == Tie::rigid) result.rigid_ties.push_back(model.ties.interfaces[i].name);
   result.inertia_answer = inertia_answer(model.basis);
   RowMatrix lowest(3 * model.solid.points(), 0);
-  measure_frequencies(model, body, threads, lowest, result);
+  measure_frequencies(model, body, lowest, result);
 
   const Eigen::Index modes = lowest.cols(), loads = load_fields.cols();
   RowMatrix fields(lowest.rows(), modes + loads);

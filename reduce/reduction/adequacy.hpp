@@ -15,8 +15,7 @@ namespace bielle::reduce {
 /// The mesh's matrices and all that rests on their factorisation.
 struct FullModel {
   const Solid& solid;
-  const SymmetricMatrix& stiffness;
-  const NodeMatrix& mass;
+  const BodyMatrices& matrices;
   const Ties& ties;
   const HeldBody& held;
   const Basis& basis;

@@ -18,10 +18,10 @@ namespace {
 constexpr int most_modes_below = 1000;  // what a frequency may ask for: more is a slip in its unit
 
 /// M times the linear fields.
-RowMatrix linear_inertia(const Solid& solid, const NodeMatrix& mass, const Eigen::Vector3d& centre, int threads) {
+RowMatrix linear_inertia(const Solid& solid, const BodyMatrices& matrices, const Eigen::Vector3d& centre) {
   RowMatrix functions(solid.points(), 4);
   functions << Eigen::VectorXd::Ones(solid.points()), (solid.mesh.points.colwise() - centre).transpose();
-  const RowMatrix products = mass.multiply(functions, 1, threads);
+  const RowMatrix products = matrices.mass_times(functions, 1);
   RowMatrix result = RowMatrix::Zero(3 * solid.points(), LinearFields::count);
   for (Eigen::Index a = 0; a < solid.points(); ++a) {
     for (int i = 0; i < 3; ++i) {
@@ -29,6 +29,20 @@ RowMatrix linear_inertia(const Solid& solid, const NodeMatrix& mass, const Eigen
     }
   }
   return result;
+}
+
+/// The held body under one displacement after the other of its interfaces, then under the inertia of linear fields: one
+/// block of right-hand sides, since solutions are bound by memory, not by their number.
+/// @param carried  displacements of the tied points (3 points, kept directions)
+Eigen::MatrixXd static_solutions(const BodyMatrices& matrices, const Ties& ties, const HeldBody& held,
+                                 const RowMatrix& carried, const RowMatrix& inertia) {
+  Eigen::MatrixXd loads(held.size(), carried.cols() + inertia.cols());
+  loads << -held.restrict(matrices.stiffness_times(carried)), held.restrict(inertia);
+  Eigen::MatrixXd averages = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(ties.averages.size()), loads.cols());
+  for (Eigen::Index k = 0; k < averages.rows(); ++k) {
+    averages(k, ties.averages[k]) = 1;
+  }
+  return held.solve(loads, averages);
 }
 
 /// Keeps the first pairs, and the eigenvalue of the next.
@@ -40,7 +54,7 @@ void keep_first(Eigenpairs& pairs, Eigen::Index count) {
   pairs.residuals.conservativeResize(count);
 }
 
-Eigenpairs fixed_boundary_modes(const NodeMatrix& mass, const HeldBody& held, const ModeRequest& modes,
+Eigenpairs fixed_boundary_modes(const BodyMatrices& matrices, const HeldBody& held, const ModeRequest& modes,
                                 Progress& progress, int threads) {
   if (!modes.count && !modes.below) {
     return {};
@@ -55,10 +69,11 @@ Eigenpairs fixed_boundary_modes(const NodeMatrix& mass, const HeldBody& held, co
     return {};
   }
   const ShiftInvertProblem problem{held.size(), 0, [&](const Eigen::MatrixXd& b) { return held.solve(b); },
-                                   [&](const Eigen::MatrixXd& z) { return held.inertia(mass, z, threads); }};
+                                   [&](const Eigen::MatrixXd& z) { return held.inertia(matrices, z, threads); }};
   EigenpairOptions options;
   const double expected = 2.0 * modes.count.value_or(20) + 150;
   options.threads = threads;
+  options.iteration = matrices.eigen_iteration();
   options.on_solve = [&](int solves) {
     progress.update(std::min(0.99, solves / expected), counted(solves, "solution"));
   };
@@ -117,35 +132,30 @@ void put_rigid_motions_in(const Solid& solid, const Ties& ties, const MassProper
 
 double radius_of_gyration(const MassProperties& body) { return std::sqrt(body.inertia.trace() / (2 * body.mass)); }
 
-Basis make_basis(const Solid& solid, const SymmetricMatrix& stiffness, const NodeMatrix& mass, const Ties& ties,
-                 const HeldBody& held, const MassProperties& body, const ModeRequest& modes, Progress& progress,
-                 int threads) {
+Basis make_basis(const Solid& solid, const BodyMatrices& matrices, const Ties& ties, const HeldBody& held,
+                 const MassProperties& body, const ModeRequest& modes, Progress& progress, int threads) {
   progress.start("constraint modes");
   Basis basis;
   const auto kept = static_cast<Eigen::Index>(ties.kept.size());
   const Eigen::Index released = ties.carry_released.cols();
-  basis.linear.inertia = linear_inertia(solid, mass, body.centre, threads);
-  // One block of right-hand sides: solutions are bound by memory, not by their number.
-  Eigen::MatrixXd loads(held.size(), kept + LinearFields::count);
+  basis.linear.inertia = linear_inertia(solid, matrices, body.centre);
   const RowMatrix carried(ties.carry_kept);
-  loads << -held.restrict(stiffness.multiply(carried, threads)), held.restrict(basis.linear.inertia);
-  Eigen::MatrixXd averages = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(ties.averages.size()), loads.cols());
-  for (Eigen::Index k = 0; k < averages.rows(); ++k) {
-    averages(k, ties.averages[k]) = 1;
-  }
-  const Eigen::MatrixXd solutions = held.solve(loads, averages);
+  Eigen::MatrixXd solutions = static_solutions(matrices, ties, held, carried, basis.linear.inertia);
   basis.linear.held = held.expand(solutions.rightCols(LinearFields::count));
+  solutions.conservativeResize(Eigen::NoChange, kept);
 
   progress.start("fixed-boundary modes");
-  const Eigenpairs pairs = fixed_boundary_modes(mass, held, modes, progress, threads);
+  Eigenpairs pairs = fixed_boundary_modes(matrices, held, modes, progress, threads);
   basis.eigenvalues = pairs.values;
   basis.residuals = pairs.residuals;
   basis.solves = pairs.solves;
   basis.sweeps = pairs.sweeps;
   basis.next = pairs.next;
   Eigen::MatrixXd inside(held.size(), kept + pairs.values.size());
-  inside.leftCols(kept) = solutions.leftCols(kept);
+  inside.leftCols(kept) = solutions;
   if (pairs.vectors.cols() > 0) inside.rightCols(pairs.vectors.cols()) = pairs.vectors;
+  solutions.resize(0, 0);  // large, as all that counts points
+  pairs.vectors.resize(0, 0);
   basis.released = inside.bottomRows(released);
   basis.shapes = held.expand(inside);
   basis.shapes.leftCols(kept) += carried;

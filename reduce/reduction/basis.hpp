@@ -11,7 +11,6 @@
 #include <optional>
 
 #include "reduce/common/progress.hpp"
-#include "reduce/fe/node_graph.hpp"
 #include "reduce/reduction/held_body.hpp"
 
 namespace bielle::reduce {
@@ -25,10 +24,10 @@ struct LinearFields {
 };
 
 struct Basis {
-  RowMatrix shapes;             ///< T (3 points, n)
-  Eigen::MatrixXd released;     ///< (released directions, n): their values in T
-  Eigen::VectorXd eigenvalues;  ///< omega^2 of Phi, then of the residual vectors [rad^2/s^2]
-  Eigen::VectorXd residuals;    ///< of the eigenpairs, relative; residual vectors are none
+  RowMatrix shapes;                   ///< T (3 points, n)
+  Eigen::MatrixXd released;           ///< (released directions, n): their values in T
+  Eigen::VectorXd eigenvalues;        ///< omega^2 of Phi, then of the residual vectors [rad^2/s^2]
+  Eigen::VectorXd residuals;          ///< of the eigenpairs, relative; residual vectors are none
   Eigen::Index residual_vectors = 0;  ///< so many of the modes, the last ones
   std::optional<double> next;         ///< omega^2 of the first mode left out [rad^2/s^2]; absent: not sought, or none
   LinearFields linear;
@@ -52,8 +51,7 @@ double radius_of_gyration(const MassProperties& body);
 /// Where modes are wanted, one more is sought, to know where those left out begin.
 /// @throws InputError when more modes are wanted than the inside has freedoms; ComputationError when they do not
 /// converge
-Basis make_basis(const Solid& solid, const SymmetricMatrix& stiffness, const NodeMatrix& mass, const Ties& ties,
-                 const HeldBody& held, const MassProperties& body, const ModeRequest& modes, Progress& progress,
-                 int threads);
+Basis make_basis(const Solid& solid, const BodyMatrices& matrices, const Ties& ties, const HeldBody& held,
+                 const MassProperties& body, const ModeRequest& modes, Progress& progress, int threads);
 
 }  // namespace bielle::reduce

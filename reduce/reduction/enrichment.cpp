@@ -27,9 +27,9 @@ Eigen::VectorXd lowest_eigenvalues(const Eigen::MatrixXd& stiffness, const Eigen
 }  // namespace
 
 Eigen::VectorXd enriched_eigenvalues(const FullModel& model, const Superelement& body, const FreeModes& free,
-                                     const RowMatrix& shapes, Eigen::Index count, int threads) {
+                                     const RowMatrix& shapes, Eigen::Index count) {
   const Eigen::Index old = free.omega.size(), more = shapes.cols();
-  const RowMatrix forces = model.stiffness.multiply(shapes, threads), momenta = model.mass.multiply(shapes, 3, threads);
+  const RowMatrix forces = model.matrices.stiffness_times(shapes), momenta = model.matrices.mass_times(shapes);
   const Eigen::MatrixXd coupling_forces = inner_products(model.basis.shapes, forces);
   const Eigen::MatrixXd coupling_momenta = inner_products(model.basis.shapes, momenta);
   // Free modes have no rigid motion; what the added shapes have of it moves along without energy.

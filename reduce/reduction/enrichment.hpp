@@ -13,6 +13,6 @@ namespace bielle::reduce {
 /// @param count   of frequencies wanted
 /// @returns omega^2, the lowest ones, ascending [rad^2/s^2]
 Eigen::VectorXd enriched_eigenvalues(const FullModel& model, const Superelement& body, const FreeModes& free,
-                                     const RowMatrix& shapes, Eigen::Index count, int threads);
+                                     const RowMatrix& shapes, Eigen::Index count);
 
 }  // namespace bielle::reduce

@@ -6,7 +6,6 @@
 #include <Eigen/LU>
 
 #include "reduce/common/symmetric_eigenpairs.hpp"
-#include "reduce/fe/geometric_stiffness.hpp"
 #include "reduce/reduction/reduced_matrices.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
 #include "reduce/reduction/tie_second_order.hpp"
@@ -99,17 +98,15 @@ std::vector<Eigen::Matrix3d> virials(const std::vector<Interface>& interfaces, c
   for (const FreeBodyLoad& load : all_loads(interfaces, body)) {
     result.push_back(-load.gradient * second);
     if (load.applied.interface >= 0) {
-      result.back() +=
-          load.applied.force * (interfaces[load.applied.interface].position - body.centre).transpose();
+      result.back() += load.applied.force * (interfaces[load.applied.interface].position - body.centre).transpose();
     }
   }
   return result;
 }
 
-GeometricStiffness geometric_stiffness(const Solid& solid, const NodeGraph& graph, const SymmetricMatrix& stiffness,
-                                       const Ties& ties, const Basis& basis, const MassProperties& body,
-                                       const Eigen::MatrixXd& reduced_stiffness, bool with_loads, Progress& progress,
-                                       int threads) {
+GeometricStiffness geometric_stiffness(const Solid& solid, const BodyMatrices& matrices, const Ties& ties,
+                                       const Basis& basis, const MassProperties& body,
+                                       const Eigen::MatrixXd& reduced_stiffness, bool with_loads, Progress& progress) {
   std::vector<FreeBodyLoad> loads = all_loads(ties.interfaces, body);
   if (!with_loads) {
     loads.resize(pairs.size());
@@ -130,15 +127,14 @@ GeometricStiffness geometric_stiffness(const Solid& solid, const NodeGraph& grap
   }
   const Eigen::MatrixXd q = solve_free(reduced_stiffness.topLeftCorner(kept, kept), scale, interface_forces);
   const RowMatrix fields = constraint_modes * q - basis.linear.held * amplitudes;
-  RowMatrix tie_forces = stiffness.multiply(fields, threads) + basis.linear.inertia * amplitudes;
+  RowMatrix tie_forces = matrices.stiffness_times(fields) + basis.linear.inertia * amplitudes;
 
   const TieSecondOrder second_order(solid, ties, basis);
   GeometricStiffness result;
   constexpr Eigen::Index chunk = 18;  // matrices of the mesh in memory at a time: all of a body with two interfaces
   for (Eigen::Index first = 0; first < count; first += chunk) {
     const Eigen::Index width = std::min(chunk, count - first);
-    std::vector<Eigen::MatrixXd> reduced =
-        reduced_geometric_stiffness(solid, graph, fields.middleCols(first, width), basis.shapes, threads);
+    std::vector<Eigen::MatrixXd> reduced = matrices.geometric_stiffness(fields.middleCols(first, width), basis.shapes);
     for (Eigen::Index f = 0; f < width; ++f) {
       const Eigen::Index field = first + f;
       Eigen::MatrixXd& k = reduced[f];

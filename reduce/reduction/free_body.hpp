@@ -36,9 +36,8 @@ std::vector<Eigen::Matrix3d> virials(const std::vector<Interface>& interfaces, c
 
 /// @param reduced_stiffness  K~ (n,n)
 /// @param with_loads         false: spins only
-GeometricStiffness geometric_stiffness(const Solid& solid, const NodeGraph& graph, const SymmetricMatrix& stiffness,
-                                       const Ties& ties, const Basis& basis, const MassProperties& body,
-                                       const Eigen::MatrixXd& reduced_stiffness, bool with_loads, Progress& progress,
-                                       int threads);
+GeometricStiffness geometric_stiffness(const Solid& solid, const BodyMatrices& matrices, const Ties& ties,
+                                       const Basis& basis, const MassProperties& body,
+                                       const Eigen::MatrixXd& reduced_stiffness, bool with_loads, Progress& progress);
 
 }  // namespace bielle::reduce

@@ -53,7 +53,17 @@ HeldBody::~HeldBody() = default;
 
 const FactorStatistics& HeldBody::statistics() const { return factor_ ? factor_->statistics() : no_statistics_; }
 
+HeldBody::HeldBody(const Solid& solid, const BodyMatrices& matrices, const Ties& ties)
+    : HeldBody(solid, ties, [&](const std::vector<std::int64_t>& kept, const SparseRows& carried) {
+        return matrices.factorise(kept, carried);
+      }) {}
+
 HeldBody::HeldBody(const Solid& solid, const SymmetricMatrix& stiffness, const Ties& ties, int threads)
+    : HeldBody(solid, ties, [&](const std::vector<std::int64_t>& kept, const SparseRows& carried) {
+        return factorise_inside(stiffness, kept, carried, threads);
+      }) {}
+
+HeldBody::HeldBody(const Solid& solid, const Ties& ties, const Factorisation& factorisation)
     : points_(solid.mesh.points), carry_released_(ties.carry_released) {
   const std::vector<bool> inside = points_of_solid(solid);
   for (std::int64_t a = 0; a < solid.points(); ++a) {
@@ -65,7 +75,7 @@ HeldBody::HeldBody(const Solid& solid, const SymmetricMatrix& stiffness, const T
   conditions_ = restrict(RowMatrix(ties.spread));
   find_rigid_motions(solid, ties);
   choose_supports();
-  factorise(stiffness, ties, threads);
+  factorise(factorisation);
   close_conditions(ties);
 }
 
@@ -112,6 +122,11 @@ Eigen::MatrixXd HeldBody::inertia(const NodeMatrix& mass, const Eigen::MatrixXd&
     }
   }
   return forces;
+}
+
+Eigen::MatrixXd HeldBody::inertia(const BodyMatrices& matrices, const Eigen::MatrixXd& z, int threads) const {
+  if (const NodeMatrix* mass = matrices.mass_here()) return inertia(*mass, z, threads);
+  return restrict(matrices.mass_times(expand(z)));
 }
 
 void HeldBody::find_rigid_motions(const Solid& solid, const Ties& ties) {
@@ -178,38 +193,15 @@ void HeldBody::choose_supports() {
   std::set_difference(all.begin(), all.end(), supports_.begin(), supports_.end(), std::back_inserter(not_supports_));
 }
 
-void HeldBody::factorise(const SymmetricMatrix& stiffness, const Ties& ties, int threads) {
+void HeldBody::factorise(const Factorisation& factorisation) {
   const auto count = static_cast<Eigen::Index>(free_.size());
-  std::vector<std::int64_t> kept, block_starts;
-  std::int64_t last_point = -1;
+  std::vector<std::int64_t> kept;
   for (const Eigen::Index k : not_supports_) {
-    if (k >= count) {
-      break;
-    }
-    if (free_[k] / 3 != last_point) {
-      last_point = free_[k] / 3;
-      block_starts.push_back(static_cast<std::int64_t>(kept.size()));
-    }
+    if (k >= count) break;
     kept.push_back(free_[k]);
   }
-  SymmetricMatrix matrix = principal_submatrix(stiffness, kept);
-  if (const Eigen::Index released = carry_released_.cols(); released > 0) {
-    const RowMatrix forces = stiffness.multiply(RowMatrix(ties.carry_released), threads);
-    Eigen::MatrixXd border(matrix.size, released);
-    for (std::int64_t k = 0; k < matrix.size; ++k) {
-      border.row(k) = forces.row(kept[k]);
-    }
-    matrix = bordered(matrix, border, Eigen::MatrixXd(carry_released_.transpose() * forces));
-    for (Eigen::Index c = 0; c < released; ++c) {
-      block_starts.push_back(static_cast<std::int64_t>(kept.size()) + c);
-    }
-  }
-  block_starts.push_back(matrix.size);
-  if (matrix.size == 0) {
-    return;
-  }
   try {
-    factor_.emplace(matrix, block_starts, threads);
+    factor_ = factorisation(kept, carry_released_);
   } catch (const NotPositiveDefinite& error) {
     if (error.unknown() < static_cast<std::int64_t>(kept.size())) {
       throw ComputationError(

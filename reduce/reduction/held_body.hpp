@@ -12,22 +12,21 @@
 // there too. (The two-field form of FETI: C. Farhat, F.-X. Roux, IJNME 32 (1991) 1205.)
 #pragma once
 
+#include <functional>
 #include <memory>
-#include <optional>
 
-#include "reduce/fe/node_graph.hpp"
-#include "reduce/reduction/ties.hpp"
-#include "reduce/spectral/symmetric_factor.hpp"
+#include "reduce/reduction/body_matrices.hpp"
 
 namespace bielle::reduce {
 
 class HeldBody {
  public:
-  /// @param stiffness  of all points, unknowns x y z of point 0, 1, ...
   /// @param solid  in one piece
   /// @throws InputError when the body can still move with all kept directions held: how; ComputationError when a part
   /// of
   ///         the mesh hangs on by a point or an edge only: where
+  HeldBody(const Solid& solid, const BodyMatrices& matrices, const Ties& ties);
+  /// The same with a stiffness of all points that is here, unknowns x y z of point 0, 1, ...
   HeldBody(const Solid& solid, const SymmetricMatrix& stiffness, const Ties& ties, int threads);
   ~HeldBody();
 
@@ -43,6 +42,7 @@ class HeldBody {
   /// Forces on z of the inertia of accelerations z, a few columns at a time: what they need fits in the caches.
   /// @param mass  of all points
   Eigen::MatrixXd inertia(const NodeMatrix& mass, const Eigen::MatrixXd& z, int threads) const;
+  Eigen::MatrixXd inertia(const BodyMatrices& matrices, const Eigen::MatrixXd& z, int threads) const;
 
   /// z under the loads f (size,k), the averages at q_a (averages,k); none: at zero.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& f, const Eigen::MatrixXd& averages = {}) const;
@@ -53,7 +53,10 @@ class HeldBody {
   void restrict_into(const RowMatrix& forces, Eigen::Ref<Eigen::MatrixXd> f) const;
   void find_rigid_motions(const Solid& solid, const Ties& ties);
   void choose_supports();
-  void factorise(const SymmetricMatrix& stiffness, const Ties& ties, int threads);
+  using Factorisation =
+      std::function<std::unique_ptr<InsideFactor>(const std::vector<std::int64_t>& kept, const SparseRows& carried)>;
+  HeldBody(const Solid& solid, const Ties& ties, const Factorisation& factorisation);
+  void factorise(const Factorisation& factorisation);
   void close_conditions(const Ties& ties);
   Eigen::MatrixXd pseudo_solve(const Eigen::MatrixXd& f) const;  // K+ f
 
@@ -63,7 +66,7 @@ class HeldBody {
   SparseRows carry_released_;
   std::vector<Eigen::Index> supports_;      // held freedoms, numbers in z, ascending
   std::vector<Eigen::Index> not_supports_;  // the other numbers in z
-  std::optional<SymmetricFactor> factor_;   // of K_ii without the supports; none when nothing is left
+  std::unique_ptr<InsideFactor> factor_;    // of K_ii without the supports; none when nothing is left
   FactorStatistics no_statistics_;
   Eigen::MatrixXd rigid_;        // N (size, r)
   Eigen::MatrixXd conditions_;   // C^T (size, averages)

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "reduce/common/error.hpp"
-#include "reduce/fe/assembly.hpp"
 #include "reduce/mesh/checks.hpp"
 #include "reduce/mesh/place.hpp"
 #include "reduce/reduction/adequacy.hpp"
@@ -34,11 +33,11 @@ struct ReducedStiffness {
   double mode_stiffness = 0;  ///< largest relative difference between phi^T K phi and omega^2
 };
 
-ReducedStiffness reduce_stiffness(const SymmetricMatrix& stiffness, const Basis& basis,
+ReducedStiffness reduce_stiffness(const BodyMatrices& matrices, const Basis& basis,
                                   const std::vector<Interface>& interfaces, const MassProperties& body,
-                                  const Eigen::MatrixXd& mass, int threads) {
+                                  const Eigen::MatrixXd& mass) {
   const Eigen::Index n = basis.shapes.cols(), kept = basis.kept(), modes = basis.modes();
-  const Eigen::MatrixXd full = inner_products(basis.shapes, stiffness.multiply(basis.shapes, threads));
+  const Eigen::MatrixXd full = inner_products(basis.shapes, matrices.stiffness_times(basis.shapes));
   ReducedStiffness result{Eigen::MatrixXd::Zero(n, n)};
   const Eigen::MatrixXd boundary = full.topLeftCorner(kept, kept);
   const Eigen::MatrixXd rigid = interface_rigid_motions(interfaces, body.centre);
@@ -145,7 +144,7 @@ auto in_section(const ReductionOptions& options, const std::string& section, con
 }  // namespace
 
 Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Progress& progress, int threads,
-                         ReductionReport* report) {
+                         ReductionReport* report, const MatrixMaker& make) {
   progress.start("stiffness and mass");
   check_connected(mesh);
   const Solid solid =
@@ -156,33 +155,32 @@ Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Prog
   const std::vector<ResidualRequest> residual = residual_requests(solid, options.loads, points);
   warn_about_rigid_ties(ties, progress);
   warn_about_size(static_cast<Eigen::Index>(ties.kept.size()) + options.mode_count.value_or(0), progress);
-  const NodeGraph graph = node_graph(solid.nodes, solid.points(), threads);
-  const SymmetricMatrix stiffness = assemble_stiffness(solid, graph, threads);
-  const NodeMatrix mass = assemble_mass(solid, graph, threads);
+  const std::unique_ptr<BodyMatrices> kept_matrices = make(solid, threads);
+  const BodyMatrices& matrices = *kept_matrices;
 
   progress.start("factorisation");
-  const HeldBody held(solid, stiffness, ties, threads);
+  const HeldBody held(solid, matrices, ties);
   Basis basis = in_section(options, "modes", [&] {
-    return make_basis(solid, stiffness, mass, ties, held, properties, {options.mode_count, options.modes_below},
-                      progress, threads);
+    return make_basis(solid, matrices, ties, held, properties, {options.mode_count, options.modes_below}, progress,
+                      threads);
   });
   if (!residual.empty()) {
     progress.start("residual vectors");
-    add_residual_vectors(residual, stiffness, mass, held, threads, basis);
+    add_residual_vectors(residual, matrices, held, basis);
   }
 
   progress.start("reduced matrices");
   Superelement body = described_body(options, properties, ties, basis);
-  body.inertia_components = inertia_components(basis.shapes, mass, threads);
+  body.inertia_components = inertia_components(basis.shapes, matrices);
   body.mass = body.inertia_components[0] + body.inertia_components[1] + body.inertia_components[2];
-  const ReducedStiffness reduced = reduce_stiffness(stiffness, basis, ties.interfaces, properties, body.mass, threads);
+  const ReducedStiffness reduced = reduce_stiffness(matrices, basis, ties.interfaces, properties, body.mass);
   body.stiffness = reduced.matrix;
   body.effective_mass = effective_masses(body);
   body.damping = in_section(options, "damping", [&] { return damping_matrix(options, body); });
 
   progress.start("geometric stiffness");
-  GeometricStiffness geometric = geometric_stiffness(solid, graph, stiffness, ties, basis, properties, body.stiffness,
-                                                     basis.kept() <= most_load_stiffnesses, progress, threads);
+  GeometricStiffness geometric = geometric_stiffness(solid, matrices, ties, basis, properties, body.stiffness,
+                                                     basis.kept() <= most_load_stiffnesses, progress);
   body.spin_stiffness = std::move(geometric.spin);
   body.load_stiffness = std::move(geometric.load);
   body.surface_rotations = std::move(geometric.rotations);
@@ -200,7 +198,7 @@ Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Prog
 
   if (options.judged) {
     progress.start("what it is good for");
-    body.adequacy = measure_adequacy({solid, stiffness, mass, ties, held, basis}, body, geometric.load_fields, threads);
+    body.adequacy = measure_adequacy({solid, matrices, ties, held, basis}, body, geometric.load_fields, threads);
     body.adequacy->wanted = options.modes_below.value_or(0);
   }
 

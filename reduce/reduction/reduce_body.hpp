@@ -5,6 +5,7 @@
 
 #include "reduce/common/progress.hpp"
 #include "reduce/mesh/mesh.hpp"
+#include "reduce/reduction/body_matrices.hpp"
 #include "reduce/reduction/checks.hpp"
 #include "reduce/reduction/options.hpp"
 #include "reduce/spectral/symmetric_factor.hpp"
@@ -30,10 +31,11 @@ struct ReductionReport {
 /// @param progress  shows the phases; gets warnings
 /// @param threads   >= 1
 /// @param report    filled when given
+/// @param make      keeps the mesh's matrices and what is factorised of them
 /// @throws InputError for requests that do not fit the mesh (with the place in the input file), ComputationError when
 /// the
 ///         computation fails or a check does
 Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Progress& progress, int threads = 1,
-                         ReductionReport* report = nullptr);
+                         ReductionReport* report = nullptr, const MatrixMaker& make = assembled_matrices);
 
 }  // namespace bielle::reduce

@@ -44,18 +44,19 @@ void rename_free_nodes(const ReductionOptions& options, const std::vector<int>& 
 }
 
 /// Its phases are not shown, nor its notes: those on ties are answered by the comparison with the uncut body.
-Superelement reduce_quietly(const Mesh& mesh, const ReductionOptions& options, int threads) {
+Superelement reduce_quietly(const Mesh& mesh, const ReductionOptions& options, int threads, const MatrixMaker& make) {
   Progress quiet(true);
   try {
-    return reduce_body(mesh, options, quiet, threads);
+    return reduce_body(mesh, options, quiet, threads, nullptr, make);
   } catch (const ComputationError& error) {
     throw ComputationError(fmt::format("{}: {}", options.name, error.what()));
   }
 }
 
-/// The body in one piece, with twice as many modes as the pieces have together, so that those do not make the difference:
-/// long modes of a whole body converge more slowly than the short ones of its pieces.
-Superelement reduce_uncut(const Mesh& mesh, const ReductionOptions& options, Eigen::Index modes, int threads) {
+/// The body in one piece, with twice as many modes as the pieces have together, so that those do not make the
+/// difference: long modes of a whole body converge more slowly than the short ones of its pieces.
+Superelement reduce_uncut(const Mesh& mesh, const ReductionOptions& options, Eigen::Index modes, int threads,
+                          const MatrixMaker& make) {
   ReductionOptions uncut = options;
   const auto most = static_cast<int>(mesh.point_count() / 4);  // a tiny mesh has few
   uncut.mode_count = std::min(std::max(2 * static_cast<int>(modes), 40), most);
@@ -66,7 +67,7 @@ Superelement reduce_uncut(const Mesh& mesh, const ReductionOptions& options, Eig
   uncut.rayleigh.reset();
   uncut.judged = false;
   uncut.displacement_recovery = uncut.stress_recovery = RecoveryExtent::none;
-  return reduce_quietly(mesh, uncut, threads);
+  return reduce_quietly(mesh, uncut, threads, make);
 }
 
 std::vector<Check> check_masses(const Superelement& whole, const MassProperties& uncut) {
@@ -82,7 +83,8 @@ std::vector<Check> check_masses(const Superelement& whole, const MassProperties&
 }  // namespace
 
 CutBody reduce_pieces(const Mesh& mesh, const std::vector<CutPlane>& planes, const ReductionOptions& options,
-                      const PiecesRequest& request, Progress& progress, int threads, std::vector<Check>* checks) {
+                      const PiecesRequest& request, Progress& progress, int threads, std::vector<Check>* checks,
+                      const MatrixMaker& make) {
   check_damping(options, progress);
   progress.start("cutting");
   const CutMesh cut = cut_mesh(mesh, planes, options.interfaces.empty() ? "" : options.interfaces.front().group);
@@ -94,7 +96,7 @@ CutBody reduce_pieces(const Mesh& mesh, const std::vector<CutPlane>& planes, con
   const std::vector<ReductionOptions> of_pieces = piece_options(mesh, cut, planes, body.cuts, options, request.tie);
   for (std::size_t k = 0; k < cut.pieces.size(); ++k) {
     progress.start(fmt::format("piece {} of {}", k + 1, cut.pieces.size()));
-    body.pieces.push_back(reduce_quietly(cut.pieces[k].mesh, of_pieces[k], threads));
+    body.pieces.push_back(reduce_quietly(cut.pieces[k].mesh, of_pieces[k], threads, make));
     rename_free_nodes(of_pieces[k], cut.pieces[k].nodes, body.pieces.back());
   }
 
@@ -112,7 +114,7 @@ CutBody reduce_pieces(const Mesh& mesh, const std::vector<CutPlane>& planes, con
     progress.start("uncut body");
     Eigen::Index modes = 0;
     for (const Superelement& piece : body.pieces) modes += piece.fixed_boundary_modes();
-    const Superelement uncut = reduce_uncut(mesh, options, modes, threads);
+    const Superelement uncut = reduce_uncut(mesh, options, modes, threads, make);
     body.effect = {free_frequencies(uncut), stiffness_ratios(whole, uncut)};
   }
   progress.finish();

@@ -6,7 +6,6 @@
 #include <optional>
 #include <vector>
 
-#include "reduce/fe/node_graph.hpp"
 #include "reduce/reduction/basis.hpp"
 
 namespace bielle::reduce {
@@ -15,7 +14,7 @@ namespace bielle::reduce {
 Eigen::MatrixXd inner_products(const RowMatrix& a, const RowMatrix& b);
 
 /// S_11 S_22 S_33 S_23 S_13 S_12, T_k the rows of T of component k.
-std::array<Eigen::MatrixXd, 6> inertia_components(const RowMatrix& shapes, const NodeMatrix& mass, int threads);
+std::array<Eigen::MatrixXd, 6> inertia_components(const RowMatrix& shapes, const BodyMatrices& matrices);
 
 /// Modes of a free reduced body. Rigid motions are split off exactly, so that the elastic modes do not mix with them.
 struct FreeModes {

@@ -41,22 +41,22 @@ RowMatrix all_loads(const std::vector<ResidualRequest>& requests, Eigen::Index r
 }
 
 /// r = u - Phi Phi^T M u
-void remove_modes(const NodeMatrix& mass, const Basis& basis, int threads, HeldFields& fields) {
+void remove_modes(const BodyMatrices& matrices, const Basis& basis, HeldFields& fields) {
   if (basis.modes() == 0) return;
   const RowMatrix modes = basis.shapes.rightCols(basis.modes());
-  const Eigen::MatrixXd amplitudes = inner_products(modes, mass.multiply(fields.shapes, 3, threads));
+  const Eigen::MatrixXd amplitudes = inner_products(modes, matrices.mass_times(fields.shapes));
   fields.shapes -= modes * amplitudes;
   fields.released -= basis.released.rightCols(basis.modes()) * amplitudes;
 }
 
-Eigen::VectorXd twice_energies(const SymmetricMatrix& stiffness, const RowMatrix& fields, int threads) {
-  return fields.cwiseProduct(stiffness.multiply(fields, threads)).colwise().sum().transpose();
+Eigen::VectorXd twice_energies(const BodyMatrices& matrices, const RowMatrix& fields) {
+  return fields.cwiseProduct(matrices.stiffness_times(fields)).colwise().sum().transpose();
 }
 
 /// What the energy of an answer is measured by where conditions leave nothing of it but rounding: the load against the
 /// stiffest spring of the mesh.
-Eigen::VectorXd least_energies(const SymmetricMatrix& stiffness, const Eigen::MatrixXd& loads) {
-  return loads.colwise().squaredNorm().transpose() / stiffness.diagonal().maxCoeff();
+Eigen::VectorXd least_energies(const BodyMatrices& matrices, const Eigen::MatrixXd& loads) {
+  return loads.colwise().squaredNorm().transpose() / matrices.stiffness_diagonal().maxCoeff();
 }
 
 void check_requests(const std::vector<ResidualRequest>& requests, const std::vector<bool>& is_left) {
@@ -134,16 +134,15 @@ std::vector<ResidualRequest> residual_requests(const Solid& solid, const std::ve
   return requests;
 }
 
-void add_residual_vectors(const std::vector<ResidualRequest>& requests, const SymmetricMatrix& stiffness,
-                          const NodeMatrix& mass, const HeldBody& held, int threads, Basis& basis) {
+void add_residual_vectors(const std::vector<ResidualRequest>& requests, const BodyMatrices& matrices,
+                          const HeldBody& held, Basis& basis) {
   if (requests.empty()) return;
   const Eigen::MatrixXd loads = held.restrict(all_loads(requests, basis.shapes.rows()));
   const Eigen::MatrixXd answers = held.solve(loads);
   HeldFields fields{held.expand(answers), answers.bottomRows(basis.released.rows())};
-  const Eigen::VectorXd whole =
-      twice_energies(stiffness, fields.shapes, threads).cwiseMax(least_energies(stiffness, loads));
-  remove_modes(mass, basis, threads, fields);
-  const Eigen::VectorXd rest = twice_energies(stiffness, fields.shapes, threads);
+  const Eigen::VectorXd whole = twice_energies(matrices, fields.shapes).cwiseMax(least_energies(matrices, loads));
+  remove_modes(matrices, basis, fields);
+  const Eigen::VectorXd rest = twice_energies(matrices, fields.shapes);
   std::vector<bool> is_left;
   std::vector<Eigen::Index> left;
   for (Eigen::Index k = 0; k < rest.size(); ++k) {
@@ -154,11 +153,11 @@ void add_residual_vectors(const std::vector<ResidualRequest>& requests, const Sy
 
   const Eigen::VectorXd unit = rest.cwiseSqrt().cwiseInverse();
   fields.combine(Eigen::MatrixXd(unit.asDiagonal())(Eigen::all, left));
-  fields.combine(independent_fields(inner_products(fields.shapes, stiffness.multiply(fields.shapes, threads))));
+  fields.combine(independent_fields(inner_products(fields.shapes, matrices.stiffness_times(fields.shapes))));
   // What cancellation has left of the modes becomes visible in small vectors.
-  remove_modes(mass, basis, threads, fields);
-  const auto pairs = symmetric_eigenpairs(inner_products(fields.shapes, mass.multiply(fields.shapes, 3, threads)),
-                                          inner_products(fields.shapes, stiffness.multiply(fields.shapes, threads)));
+  remove_modes(matrices, basis, fields);
+  const auto pairs = symmetric_eigenpairs(inner_products(fields.shapes, matrices.mass_times(fields.shapes)),
+                                          inner_products(fields.shapes, matrices.stiffness_times(fields.shapes)));
   if (!pairs || pairs->values.minCoeff() <= 0)
     throw ComputationError(
         "the residual vectors have no positive mass and stiffness: a very distorted mesh may be the cause");

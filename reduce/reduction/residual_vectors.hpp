@@ -32,7 +32,7 @@ std::vector<ResidualRequest> residual_requests(const Solid& solid, const std::ve
 /// Appends the residual vectors to the basis. Of loads that depend on each other, or whose answer the modes have
 /// already, as many are made as are left: energies below 1e-10 of the whole answer's count as nothing.
 /// @throws InputError, with the place of the request, when nothing is left of any of its loads
-void add_residual_vectors(const std::vector<ResidualRequest>& requests, const SymmetricMatrix& stiffness,
-                          const NodeMatrix& mass, const HeldBody& held, int threads, Basis& basis);
+void add_residual_vectors(const std::vector<ResidualRequest>& requests, const BodyMatrices& matrices,
+                          const HeldBody& held, Basis& basis);
 
 }  // namespace bielle::reduce

@@ -52,21 +52,21 @@ Eigen::RowVectorXd ratios(const Eigen::RowVectorXd& a, const Eigen::RowVectorXd&
 
 }  // namespace
 
-RowMatrix deformation_without_rigid_ties(const FullModel& model, const RowMatrix& forces, int threads) {
+RowMatrix deformation_without_rigid_ties(const FullModel& model, const RowMatrix& forces) {
   std::vector<Surface> surfaces;
   for (std::size_t i = 0; i < model.ties.surfaces.size(); ++i)
     if (model.ties.surfaces[i].tie == Tie::rigid)
       surfaces.emplace_back(model.ties.surfaces[i], model.ties.interfaces[i]);
   if (surfaces.empty()) return RowMatrix(forces.rows(), 0);
 
-  const Eigen::VectorXd diagonal = model.stiffness.diagonal().cwiseMax(1e-300).cwiseInverse();
+  const Eigen::VectorXd diagonal = model.matrices.stiffness_diagonal().cwiseMax(1e-300).cwiseInverse();
   const auto preconditioned = [&](const RowMatrix& r) { return projected(surfaces, diagonal.asDiagonal() * r); };
   RowMatrix residual = projected(surfaces, -forces), z = preconditioned(residual), direction = z;
   RowMatrix answer = RowMatrix::Zero(forces.rows(), forces.cols());
   Eigen::RowVectorXd size = dots(residual, z);
   for (int step = 0; step < steps; ++step) {
-    const Eigen::MatrixXd inside = model.held.solve(model.held.restrict(model.stiffness.multiply(direction, threads)));
-    const RowMatrix y = direction - model.held.expand(inside), forces_of_y = model.stiffness.multiply(y, threads);
+    const Eigen::MatrixXd inside = model.held.solve(model.held.restrict(model.matrices.stiffness_times(direction)));
+    const RowMatrix y = direction - model.held.expand(inside), forces_of_y = model.matrices.stiffness_times(y);
     const Eigen::RowVectorXd length = ratios(size, dots(direction, forces_of_y));
     answer += y * length.asDiagonal();
     if (step + 1 == steps) break;

@@ -13,6 +13,6 @@ namespace bielle::reduce {
 
 /// @param forces  K u - lambda M u (3 points, k) [N] of k modes
 /// @returns y (3 points, k); no columns without rigid ties
-RowMatrix deformation_without_rigid_ties(const FullModel& model, const RowMatrix& forces, int threads);
+RowMatrix deformation_without_rigid_ties(const FullModel& model, const RowMatrix& forces);
 
 }  // namespace bielle::reduce

@@ -24,7 +24,7 @@ void put_in_order(Eigenpairs& pairs) {
                    [&](Eigen::Index a, Eigen::Index b) { return pairs.values(a) < pairs.values(b); });
   pairs.values = Eigen::VectorXd(pairs.values(order));
   pairs.residuals = Eigen::VectorXd(pairs.residuals(order));
-  pairs.vectors = Eigen::MatrixXd(pairs.vectors(Eigen::all, order));
+  if (!std::is_sorted(order.begin(), order.end())) pairs.vectors = Eigen::MatrixXd(pairs.vectors(Eigen::all, order));
   for (auto column : pairs.vectors.colwise()) {
     Eigen::Index largest = 0;
     column.cwiseAbs().maxCoeff(&largest);
@@ -36,8 +36,8 @@ void put_in_order(Eigenpairs& pairs) {
 
 /// Normalises the vectors, measures what the operator makes of them, and takes that: a step of inverse iteration, which
 /// leaves less of other eigenvectors, and nothing of directions without mass. Eigenvalues are Rayleigh's quotients.
-void polish(const ShiftInvertProblem& problem, Eigenpairs& pairs) {
-  constexpr Eigen::Index most = 64;  // columns at a time: a few blocks cost as much as one, and need less memory
+/// @param most  columns at a time: a few blocks cost as much as one, and need less memory
+void polish(const ShiftInvertProblem& problem, Eigen::Index most, Eigenpairs& pairs) {
   const Eigen::Index count = pairs.values.size();
   pairs.residuals.resize(count);
   for (Eigen::Index first = 0; first < count; first += most) {
@@ -104,9 +104,10 @@ Eigenpairs shift_invert_eigenpairs(const ShiftInvertProblem& problem, int count,
   }
   const bool dense = n <= small || (n <= large && 2 * static_cast<Eigen::Index>(count) + 20 > n);
   Eigenpairs pairs = dense                                   ? dense_eigenpairs(problem, count)
+                     : options.iteration                     ? options.iteration(problem, count, options)
                      : options.method == EigenMethod::arpack ? arpack_eigenpairs(problem, count, options)
                                                              : block_lanczos_eigenpairs(problem, count, options);
-  polish(problem, pairs);
+  polish(problem, options.iteration ? 8 : 64, pairs);  // who iterates elsewhere has little memory here
   put_in_order(pairs);
   return pairs;
 }

@@ -25,8 +25,16 @@ struct ShiftInvertProblem {
 
 enum class EigenMethod { block_lanczos, arpack };
 
+struct Eigenpairs;
+struct EigenpairOptions;
+
+/// Finds at least the `count` eigenpairs nearest to the shift; order, norm and residuals are left to who asked.
+using EigenIteration =
+    std::function<Eigenpairs(const ShiftInvertProblem& problem, int count, const EigenpairOptions& options)>;
+
 struct EigenpairOptions {
   EigenMethod method = EigenMethod::block_lanczos;
+  EigenIteration iteration;  ///< in place of the method, where it is given
   /// Residuals of the eigenpairs of the inverted operator, relative to their eigenvalues.
   double tolerance = 1e-10;
   int restarts = 300;  ///< before giving up

@@ -7,7 +7,7 @@ include(CMakePackageConfigHelpers)
 set(BIELLE_INSTALL_CMAKE ${CMAKE_INSTALL_LIBDIR}/cmake/Bielle)
 set(BIELLE_INSTALL_TOOLS ${CMAKE_INSTALL_DATADIR}/bielle/tools)
 
-foreach(program bielle-reduce bielle-mechanism)
+foreach(program bielle-reduce bielle-reduce-mpi bielle-mechanism)
   if(TARGET ${program})
     install(TARGETS ${program} RUNTIME)
   endif()

@@ -67,6 +67,23 @@ if(BIELLE_PERFORMANCE)
   bielle_find_package(benchmark "Google Benchmark" libbenchmark-dev)
 endif()
 
+# What bielle-reduce-mpi alone links; libraries that others link know nothing of it.
+set(BIELLE_MPI_FOUND FALSE)
+if(BIELLE_MPI AND NOT CMAKE_FIND_PACKAGE_NAME)
+  set(needed "${BIELLE_MISSING}")
+  bielle_find_pkgconfig(slepc slepc "SLEPc and PETSc, real numbers" libslepc-real-dev)
+  bielle_find_pkgconfig(mpi mpi-c "MPI" mpi-default-dev)
+  bielle_find_plain(mumps dmumps_c.h "" dmumps "MUMPS" libmumps-dev)
+  if("${needed}" STREQUAL "${BIELLE_MISSING}")
+    set(BIELLE_MPI_FOUND TRUE)
+    # Where headers are is enough: flags of those who packed PETSc would not fit our precompiled headers.
+    set_target_properties(PkgConfig::slepc PkgConfig::mpi PROPERTIES INTERFACE_COMPILE_OPTIONS "")
+  elseif(BIELLE_MPI STREQUAL AUTO)
+    set(BIELLE_MISSING "${needed}")
+    message(STATUS "bielle-reduce-mpi is left out: `tools/install --with-mpi` installs what it needs")
+  endif()
+endif()
+
 if(NOT OpenMP_CXX_FOUND)
   bielle_missing("OpenMP for C++" g++)
 endif()

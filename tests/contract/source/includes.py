@@ -10,7 +10,7 @@ import re
 
 # "" is the program's own folder: what stands beside main.
 FOLDERS = {
-    "reduce": ["common", "spectral", "superelement", "mesh", "fe", "reduction", ""],
+    "reduce": ["common", "spectral", "superelement", "mesh", "fe", "reduction", "distributed", "distributed/ranks", ""],
     "mechanism": ["math", "model", "reading", "contact_laws", "measures",
                   "elements/beam", "elements/control", "elements/forces", "elements/rigid_body",
                   "elements/superelement/recovery", "elements/superelement",

@@ -17,7 +17,7 @@ from includes import sources
 
 ROOT = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", ".."))
 BUILD = os.environ["BIELLE_BUILD"]
-OPTIONAL = {"mechanism/python"}  # built where pybind11 is
+OPTIONAL = {"mechanism/python", "reduce/distributed/ranks"}  # built where pybind11 is, and MPI
 
 
 def compilers():

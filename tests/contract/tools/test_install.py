@@ -50,6 +50,13 @@ class Install(InFolder):
         self.assertTrue(install.endswith(" libgmsh-dev"))
         self.assertIn(" install -y ", install)
 
+    def test_what_several_machines_need_is_installed_on_request(self):
+        one_missing = ONE_MISSING.replace("libgmsh-dev", "libslepc-real-dev")
+        self.assertEqual(self.install(dpkg_query=one_missing, apt_get=LOGGED, id="echo 0").returncode, 0)
+        self.assertEqual(self.commands(), [])
+        self.assertEqual(self.install("--with-mpi").returncode, 0)
+        self.assertTrue(self.commands()[-1].endswith(" libslepc-real-dev"))
+
     def test_others_install_through_sudo(self):
         done = self.install(dpkg_query=ONE_MISSING, apt_get=LOGGED, id="echo 1000", sudo='[ "$1" = -n ] || "$@"')
         self.assertEqual(done.returncode, 0, done.stderr)

@@ -1,0 +1,24 @@
+// Cells shared out among ranks: the body's cells are halved, by their centroids, along its longest direction, the
+// halves likewise (recursive coordinate bisection).
+#pragma once
+
+#include <vector>
+
+#include "reduce/distributed/shares.hpp"
+#include "reduce/fe/solid.hpp"
+
+namespace bielle::reduce {
+
+/// One part of a solid.
+struct SolidPart {
+  std::vector<int> points;  ///< number in the solid of each of its points, ascending
+  MeshShare share;
+};
+
+/// Cells of each part; as many in each as in any other, or one more.
+/// @param parts  >= 1; there may be more than cells
+std::vector<std::vector<int>> divided_cells(const Solid& solid, int parts);
+
+SolidPart part_of(const Solid& solid, const std::vector<int>& cells);
+
+}  // namespace bielle::reduce

@@ -1,0 +1,50 @@
+// The matrices of one rank's cells, and what they are in the unknowns of the inside.
+#pragma once
+
+#include <vector>
+
+#include "reduce/distributed/shares.hpp"
+#include "reduce/fe/node_graph.hpp"
+#include "reduce/fe/solid.hpp"
+
+namespace bielle::reduce {
+
+/// Entries of a symmetric matrix, one of each pair (i,j), (j,i); those that occur several times, here and on other
+/// ranks, add up. Numbers from 1, as MUMPS counts.
+struct Entries {
+  std::vector<int> rows, columns;
+  std::vector<double> values;
+
+  void add(int row, int column, double value);
+};
+
+class Part {
+ public:
+  /// @param share    unpacked; taken
+  /// @param threads  of assembly and products
+  /// @throws ComputationError as assemble_stiffness
+  Part(MeshShare share, int threads);
+  Part(const Part&) = delete;
+  Part& operator=(const Part&) = delete;
+
+  /// K u, and (m (x) I) u, for rows of this part's points.
+  RowMatrix stiffness_times(const RowMatrix& u) const { return stiffness_.multiply(u, threads_); }
+  RowMatrix mass_times(const RowMatrix& u, int rows_per_node) const {
+    return mass_.multiply(u, rows_per_node, threads_);
+  }
+  Eigen::VectorXd stiffness_diagonal() const { return stiffness_.diagonal(); }
+  std::vector<Eigen::MatrixXd> geometric_stiffness(const RowMatrix& fields, const RowMatrix& shapes) const;
+
+  /// P^T K P of this part.
+  Entries inside(const InsideShare& share) const;
+
+ private:
+  int threads_;
+  Mesh mesh_;
+  Solid solid_;
+  NodeGraph graph_;
+  SymmetricMatrix stiffness_;
+  NodeMatrix mass_;
+};
+
+}  // namespace bielle::reduce

@@ -1,0 +1,23 @@
+#include "reduce/distributed/shares.hpp"
+
+namespace bielle::reduce {
+
+void exchange(Packing& packing, MeshShare& share) {
+  packing(share.type);
+  packing(share.points);
+  packing(share.nodes);
+  packing(share.material_of);
+  packing(share.elasticities);
+  packing(share.densities);
+}
+
+void exchange(Packing& packing, InsideShare& share) {
+  packing(share.numbers);
+  packing(share.starts);
+  packing(share.unknowns);
+  packing(share.weights);
+}
+
+void exchange(Packing& packing, BlockStarts& blocks) { packing(blocks.starts); }
+
+}  // namespace bielle::reduce

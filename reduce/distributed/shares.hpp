@@ -1,0 +1,51 @@
+// What one rank gets: a part of the mesh, and how its points belong to the unknowns of the inside.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "reduce/common/packing.hpp"
+#include "reduce/mesh/mesh.hpp"
+
+namespace bielle::reduce {
+
+/// Cells with their points, numbered anew, and their materials.
+struct MeshShare {
+  CellType type = CellType::tet10;
+  Eigen::Matrix3Xd points;  ///< [m]
+  Eigen::MatrixXi nodes;    ///< (nodes of a cell, cells)
+  std::vector<int> material_of;
+  std::vector<Eigen::Matrix<double, 6, 6>> elasticities;  ///< [Pa]
+  std::vector<double> densities;                          ///< [kg/m^3]
+};
+
+void exchange(Packing& packing, MeshShare& share);
+
+/// u = P z on the points of a share: row k of u is the unknown `numbers[k]` of z, or (-1) sum of `weights` times
+/// unknowns over `starts[k] .. starts[k+1]`.
+struct InsideShare {
+  std::vector<int> numbers;  ///< (3 points)
+  std::vector<int> starts;   ///< (3 points + 1)
+  std::vector<int> unknowns;
+  std::vector<double> weights;
+};
+
+void exchange(Packing& packing, InsideShare& share);
+
+/// First unknown of each block, then the number of unknowns: those of a point stand together.
+struct BlockStarts {
+  std::vector<int> starts;
+};
+
+void exchange(Packing& packing, BlockStarts& blocks);
+
+/// What a distributed factorisation tells.
+struct SharedFactorStatistics {
+  double nonzeros = 0, flops = 0, estimated_MB = 0;  ///< of all ranks
+  double analysis_seconds = 0, factorisation_seconds = 0;
+  std::int64_t negative_pivots = 0;
+};
+
+}  // namespace bielle::reduce

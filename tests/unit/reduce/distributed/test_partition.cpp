@@ -1,0 +1,80 @@
+// Cells shared out: each once, evenly, and the parts together are the solid.
+#include <algorithm>
+#include <set>
+
+#include <catch2/catch.hpp>
+
+#include "reduce/distributed/partition.hpp"
+#include "reduce/fe/assembly.hpp"
+#include "tests/support/box_mesh.hpp"
+
+using namespace bielle;
+using namespace bielle::reduce;
+
+namespace {
+
+struct Bar {
+  Mesh mesh = test::box_mesh({{2, 1, 0.5}, {6, 3, 2}});
+  Solid solid = make_solid(mesh, {{"steel", Material::isotropic(2e11, 0.3, 7800)}}, {{"all", "steel"}});
+};
+
+}  // namespace
+
+TEST_CASE("each cell is in one part, and parts are of one size") {
+  const Bar box;
+  const auto parts = GENERATE(1, 2, 3, 7);
+  std::multiset<int> seen;
+  std::size_t least = box.mesh.solid_count(), most = 0;
+  for (const std::vector<int>& cells : divided_cells(box.solid, parts)) {
+    seen.insert(cells.begin(), cells.end());
+    least = std::min(least, cells.size());
+    most = std::max(most, cells.size());
+  }
+  CHECK(seen.size() == static_cast<std::size_t>(box.solid.cells()));
+  CHECK(std::set<int>(seen.begin(), seen.end()).size() == seen.size());
+  CHECK(most - least <= 2);  // a cell for each of the two halvings
+}
+
+TEST_CASE("a body of two halves is divided across its length") {
+  const Bar box;
+  const auto parts = divided_cells(box.solid, 2);
+  const SolidPart low = part_of(box.solid, parts[0]), high = part_of(box.solid, parts[1]);
+  CHECK(low.share.points.row(0).maxCoeff() <= 1 + 1e-12);
+  CHECK(high.share.points.row(0).minCoeff() >= 1 - 1e-12);
+}
+
+TEST_CASE("more parts than cells leave some without any") {
+  const Mesh mesh = test::box_mesh({{1, 1, 1}, {1, 1, 1}, false});
+  const Solid solid = make_solid(mesh, {{"steel", Material::isotropic(2e11, 0.3, 7800)}}, {{"all", "steel"}});
+  const auto parts = divided_cells(solid, 20);
+  REQUIRE(parts.size() == 20);
+  CHECK(std::any_of(parts.begin(), parts.end(), [](const auto& cells) { return cells.empty(); }));
+  for (const std::vector<int>& cells : parts)
+    CHECK(part_of(solid, cells).share.nodes.cols() == static_cast<Eigen::Index>(cells.size()));
+}
+
+TEST_CASE("matrices of the parts add up to those of the solid") {
+  const Bar box;
+  const NodeGraph graph = node_graph(box.solid.nodes, box.solid.points());
+  const RowMatrix u = RowMatrix::Random(3 * box.solid.points(), 2);
+  const RowMatrix force = assemble_stiffness(box.solid, graph).multiply(u);
+  const RowMatrix momentum = assemble_mass(box.solid, graph).multiply(u, 3);
+  RowMatrix sum_of_forces = RowMatrix::Zero(u.rows(), 2), sum_of_momenta = sum_of_forces;
+  for (const std::vector<int>& cells : divided_cells(box.solid, 3)) {
+    SolidPart part = part_of(box.solid, cells);
+    const Mesh mesh{part.share.points, {{part.share.type, part.share.nodes}}, {}};
+    const Solid solid{mesh, part.share.type, mesh.blocks[0].nodes, box.solid.materials, part.share.material_of};
+    const NodeGraph own = node_graph(solid.nodes, solid.points());
+    RowMatrix rows(3 * solid.points(), 2);
+    for (std::size_t a = 0; a < part.points.size(); ++a)
+      rows.middleRows<3>(3 * static_cast<Eigen::Index>(a)) = u.middleRows<3>(3 * part.points[a]);
+    const RowMatrix forces = assemble_stiffness(solid, own).multiply(rows);
+    const RowMatrix momenta = assemble_mass(solid, own).multiply(rows, 3);
+    for (std::size_t a = 0; a < part.points.size(); ++a) {
+      sum_of_forces.middleRows<3>(3 * part.points[a]) += forces.middleRows<3>(3 * static_cast<Eigen::Index>(a));
+      sum_of_momenta.middleRows<3>(3 * part.points[a]) += momenta.middleRows<3>(3 * static_cast<Eigen::Index>(a));
+    }
+  }
+  CHECK((sum_of_forces - force).norm() < 1e-13 * force.norm());
+  CHECK((sum_of_momenta - momentum).norm() < 1e-13 * momentum.norm());
+}
