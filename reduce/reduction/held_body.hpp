@@ -47,6 +47,11 @@ class HeldBody {
   /// z under the loads f (size,k), the averages at q_a (averages,k); none: at zero.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& f, const Eigen::MatrixXd& averages = {}) const;
 
+  /// How many modes lie below an eigenvalue omega^2 [rad^2/s^2], counted by the pivots of K - omega^2 M: what it takes
+  /// is another factorisation. @param stiffness, mass  of all points
+  PivotSigns count_below(const SymmetricMatrix& stiffness, const NodeMatrix& mass, double eigenvalue,
+                         int threads) const;
+
  private:
   /// @param u  (3 points, k), zero outside
   void expand_into(const Eigen::Ref<const Eigen::MatrixXd>& z, RowMatrix& u) const;

@@ -81,12 +81,18 @@ class RowFinder {
     if (row < first + width) return at_ = row - first;
     const std::int64_t* const begin = structure_.rows + structure_.row_starts[s];
     const std::int64_t* const end = structure_.rows + structure_.row_starts[s + 1];
-    return at_ = std::lower_bound(begin + width, end, row) - begin;
+    const std::int64_t* const place = std::lower_bound(begin + width, end, row);
+    is_outside_ = is_outside_ || place == end || *place != row;
+    return at_ = std::min(place, end - 1) - begin;
   }
+
+  /// Whether a row was asked for that its supernode has not.
+  bool is_outside() const { return is_outside_; }
 
  private:
   const SupernodalFactor& structure_;
   std::int64_t last_ = -1, at_ = 0;
+  bool is_outside_ = false;
 };
 
 std::vector<std::int64_t> places_in_order(const SupernodalFactor& structure) {
@@ -280,6 +286,10 @@ class CountedColumns {
            p < static_cast<std::size_t>(entries_->starts[number + 1]); ++p)
         column[finder.find(s, entries_->rows[p])] = entries_->values[p];
     });
+    if (finder.is_outside()) {
+#pragma omp atomic write
+      is_outside_ = true;
+    }
     return front;
   }
   double* pivots() { return pivots_.data(); }
@@ -296,7 +306,8 @@ class CountedColumns {
       }
     });
   }
-  const PivotSigns& signs() const { return signs_; }
+  /// Growth is infinite where A has entries outside of the structure.
+  PivotSigns signs() const { return {signs_.negative, is_outside_ ? infinite : signs_.growth}; }
 
  private:
   static constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -315,6 +326,7 @@ class CountedColumns {
   std::unique_ptr<double, Freed> columns_;
   std::int64_t largest_ = 0;
   PivotSigns signs_;
+  bool is_outside_ = false;
 };
 
 }  // namespace

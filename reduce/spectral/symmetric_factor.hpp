@@ -72,7 +72,8 @@ class SymmetricFactor {
 
   /// How many eigenvalues of another symmetric matrix, not necessarily definite, are negative: the signs of the pivots
   /// of its L D L^T in the same order. What it takes is another factorisation; its L is not kept.
-  /// @param a      the pattern of that which was factorised, or part of it; then any number of unknowns more
+  /// @param a      the pattern of that which was factorised, or part of it; then any number of unknowns more. Growth is
+  ///               infinite where the pattern has more
   /// @param scale  of each unknown, the size of its diagonal entry: growth is measured by it
   /// @throws ComputationError when memory does not suffice
   PivotSigns count_signs(SymmetricMatrix a, const std::vector<double>& scale) const;
