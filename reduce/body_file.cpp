@@ -130,13 +130,14 @@ void read_regions(const YamlValue& root, BodyFile& body) {
 }
 
 void read_modes(const YamlValue& value, ReductionOptions& options) {
-  value.check_keys({"count", "below"}, "the modes");
+  value.check_keys({"count", "below", "proof"}, "the modes");
   if (const auto count = value.find("count")) {
     options.mode_count = count->integer();
     if (*options.mode_count < 0)
       count->fail(fmt::format("expected a number of at least 0, found {}", *options.mode_count));
   }
   if (const auto below = value.find("below")) options.modes_below = below->positive_number();
+  if (const auto proof = value.find("proof")) options.modes_proven = proof->boolean();
   if (!options.mode_count && !options.modes_below) value.fail("expected how many modes: count, or below [Hz], or both");
 }
 
@@ -173,7 +174,8 @@ void read_recovery(const YamlValue& value, ReductionOptions& options) {
 
 void read_parameters(YamlValue& root) {
   if (const auto given = root.find("parameters"))
-    for (const auto& [name, value] : given->entries()) root.set_parameter(name, value.number());  // may use those above it
+    for (const auto& [name, value] : given->entries())
+      root.set_parameter(name, value.number());  // may use those above it
 }
 
 BodyFile read(YamlValue root) {

@@ -13,6 +13,9 @@ class FactorHere : public InsideFactor {
       : factor_(matrix, block_starts, threads) {}
   const FactorStatistics& statistics() const override { return factor_.statistics(); }
   Eigen::MatrixXd solve(const Eigen::MatrixXd& f) const override { return factor_.solve(f); }
+  std::optional<PivotSigns> count_signs(SymmetricMatrix matrix, const std::vector<double>& scale) const override {
+    return factor_.count_signs(std::move(matrix), scale);
+  }
 
  private:
   SymmetricFactor factor_;
@@ -34,6 +37,7 @@ class MatricesHere : public BodyMatrices {
   RowMatrix mass_times(const RowMatrix& u, int rows_per_node) const override {
     return mass_.multiply(u, rows_per_node, threads_);
   }
+  const SymmetricMatrix* stiffness_here() const override { return &stiffness_; }
   const NodeMatrix* mass_here() const override { return &mass_; }
   std::vector<Eigen::MatrixXd> geometric_stiffness(const RowMatrix& fields, const RowMatrix& shapes) const override {
     return reduced_geometric_stiffness(solid_, graph_, fields, shapes, threads_);

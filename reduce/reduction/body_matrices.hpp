@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "reduce/fe/node_graph.hpp"
@@ -22,6 +23,11 @@ class InsideFactor {
   virtual const FactorStatistics& statistics() const = 0;
   /// K^-1 f for a block of right-hand sides (size,k).
   virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& f) const = 0;
+  /// As SymmetricFactor::count_signs; nothing where that cannot be done.
+  virtual std::optional<PivotSigns> count_signs(SymmetricMatrix /*matrix*/,
+                                                const std::vector<double>& /*scale*/) const {
+    return std::nullopt;
+  }
 };
 
 /// K [N/m] and M [kg] of all points of a solid, unknowns x y z of point 0, of point 1, ...
@@ -33,7 +39,8 @@ class BodyMatrices {
   virtual Eigen::VectorXd stiffness_diagonal() const = 0;
   /// M is m (x) I3. @param rows_per_node  rows of u that each point owns: 3, or 1 for the product with m
   virtual RowMatrix mass_times(const RowMatrix& u, int rows_per_node = 3) const = 0;
-  /// m where this process has all of it: products may then go on in several threads; nullptr elsewhere.
+  /// K and m where this process has all of them: products may then go on in several threads; nullptr elsewhere.
+  virtual const SymmetricMatrix* stiffness_here() const { return nullptr; }
   virtual const NodeMatrix* mass_here() const { return nullptr; }
   /// As fe/geometric_stiffness.hpp.
   virtual std::vector<Eigen::MatrixXd> geometric_stiffness(const RowMatrix& fields, const RowMatrix& shapes) const = 0;

@@ -14,6 +14,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "reduce/reduction/body_matrices.hpp"
 
@@ -46,6 +47,10 @@ class HeldBody {
 
   /// z under the loads f (size,k), the averages at q_a (averages,k); none: at zero.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& f, const Eigen::MatrixXd& averages = {}) const;
+
+  /// How many modes lie below an eigenvalue omega^2 [rad^2/s^2], counted by the pivots of K - omega^2 M: what it takes
+  /// is another factorisation. @returns nothing where the matrices are not in this process
+  std::optional<PivotSigns> count_below(const BodyMatrices& matrices, double eigenvalue, int threads) const;
 
  private:
   /// @param u  (3 points, k), zero outside

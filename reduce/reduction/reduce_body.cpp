@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <fmt/format.h>
 
+#include "reduce/common/counted.hpp"
 #include "reduce/common/error.hpp"
 #include "reduce/mesh/checks.hpp"
 #include "reduce/mesh/place.hpp"
@@ -12,6 +14,7 @@
 #include "reduce/reduction/basis.hpp"
 #include "reduce/reduction/free_body.hpp"
 #include "reduce/reduction/load_patterns.hpp"
+#include "reduce/reduction/missed_modes.hpp"
 #include "reduce/reduction/point_ties.hpp"
 #include "reduce/reduction/recovery.hpp"
 #include "reduce/reduction/reduced_matrices.hpp"
@@ -134,6 +137,28 @@ std::vector<Check> check_reduction(const Superelement& body, const ReducedStiffn
   return checks;
 }
 
+/// Says what the count of the modes gave, or that it could not be made.
+std::optional<ModeCount> prove_modes(const BodyMatrices& matrices, const HeldBody& held, const Basis& basis,
+                                     Progress& progress, int threads) {
+  if (basis.modes() == 0) return std::nullopt;
+  progress.start("count of the modes");
+  const std::optional<ModeCount> count = count_modes(matrices, held, basis, threads);
+  if (!count) {
+    progress.warn(
+        "modes.proof: that no mode was missed could not be proven, since the modes are too close to each other or the "
+        "pivots too small; with another count it may be possible");
+  } else if (count->counted == count->found) {
+    progress.note(fmt::format("{} below {:.6g} Hz, counted by the signs of the pivots, and as many were found",
+                              counted(count->counted, "mode"), count->below));
+  }
+  return count;
+}
+
+Check missed_modes(const ModeCount& count) {
+  return {"missed_modes", static_cast<double>(std::abs(count.counted - count.found)), 0,
+          fmt::format("of the {} below {:.6g} Hz, all were found", counted(count.counted, "mode"), count.below)};
+}
+
 /// What `work` returns; an InputError from it gets the line of the section of the body file in front.
 template <class Work>
 auto in_section(const ReductionOptions& options, const std::string& section, const Work& work) {
@@ -158,12 +183,17 @@ Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Prog
   const std::unique_ptr<BodyMatrices> kept_matrices = make(solid, threads);
   const BodyMatrices& matrices = *kept_matrices;
 
+  if (options.modes_proven && matrices.stiffness_here() == nullptr)
+    in_section(options, "modes", [] { throw InputError("proof: modes are counted by bielle-reduce alone, not on ranks"); });
+
   progress.start("factorisation");
   const HeldBody held(solid, matrices, ties);
   Basis basis = in_section(options, "modes", [&] {
     return make_basis(solid, matrices, ties, held, properties, {options.mode_count, options.modes_below}, progress,
                       threads);
   });
+  const std::optional<ModeCount> count =
+      options.modes_proven ? prove_modes(matrices, held, basis, progress, threads) : std::nullopt;
   if (!residual.empty()) {
     progress.start("residual vectors");
     add_residual_vectors(residual, matrices, held, basis);
@@ -203,7 +233,8 @@ Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Prog
   }
 
   progress.start("checks");
-  const std::vector<Check> checks = check_reduction(body, reduced, basis);
+  std::vector<Check> checks = check_reduction(body, reduced, basis);
+  if (count) checks.push_back(missed_modes(*count));
   for (const Check& check : checks) {
     body.checks[check.name] = check.value;
   }

@@ -2,19 +2,22 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
+#include <new>
 #include <numeric>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <SuiteSparse_config.h>
 #include <cholmod.h>
 #include <fmt/format.h>
 #include <omp.h>
-#include <sys/mman.h>
 
 #include "reduce/common/free_memory.hpp"
 #include "reduce/spectral/blas.hpp"
+#include "reduce/spectral/bordered_structure.hpp"
+#include "reduce/spectral/huge_pages.hpp"
+#include "reduce/spectral/multifrontal.hpp"
 #include "reduce/spectral/supernodal_solver.hpp"
 
 namespace bielle {
@@ -29,15 +32,6 @@ constexpr std::int64_t small_graph = 200;  // blocks below which minimum degree 
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// CHOLMOD takes what is large from pages of 2 MB: factors are read from end to end, again and again.
-void* allocate_in_huge_pages(std::size_t bytes) {
-  constexpr std::size_t page = std::size_t{2} << 20, large = 8 * page;
-  if (bytes < large) return std::malloc(bytes);
-  void* memory = std::aligned_alloc(page, (bytes + page - 1) / page * page);
-  if (memory != nullptr) madvise(memory, bytes, MADV_HUGEPAGE);  // no more than advice
-  return memory;
 }
 
 /// CHOLMOD's settings and workspace; one per thread.
@@ -180,11 +174,9 @@ std::pair<std::int64_t, double> smallest_pivot(const cholmod_factor& factor, con
   return smallest;
 }
 
-/// What CHOLMOD allocates for the values of L, padded supernodes and all, its row indices and the largest update
-/// matrix.
+/// What CHOLMOD allocates for the values of L, padded supernodes and all, and its row indices [MB].
 double estimated_memory(const cholmod_factor& factor) {
-  return 8e-6 *
-         (static_cast<double>(factor.xsize) + static_cast<double>(factor.ssize) + static_cast<double>(factor.maxcsize));
+  return 8e-6 * (static_cast<double>(factor.xsize) + static_cast<double>(factor.ssize));
 }
 
 /// The machine would otherwise run out of memory minutes later, or end the process without a word.
@@ -206,10 +198,46 @@ struct SymmetricFactor::Implementation {
   Common common;
   cholmod_factor* factor = nullptr;
   FactorStatistics statistics;
+  SupernodalFactor structure;
+  std::optional<Multifrontal> elimination;
   std::optional<SupernodalSolver> solver;
   int threads = 1;
 
   ~Implementation() { cholmod_l_free_factor(&factor, common); }
+
+  /// The structure of L.
+  void analyse(const SymmetricMatrix& a, std::vector<std::int64_t>& order) {
+    const NoOpenMpThreads no_openmp;
+    const BlasThreads one(1);
+    cholmod_sparse matrix = view(a.size, a.starts, a.rows, a.values.data());
+    factor = cholmod_l_analyze_p(&matrix, order.data(), nullptr, 0, common);
+    common.check("analysis");
+    const auto integers = [](const void* array) { return static_cast<const std::int64_t*>(array); };
+    structure = {a.size,
+                 static_cast<std::int64_t>(factor->nsuper),
+                 integers(factor->super),
+                 integers(factor->pi),
+                 integers(factor->px),
+                 integers(factor->s),
+                 integers(factor->Perm)};
+    elimination.emplace(structure, threads);
+    statistics.unknowns = a.size;
+    statistics.flops = common->fl;
+    statistics.nonzeros = static_cast<std::int64_t>(common->lnz);
+    statistics.estimated_MB = estimated_memory(*factor) + 1e-6 * elimination->working_bytes();
+  }
+  /// @returns the column of L where a pivot was not positive; nothing when all were
+  std::optional<std::int64_t> factorise(const SymmetricMatrix& a) {
+    cholmod_l_change_factor(CHOLMOD_REAL, 1, 1, 1, 1, factor, common);  // takes memory for the values
+    common.check("factorisation");
+    try {
+      return elimination->factorise(a, static_cast<double*>(factor->x));
+    } catch (const std::bad_alloc&) {
+      common->status = CHOLMOD_OUT_OF_MEMORY;
+      common.check("factorisation");
+      throw;
+    }
+  }
 };
 
 SymmetricFactor::SymmetricFactor(const SymmetricMatrix& a, std::span<const std::int64_t> block_starts, int threads)
@@ -234,36 +262,21 @@ SymmetricFactor::SymmetricFactor(const SymmetricMatrix& a, std::span<const std::
   std::vector<std::int64_t> order = fill_reducing_order(a, block_starts, common);
   statistics.ordering_seconds = seconds_since(start);
 
-  const NoOpenMpThreads no_openmp;
-  const BlasThreads blas(implementation_->threads);
   start = std::chrono::steady_clock::now();
-  cholmod_sparse matrix = view(a.size, a.starts, a.rows, a.values.data());
-  factor = cholmod_l_analyze_p(&matrix, order.data(), nullptr, 0, common);
-  common.check("analysis");
-  statistics.unknowns = a.size;
-  statistics.flops = common->fl;
-  statistics.nonzeros = static_cast<std::int64_t>(common->lnz);
+  implementation_->analyse(a, order);
   statistics.analysis_seconds = seconds_since(start);
-  statistics.estimated_MB = estimated_memory(*factor);
   refuse_what_does_not_fit(statistics.estimated_MB, a.size);
 
   start = std::chrono::steady_clock::now();
-  cholmod_l_factorize(&matrix, factor, common);
-  common.check("factorisation");
+  const std::optional<std::int64_t> failed = implementation_->factorise(a);
   statistics.factorisation_seconds = seconds_since(start);
-  if (common->status == CHOLMOD_NOT_POSDEF) {
-    throw NotPositiveDefinite(static_cast<const Long*>(factor->Perm)[factor->minor]);
-  }
+  if (failed) throw NotPositiveDefinite(implementation_->structure.order[*failed]);
   if (const auto [unknown, pivot] = smallest_pivot(*factor, a); !(pivot > singular_pivot)) {
     throw NotPositiveDefinite(unknown);
   }
   statistics.reciprocal_condition = cholmod_l_rcond(factor, common);
-  const auto integers = [](const void* array) { return static_cast<const std::int64_t*>(array); };
-  implementation_->solver.emplace(
-      SupernodalFactor{a.size, static_cast<std::int64_t>(factor->nsuper), integers(factor->super), integers(factor->pi),
-                       integers(factor->px), integers(factor->s), integers(factor->Perm),
-                       static_cast<const double*>(factor->x)},
-      implementation_->threads);
+  implementation_->structure.values = static_cast<const double*>(factor->x);
+  implementation_->solver.emplace(implementation_->structure, implementation_->threads);
 }
 
 SymmetricFactor::SymmetricFactor(SymmetricFactor&&) noexcept = default;
@@ -309,6 +322,15 @@ Eigen::MatrixXd SymmetricFactor::solve(const Eigen::MatrixXd& b) const {
     throw ComputationError("not enough memory for the solution with the factorised stiffness matrix");
   }
   return x;
+}
+
+PivotSigns SymmetricFactor::count_signs(SymmetricMatrix a, const std::vector<double>& scale) const {
+  try {
+    const BorderedStructure bordered(implementation_->structure, a.size - size());
+    return Multifrontal(bordered.structure(), implementation_->threads).count_signs(std::move(a), scale);
+  } catch (const std::bad_alloc&) {
+    throw ComputationError("not enough memory to count the signs of a matrix; leave the proof out");
+  }
 }
 
 }  // namespace bielle

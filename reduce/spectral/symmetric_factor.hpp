@@ -1,4 +1,5 @@
-// Cholesky factorisation of large sparse symmetric positive definite matrices: CHOLMOD's supernodal L L^T.
+// Cholesky factorisation of large sparse symmetric positive definite matrices, L L^T in supernodes: CHOLMOD finds their
+// structure, multifrontal.hpp the numbers.
 //
 // The fill-reducing order is found on the graph of blocks (the nodes of a mesh, whose unknowns have the same
 // neighbours) and expanded to unknowns: METIS nested dissection, or minimum degree (AMD) for small graphs.
@@ -7,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -39,6 +41,14 @@ class NotPositiveDefinite : public ComputationError {
   std::int64_t unknown_;
 };
 
+/// Signs of the pivots of L D L^T.
+struct PivotSigns {
+  std::int64_t negative = 0;
+  /// Largest L_ij^2 |D_jj| over the scale of i. At the most 1 where A is definite and scaled by its diagonal; rounding
+  /// errors are as many times those of a Cholesky factorisation.
+  double growth = 0;
+};
+
 /// P A P^T = L L^T, and solutions with it.
 class SymmetricFactor {
  public:
@@ -59,6 +69,14 @@ class SymmetricFactor {
   /// A^-1 b for a block of right-hand sides (size,k). Solutions are bound by memory: many columns cost little more than
   /// one, so ask for all at once.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
+
+  /// How many eigenvalues of another symmetric matrix, not necessarily definite, are negative: the signs of the pivots
+  /// of its L D L^T in the same order. What it takes is another factorisation; its L is not kept.
+  /// @param a      the pattern of that which was factorised, or part of it; then any number of unknowns more. Growth is
+  ///               infinite where the pattern has more
+  /// @param scale  of each unknown, the size of its diagonal entry: growth is measured by it
+  /// @throws ComputationError when memory does not suffice
+  PivotSigns count_signs(SymmetricMatrix a, const std::vector<double>& scale) const;
 
  private:
   struct Implementation;

@@ -1,0 +1,106 @@
+#include <memory>
+
+#include <catch2/catch.hpp>
+
+#include "reduce/reduction/missed_modes.hpp"
+#include "tests/unit/reduce/reduction/bodies.hpp"
+
+using namespace bielle;
+using namespace bielle::reduce;
+using Eigen::Index;
+
+namespace {
+
+struct HeldModel {
+  Mesh mesh;
+  Solid solid;
+  std::unique_ptr<BodyMatrices> matrices;
+  Ties ties;
+  HeldBody held;
+  Basis basis;
+
+  HeldModel(Mesh m, const std::vector<InterfaceRequest>& requests, int modes)
+      : mesh(std::move(m)),
+        solid(make_solid(mesh, {{"steel", test::steel()}}, {{"all", "steel"}})),
+        matrices(assembled_matrices(solid, 2)),
+        ties(make_ties(solid, requests)),
+        held(solid, *matrices, ties) {
+    Progress quiet(true);
+    basis = make_basis(solid, *matrices, ties, held, mass_properties(solid), {modes, std::nullopt}, quiet, 2);
+  }
+  HeldModel(const HeldModel&) = delete;
+
+  std::optional<ModeCount> count() const { return count_modes(*matrices, held, basis, 2); }
+  /// As if the search had not seen mode k.
+  void forget(Index k) {
+    std::vector<double> left(basis.eigenvalues.begin(), basis.eigenvalues.end());
+    left.erase(left.begin() + k);
+    basis.eigenvalues = Eigen::Map<Eigen::VectorXd>(left.data(), static_cast<Index>(left.size()));
+    basis.shapes = RowMatrix(basis.shapes.leftCols(basis.shapes.cols() - 1));
+  }
+};
+
+std::vector<InterfaceRequest> both_ends(Tie a, Tie b) {
+  return {test::interface("a", "x0", a), test::interface("b", "x1", b)};
+}
+
+}  // namespace
+
+TEST_CASE("missed modes: the pivots count the modes below any frequency, however the body is held", "[reduction]") {
+  std::vector<InterfaceRequest> requests;
+  switch (GENERATE(0, 1, 2, 3)) {
+    case 0:  // held by freedoms alone, two of its rotations released
+      requests = both_ends(Tie::rigid, Tie::rigid);
+      requests[1].kept = {true, true, true, false, true, false};
+      break;
+    case 1:  // held by averages alone: six supports are left out of the factor
+      requests = both_ends(Tie::average, Tie::average);
+      requests[1].kept = {true, false, true, false, true, false};
+      break;
+    case 2:  // a ball joint, and an average
+      requests = both_ends(Tie::rigid, Tie::average);
+      requests[0].kept = {true, true, true, false, false, false};
+      break;
+    default:
+      requests = both_ends(Tie::rigid, Tie::average);
+  }
+  const HeldModel model(test::twisted_block(), requests, 12);
+  const Eigen::VectorXd& values = model.basis.eigenvalues;
+  for (Index k = 0; k + 1 < values.size(); ++k) {
+    CAPTURE(k);
+    const auto signs = model.held.count_below(*model.matrices, (values(k) + values(k + 1)) / 2, 2);
+    REQUIRE(signs);
+    CHECK(signs->negative == k + 1);
+    CHECK(signs->growth < 1e6);
+  }
+  CHECK(model.held.count_below(*model.matrices, values(0) / 2, 2)->negative == 0);
+  const std::optional<ModeCount> count = model.count();
+  REQUIRE(count);
+  CHECK(count->found == 12);
+  CHECK(count->counted == 12);
+}
+
+TEST_CASE("missed modes: one of a pair that was missed is found out", "[reduction]") {
+  // A square bar bends at pairs of frequencies, which differ by rounding and by the mesh alone.
+  HeldModel bar(test::box_mesh({{4, 0.2, 0.2}, {12, 2, 2}}), both_ends(Tie::rigid, Tie::rigid), 10);
+  REQUIRE(bar.count());
+  CHECK(bar.count()->counted == bar.count()->found);
+  const Eigen::VectorXd values = bar.basis.eigenvalues;
+  REQUIRE(values(1) / values(0) - 1 < 0.01);
+  bar.forget(1);
+  const std::optional<ModeCount> count = bar.count();
+  REQUIRE(count);
+  CHECK(count->counted == count->found + 1);
+}
+
+TEST_CASE("missed modes: a reduction that is asked for a proof stores its result", "[reduction]") {
+  ReductionOptions options = test::steel_body(Tie::rigid, Tie::average, 8);
+  ReductionReport report;
+  CHECK_FALSE(test::reduced(test::twisted_block(), options).checks.contains("missed_modes"));
+  options.modes_proven = true;
+  const Superelement body = test::reduced(test::twisted_block(), options, &report);
+  REQUIRE(body.checks.contains("missed_modes"));
+  CHECK(body.checks.at("missed_modes") == 0);
+  CHECK(report.checks.back().name == "missed_modes");
+  CHECK_THAT(report.checks.back().meaning, Catch::Contains("8 modes below"));
+}

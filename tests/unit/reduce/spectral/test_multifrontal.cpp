@@ -1,0 +1,120 @@
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "reduce/spectral/symmetric_factor.hpp"
+#include "tests/unit/reduce/spectral/laplacian.hpp"
+
+using namespace bielle;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+// From narrow trees to wide supernodes at the top, which several threads eliminate together; more than one panel.
+const std::vector<std::array<int, 3>> grids{{3000, 1, 1}, {150, 130, 1}, {40, 18, 17}, {2, 2, 2}};
+
+std::vector<double> eigenvalues_of(const std::array<int, 3>& n) {
+  std::vector<double> values;
+  for (int i = 1; i <= n[0]; ++i)
+    for (int j = 1; j <= n[1]; ++j)
+      for (int k = 1; k <= n[2]; ++k)
+        values.push_back(test::grid_eigenvalue(i, n[0]) + test::grid_eigenvalue(j, n[1]) +
+                         test::grid_eigenvalue(k, n[2]));
+  std::sort(values.begin(), values.end());
+  return values;
+}
+
+SymmetricMatrix shifted(SymmetricMatrix a, double shift) {
+  for (std::int64_t j = 0; j < a.size; ++j) a.values[static_cast<std::size_t>(a.starts[j])] -= shift;
+  return a;
+}
+
+}  // namespace
+
+TEST_CASE("multifrontal: the factor is that of the matrix, for any number of threads", "[spectral]") {
+  for (const auto& n : grids) {
+    const SymmetricMatrix a = test::grid_laplacian(n);
+    const MatrixXd b = MatrixXd::Random(a.size, 2);
+    for (const int threads : {1, 2, 5}) {
+      CAPTURE(n, threads);
+      const SymmetricFactor factor(a, {}, threads);
+      const MatrixXd x = factor.solve(b);
+      // Backward stable: |A x - b| of the order of eps |A| |x|, |A| <= 12.
+      CHECK((MatrixXd(a.multiply(x)) - b).cwiseAbs().maxCoeff() < 1e-14 * 12 * x.cwiseAbs().maxCoeff());
+      const SymmetricFactor again(a, {}, threads);
+      CHECK(again.solve(b) == x);
+      CHECK(again.statistics().reciprocal_condition == factor.statistics().reciprocal_condition);
+    }
+  }
+}
+
+TEST_CASE("multifrontal: where one pivot is negative, any number of threads names it", "[spectral]") {
+  const SymmetricMatrix a = test::grid_laplacian({40, 18, 17});
+  // Somewhere in every part of the tree.
+  for (std::int64_t bad = 11; bad < a.size; bad += a.size / 5) {
+    SymmetricMatrix indefinite = a;
+    indefinite.values[static_cast<std::size_t>(a.starts[bad])] = 0.5;
+    CAPTURE(bad);
+    std::vector<std::int64_t> named;
+    for (const int threads : {1, 2, 5}) {
+      try {
+        SymmetricFactor(indefinite, {}, threads);
+        FAIL("accepted");
+      } catch (const NotPositiveDefinite& error) {
+        named.push_back(error.unknown());
+      }
+    }
+    CHECK(named == std::vector<std::int64_t>(3, named[0]));
+    CHECK(SymmetricFactor(a, {}, 2).count_signs(indefinite, std::vector<double>(a.size, 6.0)).negative == 1);
+  }
+}
+
+TEST_CASE("multifrontal: the negative pivots are as many as the eigenvalues below a shift", "[spectral]") {
+  for (const auto& n : grids) {
+    const SymmetricMatrix a = test::grid_laplacian(n);
+    const std::vector<double> exact = eigenvalues_of(n);
+    const std::vector<double> scale(static_cast<std::size_t>(a.size), a.values[0]);
+    for (const int threads : {1, 2, 5}) {
+      const SymmetricFactor factor(a, {}, threads);
+      for (const double part : {0.0, 0.001, 0.03, 1.0}) {
+        // In the widest gap nearby.
+        const auto from = static_cast<std::size_t>(part * static_cast<double>(exact.size() - 1));
+        std::size_t at = from;
+        for (std::size_t k = from; k < std::min(from + 40, exact.size() - 1); ++k)
+          if (exact[k + 1] - exact[k] > exact[at + 1 < exact.size() ? at + 1 : at] - exact[at]) at = k;
+        const double shift = at + 1 < exact.size() ? (exact[at] + exact[at + 1]) / 2 : exact[at] + 1;
+        CAPTURE(n, threads, part, shift);
+        const PivotSigns signs = factor.count_signs(shifted(a, shift), scale);
+        CHECK(signs.negative == static_cast<std::int64_t>(at + 1));
+        CHECK(signs.growth > 0);
+      }
+      const PivotSigns definite = factor.count_signs(a, scale);
+      CHECK(definite.negative == 0);
+      CHECK(definite.growth <= 1 + 1e-14);  // sum of L_ij^2 D_jj over j is the diagonal entry
+    }
+  }
+}
+
+TEST_CASE("multifrontal: pivots that vanish show as growth", "[spectral]") {
+  const SymmetricMatrix chain = test::grid_laplacian({300, 1, 1});
+  const SymmetricFactor factor(chain);
+  const std::vector<double> scale(300, 2.0);
+  CHECK(factor.count_signs(shifted(chain, 2), scale).growth > 1e12);  // a zero diagonal
+  CHECK(factor.count_signs(shifted(chain, 0.3), scale).growth < 1e6);
+}
+
+TEST_CASE("multifrontal: conditions at the border add a negative pivot each and take eigenvalues away", "[spectral]") {
+  // A chain held at its middle by a condition as well: two chains of half the length, each eigenvalue twice.
+  const int n = 801;
+  const SymmetricMatrix chain = test::grid_laplacian({n, 1, 1});
+  const SymmetricFactor factor(chain, {}, 2);
+  for (int k = 1; k < 20; ++k) {
+    const double shift = (test::grid_eigenvalue(k, 400) + test::grid_eigenvalue(k + 1, 400)) / 2;
+    const SymmetricMatrix a = bordered(shifted(chain, shift), VectorXd::Unit(n, 400), MatrixXd::Zero(1, 1));
+    const PivotSigns signs = factor.count_signs(a, std::vector<double>(static_cast<std::size_t>(n + 1), 2.0));
+    CHECK(signs.negative == 2 * k + 1);
+  }
+}
