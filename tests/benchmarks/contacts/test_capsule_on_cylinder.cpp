@@ -83,7 +83,9 @@ TEST_CASE("the gap of capsule and cylinder is the smallest distance of the capsu
     const PlacedShape<double> one = placed(a, Vector3::Zero(), Matrix3::Identity()), other = placed(b, x, A);
     for (const bool first : {true, false}) {
       const Touch<double> found = first ? find_nearest_place(one, other) : find_nearest_place(other, one);
-      CHECK(-found.depth == Approx(expected).margin(1e-9));
+      // The cylinder's ends are domes within the exact ones.
+      CHECK(-found.depth > expected - 1e-9);
+      CHECK(-found.depth < expected + a.dome_height() + 1e-9);
     }
     const double ends = std::min(distance(x + half_line * A.col(2)), distance(x - half_line * A.col(2))) - r;
     if (ends > expected + 1e-6) ++between_ends;
