@@ -97,7 +97,7 @@ class Session {
   const State& state() const { return *shown_; }  ///< of the motion, while one is under way
   double time() const { return shown_->time; }    ///< [s]
   bool moving() const { return motion_ != nullptr; }
-  void set_state(State state);                    ///< of this model's numbers; ends a motion
+  void set_state(State state);  ///< of this model's numbers; ends a motion
   /// Position, axes, velocities and accelerations of a node. @throws InputError with the nearest name
   const NodeState& node(const std::string& name) const;
   /// A dataset of the results file at the state: "joints/main/coordinate", "nodes/tip/velocity", "energy/kinetic",
@@ -148,7 +148,7 @@ class Session {
   void begin_analysis(const std::string& type, std::size_t expected_rows = 0, const ResultSink* goes_on = nullptr);
   void write(const ResultArray& array);  ///< a result that is no row
   void write(const ResultNames& names);
-  void end_analysis();                   ///< writes what components have gathered
+  void end_analysis();                        ///< writes what components have gathered
   void abandon_analysis() { open_ = false; }  ///< it has failed: nothing more is recorded of it
   /// What components have gathered over the steps of this analysis, in lines for the user.
   std::string gathered() { return gatherers_.summary(); }
@@ -171,6 +171,12 @@ class Session {
   void note(const Event& event);
   void note(const std::string& sentence) const;
   const ResultsRows& readable() const;
+  /// @param done  share of the way; @param limit  a limit point of the load
+  using StaticsPoint = std::function<void(const State& state, double factor, int iterations, double done, bool limit)>;
+  void note_dropped_rates(const StartConditions& conditions) const;  ///< where a state that moves comes to rest
+  /// By load steps or along a path, point after point. @param statics  the environment of statics under the whole load
+  void follow_loads(const StaticsOptions& options, const Environment& statics, StaticsReport& report,
+                    const StaticsPoint& point);
   void statics_point(const State& state, double factor, int iterations, bool recorded);
   struct Saved;
   void exchange(Archive& archive, Saved& saved) const;
@@ -179,9 +185,9 @@ class Session {
   const Model& model_;
   System system_;
   Environment environment_, acting_;
-  State state_;         ///< while no motion is under way
-  const State* shown_;  ///< that, or the one in hand
-  Loaded loaded_;       ///< what has been brought about so far
+  State state_;           ///< while no motion is under way
+  const State* shown_;    ///< that, or the one in hand
+  Loaded loaded_;         ///< what has been brought about so far
   bool started_ = false;  ///< the state is no longer the drawing
   Motion* motion_ = nullptr;
   std::optional<StepRecord> report_;

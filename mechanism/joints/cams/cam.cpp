@@ -36,9 +36,9 @@ PairMeasure FlatFollower::calc_way_to_cam(int axis, const LocalState& state) con
 }
 
 void FlatFollower::calc_rows(const LocalState& state, std::span<PairMeasure> rows) const {
-  const PairMeasure turn = calc_turn(state);
-  const Interpolation::Values H = support_(psi_drawn_ + turn.value);
-  rows[0] = compose(turn, H.value, H.slope, H.curvature) + calc_way_to_cam(2, state);
+  const PairMeasure turned = calc_turn(state);
+  const Interpolation::Values H = support_(psi_drawn_ + turned.value);
+  rows[0] = compose(turned, H.value, H.slope, H.curvature) + calc_way_to_cam(2, state);
 }
 
 PairMeasure FlatFollower::calc_own_coordinate(std::size_t index, const LocalState& state) const {
