@@ -86,7 +86,8 @@ Touch<double> deepest_piercing(const OnSurface<double>& on, const Ends<double>& 
     if (!(at_a * at_b < 0)) continue;
     const Vector3 through = a + at_a / (at_a - at_b) * (b - a);
     const double depth = skin - std::min(at_a, at_b);
-    if (surface.nearest(t, through).feature >= 0 || depth <= deepest.depth) continue;
+    const double beyond = (surface.nearest(t, through).foot - through).norm();
+    if (beyond > 1e-9 * surface.reach() || depth <= deepest.depth) continue;
     deepest.depth = depth;
     deepest.normal = on.side() == 1 ? on.turned(n) : -on.turned(n);
     deepest.place = point_of(on.surface(), through);
