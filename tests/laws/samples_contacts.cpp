@@ -57,6 +57,60 @@ void write_roof(const std::string& folder) {
   file << "endsolid roof\n";
 }
 
+/// What lies across the ridge of the roof, stands on it, or is pressed from above.
+void add_on_surfaces(std::vector<Sample>& list) {
+  const auto on_roof = [&](const std::string& variant, const std::string& shape, std::vector<BadValue> bad) {
+    list.push_back(touching(
+        variant, "shapes: [{node: a, surface: roof.stl, units: mm, at: [0, 0, 0.3]}, {node: b, " + shape + "}]",
+        std::move(bad)));
+    list.back().files = write_roof;
+  };
+  on_roof("capsule, surface, across its ridge", "capsule: [1.4, 3], axes: {x: [0, 0, 1], y: [1, 0.3, 0]}",
+          {{"shapes.1.capsule", "[1]", ""}});
+  on_roof("capsule, surface, on its end",
+          "capsule: [1.4, 2], axes: {x: [0.3, 1, 0], y: [0, 0.2, 1]}, at: [0, 1.2, 0.4]",
+          {{"shapes.1.capsule", "[1, 0]", ""}});
+  on_roof("cylinder, surface, across its ridge",
+          "cylinder: [1.5, 4], rounding: 0.7, axes: {x: [0, 0, 1], y: [1, 0.3, 0]}", {{"shapes.1.rounding", "2", ""}});
+  on_roof("cylinder, surface, on its rim",
+          "cylinder: [1.2, 2.6], rounding: 0.6, axes: {z: [0.4, 0.5, 1], x: [1, 0, 0]}",
+          {{"shapes.1.cylinder", "[0, 1]", ""}});
+  on_roof("box, surface", "box: [2, 1.8, 2.4], rounding: 0.7, axes: {x: [1, 0.3, 0.1], y: [0, 1, 0.2]}",
+          {{"shapes.1.box", "[1, 1]", ""}});
+  on_roof("plane, surface", "plane: [0, 0.1, -1], at: [0, 0, -1.3]", {{"shapes.1.plane", "[0, 0, 0]", ""}});
+}
+
+void add_cylinders(std::vector<Sample>& list) {
+  list.push_back(touching("cylinder, cylinder, crossing",
+                          "shapes: [{node: a, cylinder: [0.9, 4], rounding: 0.4, axes: {x: [0, 0, 1], y: [0, 1, 0]}}, "
+                          "{node: b, cylinder: [0.9, 3], rounding: 0.4, axes: {x: [0, 0, 1], y: [1, 0.2, 0]}}]",
+                          {{"shapes.0.rounding", "1", ""}}));
+  list.push_back(touching("cylinder, cylinder, nearly parallel",
+                          "shapes: [{node: a, cylinder: [0.9, 2], rounding: 0.4, axes: {x: [0, 0, 1], y: [0, 1, 0]}}, "
+                          "{node: b, cylinder: [0.9, 3], rounding: 0.4, axes: {x: [0, 0, 1], y: [0.1, 1, 0]}}]",
+                          {{"shapes.1.cylinder", "[1]", ""}}));
+  list.push_back(touching("cylinder, cylinder, rim on side",
+                          "shapes: [{node: a, cylinder: [0.9, 4], rounding: 0.6, axes: {x: [0, 0, 1], y: [0, 1, 0]}}, "
+                          "{node: b, cylinder: [1.1, 1.6], rounding: 0.6, axes: {z: [0.6, 0.3, 1], x: [1, 0, 0]}}]",
+                          {{"shapes.1.cylinder", "[1, -1]", ""}}));
+  list.push_back(touching("cylinder, cylinder, standing",
+                          "shapes: [{node: a, cylinder: [1, 1.6], rounding: 0.6}, {node: b, cylinder: [1.3, 1.8], "
+                          "rounding: 0.7, at: [0.3, 0, 0]}]",
+                          {{"shapes.0.cylinder", "[1, 0]", ""}}));
+  list.push_back(touching("box, cylinder, lying",
+                          "shapes: [{node: a, box: [3, 3, 1.6], rounding: 0.5}, {node: b, cylinder: [1, 2], rounding: "
+                          "0.5, axes: {x: [0, 0, 1], y: [0.4, 1, 0]}}]",
+                          {{"shapes.0.box", "[1, 1]", ""}}));
+  list.push_back(touching("box, cylinder, across an edge",
+                          "shapes: [{node: a, box: [3, 1.4, 1.4], rounding: 0.5, axes: {x: [1, 0, 0], y: [0, 1, 1]}}, "
+                          "{node: b, cylinder: [0.9, 4], rounding: 0.5, axes: {x: [0, 0, 1], y: [1, 0.3, 0]}}]",
+                          {{"shapes.0.rounding", "1", ""}}));
+  list.push_back(touching("box, cylinder, corner on an end",
+                          "shapes: [{node: a, box: [1.6, 1.6, 1.6], rounding: 0.6, axes: {x: [1, 0.2, 1], y: [-1, 2, "
+                          "1]}}, {node: b, cylinder: [1.5, 1.6], rounding: 0.6, at: [0.2, 0, 0.3]}]",
+                          {{"shapes.1.cylinder", "[1, x]", ""}}));
+}
+
 }  // namespace
 
 std::vector<Sample> contact_samples() {
@@ -76,7 +130,7 @@ std::vector<Sample> contact_samples() {
                            {"shapes.0.plane", "[0, 0, 0]", ""},
                            {"shapes.1.sphere", "0", ""},
                            {"shapes", "[{node: a, plane: [0, 0, 1]}, {node: b, plane: [0, 0, 1]}]",
-                            "a plane can touch: sphere, capsule"}}));
+                            "a plane can touch: sphere, capsule, cylinder, box, surface"}}));
   list.push_back(touching("sphere, capsule",
                           "shapes: [{node: a, capsule: [1, 3], axes: {x: [0, 0, 1], y: [0.1, 1, 0]}}, "
                           "{node: b, sphere: 1}]",
@@ -94,8 +148,7 @@ std::vector<Sample> contact_samples() {
         {{"shapes.0.cylinder", "[0, 1]", ""},
          {"shapes.0.rounding", "1.3", "less than half"},
          {"shapes.0.rounding", "0", ""},
-         {"shapes", "[{node: a, cylinder: [1, 1]}, {node: b, cylinder: [1, 1]}]",
-          "a cylinder can touch: sphere, plane, capsule"}}));
+         {"shapes", "[{node: a, surface: none.stl}, {node: b, cylinder: [1, 1]}]", "cannot be read"}}));
   list.push_back(touching(
       "sphere, box", "shapes: [{node: a, box: [1.2, 1.1, 1.3], rounding: 0.3}, {node: b, sphere: 1.2}]",
       {{"shapes.0.box", "[1, 1]", ""}, {"shapes.0.box", "[1, 1, -1]", ""}, {"shapes.0.rounding", "0.55", ""}}));
@@ -104,9 +157,11 @@ std::vector<Sample> contact_samples() {
                           {{"shapes.0.surface", "none.stl", "cannot be read"},
                            {"shapes.0.surface", "model.yaml", "no STL file"},
                            {"shapes.0.units", "miles", ""},
-                           {"shapes", "[{node: a, surface: roof.stl}, {node: b, box: [1, 1, 1]}]",
-                            "a box can touch: sphere, plane, capsule, box"}}));
+                           {"shapes", "[{node: a, surface: roof.stl}, {node: b, surface: roof.stl}]",
+                            "a surface can touch: sphere, plane, capsule, cylinder, box"}}));
   list.back().files = write_roof;
+  add_on_surfaces(list);
+  add_cylinders(list);
   list.push_back(touching("capsule, plane",
                           "shapes: [{node: a, plane: [0, 0, 1]}, {node: b, capsule: [1.2, 2], at: "
                           "[0.1, 0, -1], axes: {x: [0, 0, 1], y: [0, 1, 0]}}]",

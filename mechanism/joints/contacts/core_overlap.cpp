@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "mechanism/joints/contacts/pair_of_shapes.hpp"
+
 namespace bielle::mechanism {
 namespace {
 
@@ -60,6 +62,21 @@ std::optional<CoreOverlap> overlap_of_cores(const PlacedShape<double>& first, co
   overlap.place =
       0.5 * (nearest_of_core(segments, 0, of_first, a, b) + nearest_of_core(segments, of_first, segments.count, b, a));
   return overlap;
+}
+
+Touch<double> deepest_of_edge(const Triple<double>& a, const Triple<double>& b, double skin,
+                              const PlacedShape<double>& core, bool edge_on_second) {
+  const auto at = [&](double t) { return distance_to_core(a + t * (b - a), core); };
+  double low = 0, high = 1;
+  constexpr int thirds = 60;  // of 1e-10 of the length
+  for (int k = 0; k < thirds; ++k) {
+    const double one = low + (high - low) / 3, other = high - (high - low) / 3;
+    if (at(one).distance < at(other).distance)
+      high = other;
+    else
+      low = one;
+  }
+  return touch_of(at(0.5 * (low + high)), skin, core.shape->skin(), edge_on_second);
 }
 
 }  // namespace bielle::mechanism

@@ -23,4 +23,10 @@ struct CoreOverlap {
 /// Nothing where the cores are apart, or are not both of boxes and capsules.
 std::optional<CoreOverlap> overlap_of_cores(const PlacedShape<double>& first, const PlacedShape<double>& second);
 
+/// The place of an edge from a to b that is nearest to a core, or deepest within it: its distance is a convex function
+/// along the edge, searched by thirds.
+/// @param skin  around the edge [m] @param edge_on_second  the core belongs to the first shape
+Touch<double> deepest_of_edge(const Triple<double>& a, const Triple<double>& b, double skin,
+                              const PlacedShape<double>& core, bool edge_on_second);
+
 }  // namespace bielle::mechanism

@@ -1,13 +1,16 @@
 // Where two shapes touch: the places at which they press into each other, and the elastic force at each.
 //
 // The corners of either core are compared with the other shape as a whole, and the edges of the cores with each other
-// where they cross. Two skins of thicknesses r_1, r_2 around cores at the distance d press into each other by
-// p = r_1 + r_2 - d. The elastic potential of the pair, V(p) = k p^(n+1)/(n+1), is
+// where they cross. Corners of a cylinder are its two ends, flat domes; its edge is its axis with its radius for a skin
+// (pair_of_shapes.hpp). Of a surface of triangles the tips and ridges take the place of corners and edges; a corner
+// of the other shape touches it in one place or several (on_surface.hpp). Two skins of thicknesses r_1, r_2 around
+// cores at the distance d press into each other by p = r_1 + r_2 - d. The elastic potential of the pair, V(p) = k
+// p^(n+1)/(n+1), is
 //     sum over corners of V(p_j)  +  sum over crossing edges of V(p_e) prod_i (1 - V(p_i)/V(p_e)),
 // i the four ends of the two edges, each against the other edge, p_i <= p_e. An edge on which another slides to its end
-// thus hands over to its corner without a jump; of two that are parallel, the ends bear alone. So does the line of a
-// capsule on a cylinder, whose nearest place between its ends is compared with the cylinder as a whole. Forces are
-// derivatives of the potential: along the normal at each place, and continuous.
+// thus hands over to its corner without a jump; of two that are parallel, the ends bear alone. An end against the side
+// of a cylinder is compared with the cylinder as a whole. Forces are derivatives of the potential: along the normal at
+// each place, and continuous.
 #pragma once
 
 #include <vector>

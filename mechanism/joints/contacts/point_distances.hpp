@@ -1,8 +1,8 @@
 // Distances of a point from the cores of shapes, with the direction from the core to the point.
 #pragma once
 
+#include <array>
 #include <cmath>
-#include <optional>
 
 #include "mechanism/joints/contacts/pair_touches.hpp"
 #include "reduce/common/error.hpp"
@@ -117,42 +117,50 @@ PointDistance<T> distance_to_core(const Triple<T>& p, const PlacedShape<T>& plac
   return distance_to_cylinder(p, q, placed, shape.radius - shape.rounding, shape.half_length - shape.rounding);
 }
 
-/// The point of a segment that is nearest to a cylinder's core, where it is between the ends: its distance f(t) from a
-/// convex solid is a convex function of the place t on the segment, f' = u . normal. Its derivatives follow from f' =
-/// 0: dt = -df'/f''.
-/// @param a,b  ends of the segment @returns the point, or nothing where an end is the nearest
-template <class T>
-std::optional<Triple<T>> nearest_between_ends(const Triple<T>& a, const Triple<T>& b, const PlacedShape<T>& cylinder) {
-  using Along = GradientNumber<1>;
-  const Vector3 start = value_of(a), way = value_of(b) - start;
-  PlacedShape<Along> still;
-  still.shape = cylinder.shape;
-  still.origin = Triple<Along>(value_of(cylinder.origin));
-  for (std::size_t k = 0; k < 3; ++k) still.axes[k] = Triple<Along>(value_of(cylinder.axes[k]));
-  const auto slope_at = [&](double t) {
-    const Along place(t, Along::Gradient::Ones());
-    const Triple<Along> u(way);
-    return dot(u, distance_to_core(Triple<Along>(start) + place * u, still).normal);
-  };
-  double low = 0, high = 1;
-  if (!(value_of(slope_at(low)) < 0 && value_of(slope_at(high)) > 0)) return {};
-  double t = 0.5;
-  Along slope = slope_at(t);
-  constexpr int most = 100;
-  for (int k = 0; k < most && high - low > 1e-15; ++k) {
-    (slope.value < 0 ? low : high) = t;
-    double next = slope.gradient[0] > 0 ? t - slope.value / slope.gradient[0] : low;
-    if (!(next > low && next < high)) next = 0.5 * (low + high);
-    const bool settled = std::abs(next - t) <= 1e-15;
-    t = next;
-    slope = slope_at(t);
-    if (settled) break;
-  }
-  // Along a side that is parallel every place is as near: the ends bear alone.
-  if (!(slope.gradient[0] > 1e-12 * way.norm())) return {};
-  const Triple<T> u = b - a;
-  const T place = T(t) - T(1 / slope.gradient[0]) * dot(u, distance_to_core(a + T(t) * u, cylinder).normal);
-  return a + place * u;
+/// The same values, which do not move.
+template <class U, class T>
+Triple<U> at_rest(const Triple<T>& a) {
+  return Triple<U>(value_of(a));
 }
+
+/// What a distance can be taken from: `from(p)`, and itself at rest in other numbers.
+template <class T>
+struct CoreTarget {
+  PlacedShape<T> placed;
+  PointDistance<T> from(const Triple<T>& p) const { return distance_to_core(p, placed); }
+  template <class U>
+  CoreTarget<U> still() const {
+    return {{placed.shape,
+             at_rest<U>(placed.origin),
+             {at_rest<U>(placed.axes[0]), at_rest<U>(placed.axes[1]), at_rest<U>(placed.axes[2])}}};
+  }
+};
+template <class T>
+struct SegmentTarget {
+  Triple<T> a, b;
+  PointDistance<T> from(const Triple<T>& p) const { return distance_to_segment(p, a, b); }
+  template <class U>
+  SegmentTarget<U> still() const {
+    return {at_rest<U>(a), at_rest<U>(b)};
+  }
+};
+template <class T>
+struct PointTarget {
+  Triple<T> point;
+  PointDistance<T> from(const Triple<T>& p) const { return distance_to_point(p, point); }
+  template <class U>
+  PointTarget<U> still() const {
+    return {at_rest<U>(point)};
+  }
+};
+template <class T>
+struct PlaneTarget {
+  Triple<T> origin, normal;
+  PointDistance<T> from(const Triple<T>& p) const { return distance_to_plane(p, origin, normal); }
+  template <class U>
+  PlaneTarget<U> still() const {
+    return {at_rest<U>(origin), at_rest<U>(normal)};
+  }
+};
 
 }  // namespace bielle::mechanism

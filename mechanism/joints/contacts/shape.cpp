@@ -67,10 +67,29 @@ double ContactShape::thickness() const {
   }
 }
 
+Vector3 ContactShape::half_extent() const {
+  switch (kind) {
+    case Kind::capsule:
+      return {radius, radius, half_length + radius};
+    case Kind::cylinder:
+      return {radius, radius, half_length};
+    case Kind::box:
+      return half;
+    default:
+      return Vector3::Constant(reach());
+  }
+}
+
+double ContactShape::dome_height() const {
+  constexpr double share = 0.01;
+  return std::min(share * dome_radius(), half_length - rounding);
+}
+
 void ContactShape::complete() {
   if (kind == Kind::sphere) corners_ = {Vector3::Zero()};
-  if (kind == Kind::capsule) {
-    corners_ = {{0, 0, -half_length}, {0, 0, half_length}};
+  if (kind == Kind::capsule || kind == Kind::cylinder) {
+    const double end = kind == Kind::capsule ? half_length : half_length - rounding - dome_height();
+    corners_ = {{0, 0, -end}, {0, 0, end}};
     edges_ = {{0, 1}};
   }
   if (kind != Kind::box) return;
@@ -104,13 +123,7 @@ std::string ContactShape::describe() const {
   }
 }
 
-bool can_touch(Kind a, Kind b) {
-  if (a > b) std::swap(a, b);
-  if (a == Kind::sphere) return true;
-  if (a == Kind::plane) return b == Kind::capsule || b == Kind::cylinder || b == Kind::box;
-  if (a == Kind::capsule) return b == Kind::capsule || b == Kind::cylinder || b == Kind::box;
-  return a == Kind::box && b == Kind::box;
-}
+bool can_touch(Kind a, Kind b) { return a != b || (a != Kind::plane && a != Kind::surface); }
 
 std::string touchable_kinds(Kind kind) {
   std::string text;

@@ -2,7 +2,8 @@
 //
 // What has corners has them rounded: box and cylinder are a smaller core with a skin of thickness `rounding`, a capsule
 // is a line with a skin, a sphere a point. Where only skins overlap, the direction from one core to the other is a
-// smooth function of the position, also where it passes from a face to an edge to a corner.
+// smooth function of the position, also where it passes from a face to an edge to a corner. The ends of a cylinder's
+// core are the tops of very flat domes (disc_distance.hpp).
 #pragma once
 
 #include <array>
@@ -29,11 +30,16 @@ struct ContactShape {
 
   const char* kind_name() const;
   std::string describe() const;
-  double skin() const;       ///< thickness of the skin around the core [m]
-  double reach() const;      ///< of the farthest point from the frame's origin [m]; infinite of a plane
-  double thickness() const;  ///< of its thinnest part; infinite of a plane, 0 of a surface [m]
-  const std::vector<Vector3>& corners() const { return corners_; }  ///< of the core, where it has flat faces
-  const std::vector<std::array<int, 2>>& edges() const { return edges_; }
+  double skin() const;          ///< thickness of the skin around the core [m]
+  double reach() const;         ///< of the farthest point from the frame's origin [m]; infinite of a plane
+  double thickness() const;     ///< of its thinnest part; infinite of a plane, 0 of a surface [m]
+  Vector3 half_extent() const;  ///< of the box along its axes that holds it, not of a plane or a surface [m]
+  /// Of the core, where it has flat faces; of a cylinder, the middles of its two ends, which are flat domes.
+  const std::vector<Vector3>& corners() const { return corners_; }
+  const std::vector<std::array<int, 2>>& edges() const { return edges_; }        ///< of a cylinder, its axis
+  double edge_skin() const { return kind == Kind::cylinder ? radius : skin(); }  ///< around its edges [m]
+  double dome_radius() const { return radius - rounding; }                       ///< of a cylinder's ends [m]
+  double dome_height() const;
   void complete();  ///< finds corners and edges
 
  private:

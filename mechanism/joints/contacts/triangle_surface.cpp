@@ -15,6 +15,7 @@ TriangleSurface::TriangleSurface(const std::vector<Vector3>& corners) {
   join_corners(corners);
   if (triangles_.empty()) throw InputError("the surface has no triangle with an area");
   find_neighbours();
+  find_ridges();
   build_tree();
   for (const Vector3& point : points_) reach_ = std::max(reach_, point.norm());
 }
@@ -168,6 +169,15 @@ bool TriangleSurface::is_local(int triangle, const Nearest& found, const Vector3
   }
   const auto& around = around_corner_[static_cast<std::size_t>(corners[static_cast<std::size_t>(found.feature - 3)])];
   return std::all_of(around.begin(), around.end(), same);
+}
+
+std::vector<int> TriangleSurface::sharing(int triangle, int feature) const {
+  const auto t = static_cast<std::size_t>(triangle);
+  if (feature < 0) return {triangle};
+  if (feature >= 3)
+    return around_corner_[static_cast<std::size_t>(triangles_[t][static_cast<std::size_t>(feature - 3)])];
+  const int other = neighbours_[t][static_cast<std::size_t>(feature)];
+  return other < 0 ? std::vector<int>{triangle} : std::vector<int>{triangle, other};
 }
 
 void TriangleSurface::find_nearest(const Vector3& point, double radius, std::vector<Place>& places) const {

@@ -127,9 +127,10 @@ void March::exchange(Archive& archive) {
   stops_->advance(integration_.state().time);
 }
 
-void March::begin_branch(double h) {
-  const Jump jump = integration_.begin_branch(h, crossed_);
-  if (jump_listener_) jump_listener_(jump);
+/// @param before  of the branch that began here a moment ago; its own comes in its place
+void March::begin_branch(double h, std::optional<Jump>& before) {
+  if (before && jump_listener_) jump_listener_(*before);
+  before = integration_.begin_branch(h, crossed_);
 }
 
 void March::begin_step(MarchStep& step) {
@@ -137,19 +138,23 @@ void March::begin_step(MarchStep& step) {
   const bool jumps = pending_ == Pending::start || pending_ == Pending::branch;
   if (pending_ == Pending::start) integration_.start(h);
   if (pending_ == Pending::restart) integration_.restart(h);
-  if (pending_ == Pending::branch) begin_branch(h);
+  std::optional<Jump> jump;  // the last, which is followed by the step
+  if (pending_ == Pending::branch) begin_branch(h, jump);
   pending_ = Pending::nothing;
   if (!watch_.idle()) {
     std::vector<int> jumped = watch_.begin(integration_.state(), integration_.environment());
     // On which side of its zero that is which has just been met, rounding tells.
     std::erase_if(jumped, [&](int k) { return std::find(crossed_.begin(), crossed_.end(), k) != crossed_.end(); });
-    if (jumps) pass_jumps(h, std::move(jumped), step);
+    if (jumps) pass_jumps(h, std::move(jumped), jump, step);
   }
   crossed_.clear();
+  if (!jump) return;
+  integration_.start_branch(h, *jump);
+  if (jump_listener_) jump_listener_(*jump);
 }
 
 /// Crossings that were jumped over at a discontinuity: they may begin further branches there.
-void March::pass_jumps(double h, std::vector<int> jumped, MarchStep& step) {
+void March::pass_jumps(double h, std::vector<int> jumped, std::optional<Jump>& jump, MarchStep& step) {
   // Branches that all begin at once may undo each other again and again; one after the other they settle.
   constexpr int together = 10, most = 100;
   for (int k = 0; !jumped.empty(); ++k) {
@@ -159,7 +164,7 @@ void March::pass_jumps(double h, std::vector<int> jumped, MarchStep& step) {
     const bool restarts = pending_ == Pending::branch;
     pending_ = Pending::nothing;
     if (stopped_ || !restarts) return;
-    begin_branch(h);
+    begin_branch(h, jump);
     jumped = watch_.begin(integration_.state(), integration_.environment(), k >= together);
   }
 }

@@ -9,6 +9,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -112,8 +113,8 @@ class March {
   void count(const Plan& plan, const Trial& trial);
   bool pass_grid(const Plan& plan, const Trial& trial);
   void begin_step(MarchStep& step);
-  void begin_branch(double h);
-  void pass_jumps(double h, std::vector<int> jumped, MarchStep& step);
+  void begin_branch(double h, std::optional<Jump>& before);
+  void pass_jumps(double h, std::vector<int> jumped, std::optional<Jump>& jump, MarchStep& step);
   void note(const std::vector<int>& passed, MarchStep& step);
   double locate(double time, StepReport& report);
   StepReport attempt(double h, double end, bool kink);

@@ -24,7 +24,7 @@ VectorX acceleration_rate(const SchemeStep& step, const Environment& environment
     system.displace(shifted, state, k * e * v + 0.5 * k * k * e * e * a);
     system.set_rates(shifted, v + k * e * a, a);
     shifted.first_order = state.first_order + k * e * state.first_order_rate;
-    make_accelerations_consistent(system, environment, shifted, saddle);
+    continue_accelerations(system, environment, shifted, saddle);
     VectorX unused(system.dofs());
     ahead[k - 1].resize(system.dofs());
     system.get_rates(shifted, unused, ahead[k - 1]);

@@ -88,13 +88,17 @@ void TimeIntegration::restart(double h) {
 }
 
 void TimeIntegration::start_anew(double h, StartReport& report) {
+  make_consistent_anew(report);
+  start(h);
+}
+
+void TimeIntegration::make_consistent_anew(StartReport& report) {
   // One factorisation serves all of it.
   State& state = step_.state();
   make_velocities_consistent(system_, environment_, state, report, correction_.saddle());
   make_accelerations_consistent(system_, environment_, state, correction_.saddle());
   balance_massless(system_, environment_, state, report);
   step_.take_rates();
-  start(h);
 }
 
 Jump TimeIntegration::begin_branch(double h, const std::vector<int>& crossed) {
@@ -114,11 +118,11 @@ Jump TimeIntegration::begin_branch(double h, const std::vector<int>& crossed) {
   try {
     if (holds_stop_more(system_, environment_, state, new_holds, saddle)) {
       refuse_holds(system_, environment_, state, std::move(new_holds), Overloaded::refused, saddle);
-      start_anew(h, report);
+      make_consistent_anew(report);
     } else {
       const State begun = state;
       try {
-        start_anew(h, report);
+        make_consistent_anew(report);
       } catch (const ComputationError&) {
         state = begun;
         report = {};
@@ -129,7 +133,7 @@ Jump TimeIntegration::begin_branch(double h, const std::vector<int>& crossed) {
           return std::find(new_holds.begin(), new_holds.end(), k) == new_holds.end();
         });
         refuse_holds(system_, environment_, state, std::move(holds), Overloaded::holds, saddle);
-        start_anew(h, report);
+        make_consistent_anew(report);
       }
     }
   } catch (const ComputationError& error) {
@@ -142,8 +146,16 @@ Jump TimeIntegration::begin_branch(double h, const std::vector<int>& crossed) {
   jump.after = system_.energy(state, environment_);
   jump.work = report.impulse_work;
   state.time = jump.time;
-  extrapolate_from_here();
   return jump;
+}
+
+void TimeIntegration::start_branch(double h, Jump& jump) {
+  State& state = step_.state();
+  state.time += just_off(jump.time, h);
+  start(h);
+  jump.after = system_.energy(state, environment_);
+  state.time = jump.time;
+  extrapolate_from_here();
 }
 
 /// A trial whose accelerations, rates and multipliers are extrapolated, with its residual.

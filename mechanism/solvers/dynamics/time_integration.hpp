@@ -65,9 +65,12 @@ class TimeIntegration {
   void restart(double h);
   /// Forces or constraints have changed at this time: components begin another branch, and velocities, accelerations
   /// and multipliers are those of just after. What comes into force on relative motion stops it by an inelastic
-  /// impulse, the least change of velocities in the kinetic energy's norm.
+  /// impulse, the least change of velocities in the kinetic energy's norm. Several may follow each other at one time;
+  /// after the last comes `start_branch`.
   /// @param crossed  the crossings that were met, by number
   Jump begin_branch(double h, const std::vector<int>& crossed);
+  /// Algorithmic values for steps of size h on the branch that has begun. @param jump  to it, made complete
+  void start_branch(double h, Jump& jump);
   /// The end of the last attempt.
   const State& attempted() const { return step_.trial(); }
   /// While a crossing is located, attempts differ little in size: factors of the tangent serve them all.
@@ -94,6 +97,7 @@ class TimeIntegration {
 
  private:
   void start_anew(double h, StartReport& report);
+  void make_consistent_anew(StartReport& report);
   void extrapolate_from_here();
   double begin_trial(double h, double end, int order, StepReport& report);
   void choose_start(double h, double end, StepReport& report);

@@ -16,7 +16,10 @@ namespace {
 
 class AccelerationEquations {
  public:
-  AccelerationEquations(const System& system, const Environment& environment, State& state, MassSaddle& saddle)
+  /// From where the search for the accelerations begins.
+  enum class From { nothing, state };
+  AccelerationEquations(const System& system, const Environment& environment, State& state, MassSaddle& saddle,
+                        From from)
       : system_(system),
         environment_(environment),
         state_(state),
@@ -30,10 +33,12 @@ class AccelerationEquations {
         begin_(state.first_order),
         size_(system.algebraic().size(), 0.0) {
     system.get_rates(state, v_, a_);
-    a_.setZero();
-    state.multiplier.setZero();
-    state.first_order_rate.setZero();
-    system.set_rates(state, v_, a_);
+    if (from == From::nothing) {
+      a_.setZero();
+      state.multiplier.setZero();
+      state.first_order_rate.setZero();
+      system.set_rates(state, v_, a_);
+    }
     evaluate();
   }
 
@@ -72,6 +77,34 @@ class AccelerationEquations {
       saddle_.factor(environment_, state_);
       solve();
     }
+  }
+
+  /// Forces depend on multipliers: from the solution of a state nearby, with the factors of where it begins.
+  /// @returns whether it has been found; otherwise the state is as it was
+  bool continue_with_reactions() {
+    constexpr int most = 8;
+    constexpr double accurate = 1e-11;
+    const State begun = state_;
+    const VectorX a_begun = a_;
+    try {
+      bool solved = saddle_.factor_with_reactions(environment_, state_);
+      double before = std::numeric_limits<double>::infinity();
+      for (int iteration = 0; solved && iteration < most; ++iteration) {
+        solve();
+        if (!step_.allFinite()) break;
+        move(1);
+        const double size = size_of_all();
+        if (size <= accurate) return true;
+        if (size > 0.3 * before) solved = saddle_.factor_with_reactions(environment_, state_);
+        before = size;
+        evaluate();
+      }
+    } catch (const ComputationError&) {
+      // refused by a component
+    }
+    state_ = begun;
+    a_ = a_begun;
+    return false;
   }
 
   /// Forces depend on multipliers.
@@ -302,10 +335,10 @@ class AccelerationEquations {
   }
   /// @param worst  the multiplier that the search could not settle; -1: it was refused before
   [[noreturn]] void throw_without_solution(int worst) const {
-    const std::string where =
-        worst < 0 ? std::string()
-                  : fmt::format(" (the search for {} did not settle)",
-                                system_.unknown_name(system_.size() - system_.multipliers() + worst));
+    const std::string where = worst < 0
+                                  ? std::string()
+                                  : fmt::format(" (the search for {} did not settle)",
+                                                system_.unknown_name(system_.size() - system_.multipliers() + worst));
     throw ComputationError(
         fmt::format("t = {:.6g} s: forces that depend on reactions leave no solution for the accelerations{}{}",
                     state_.time, where, advice));
@@ -327,7 +360,7 @@ class AccelerationEquations {
 
 void make_accelerations_consistent(const System& system, const Environment& environment, State& state,
                                    MassSaddle& saddle) {
-  AccelerationEquations equations(system, environment, state, saddle);
+  AccelerationEquations equations(system, environment, state, saddle, AccelerationEquations::From::nothing);
   if (system.reads_reactions())
     equations.solve_with_reactions();
   else if (!system.algebraic().empty())
@@ -335,6 +368,16 @@ void make_accelerations_consistent(const System& system, const Environment& envi
   else
     return equations.solve_linear();
   saddle.serve_no_more();
+}
+
+void continue_accelerations(const System& system, const Environment& environment, State& state, MassSaddle& saddle) {
+  if (system.reads_reactions()) {
+    AccelerationEquations equations(system, environment, state, saddle, AccelerationEquations::From::state);
+    const bool found = equations.continue_with_reactions();
+    saddle.serve_no_more();
+    if (found) return;
+  }
+  make_accelerations_consistent(system, environment, state, saddle);
 }
 
 void make_accelerations_consistent(const System& system, const Environment& environment, State& state) {

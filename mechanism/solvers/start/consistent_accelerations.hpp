@@ -29,4 +29,8 @@ void make_accelerations_consistent(const System& system, const Environment& envi
                                    MassSaddle& saddle);
 void make_accelerations_consistent(const System& system, const Environment& environment, State& state);
 
+/// The same from accelerations and multipliers of a state nearby, of which it is known that there is one solution: that
+/// is not looked for again where forces depend on reactions.
+void continue_accelerations(const System& system, const Environment& environment, State& state, MassSaddle& saddle);
+
 }  // namespace bielle::mechanism

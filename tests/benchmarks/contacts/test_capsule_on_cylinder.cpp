@@ -83,7 +83,9 @@ TEST_CASE("the gap of capsule and cylinder is the smallest distance of the capsu
     const PlacedShape<double> one = placed(a, Vector3::Zero(), Matrix3::Identity()), other = placed(b, x, A);
     for (const bool first : {true, false}) {
       const Touch<double> found = first ? find_nearest_place(one, other) : find_nearest_place(other, one);
-      CHECK(-found.depth == Approx(expected).margin(1e-9));
+      // The cylinder's ends are domes within the exact ones.
+      CHECK(-found.depth > expected - 1e-9);
+      CHECK(-found.depth < expected + a.dome_height() + 1e-9);
     }
     const double ends = std::min(distance(x + half_line * A.col(2)), distance(x - half_line * A.col(2))) - r;
     if (ends > expected + 1e-6) ++between_ends;
@@ -102,13 +104,18 @@ TEST_CASE("forces of a capsule on a cylinder stay continuous over side, rim and 
   for (const double tilt : {0.0, 1e-3, 0.02, 0.3, 1.0}) {
     CAPTURE(tilt);
     const Matrix3 A = exp_so3(Vector3(0.5 * M_PI - tilt, 0, 0.2));
+    bool known = true;
     const auto force_at = [&](double s) {
       // Along the side upwards, around the rim, along the end inwards.
       const double z = std::min(half - rounding, -0.2 + s), x = R - rounding - std::max(0.0, s - 0.75);
       const double around = std::clamp((s - 0.55) / 0.2, 0.0, 1.0) * 0.5 * M_PI;
       const Vector3 n(std::cos(around), 0, std::sin(around));
-      find_touches(one, placed(b, Vector3(x, 0.02, z) + (rounding + r - 0.01) * n, A), law, found);
+      const PlacedShape<double> other = placed(b, Vector3(x, 0.02, z) + (rounding + r - 0.01) * n, A);
       Vector3 sum = Vector3::Zero();
+      // Steep lines go through the core, where nothing is told.
+      known = find_nearest_place(one, other).depth < 0.9 * (rounding + r);
+      if (!known) return sum;
+      find_touches(one, other, law, found);
       for (const Touch<double>& touch : found.touches) {
         CHECK(touch.load >= 0);
         sum += touch.force * value_of(touch.normal);
@@ -119,9 +126,14 @@ TEST_CASE("forces of a capsule on a cylinder stay continuous over side, rim and 
     for (int k = 0; k < 4000; ++k) {
       const double s = k * 2.5e-4;
       const Vector3 now = force_at(s);
+      if (!known) continue;
+      const Vector3 near = force_at(s + 2.5e-5);
+      if (!known) continue;
+      const Vector3 far = force_at(s + 2.5e-4);
+      if (!known) continue;
       size = std::max(size, now.norm());
-      jump = std::max(jump, (force_at(s + 2.5e-4) - now).norm());
-      finer = std::max(finer, (force_at(s + 2.5e-5) - now).norm());
+      jump = std::max(jump, (far - now).norm());
+      finer = std::max(finer, (near - now).norm());
     }
     CHECK(size > 500);
     CHECK(finer < 0.2 * jump);  // a jump would stay
