@@ -12,6 +12,7 @@
 #include "reduce/body_pieces.hpp"
 #include "reduce/body_points.hpp"
 #include "reduce/body_surfaces.hpp"
+#include "reduce/common/plausible.hpp"
 #include "reduce/common/yaml_file.hpp"
 #include "reduce/mesh/place.hpp"
 
@@ -150,6 +151,7 @@ void read_damping(const YamlValue& value, ReductionOptions& options) {
     else
       options.damping_ratios.push_back(ratio->non_negative_number());
     if (options.damping_ratios.empty()) ratio->fail("expected a number or a list of numbers");
+    for (const double each : options.damping_ratios) doubt_outside(*ratio, each, plausible_damping_ratio);
     return;
   }
   const YamlValue rayleigh = value.at("rayleigh");

@@ -66,19 +66,22 @@ StepOptions read_stepping(const YamlValue& entry, double duration) {
   return options;
 }
 
-/// Gap in the balance of energy, relative to the largest energy, from which results are not to be trusted unseen.
+/// Parts of the largest energy that errors, or the scheme's dissipation, may make of the balance before results are not
+/// to be trusted unseen.
 constexpr double doubtful = 0.05;
 /// No scheme adds energy to a motion that its steps resolve: from this share on a gain is worth a word.
 constexpr double gained = 0.01;
 
 /// Newton's method knows positions to some 1e-9 of the model's size; energies below the work of the largest forces
-/// along that mean nothing [J].
+/// along that mean nothing [J]. Reactions do no work: those of joints that fight each other may be of any size.
 double energy_noise(const Session& session) {
   constexpr double positions = 1e-9;
+  State state = session.state();
+  state.multiplier.setZero();
   VectorX r(session.system().size());
   ResidualScale scale;
-  session.system().residual(session.state(), session.environment(), r, &scale);
-  return positions * (scale[Kind::translation] * model_length(session.state()) + scale[Kind::rotation]);
+  session.system().residual(state, session.environment(), r, &scale);
+  return positions * (scale[Kind::translation] * model_length(state) + scale[Kind::rotation]);
 }
 
 /// How hard the steps were, and what was refused or cut short.
@@ -108,27 +111,49 @@ std::string format_events(const Motion& motion) {
                      motion.stopped_by_event() ? ", which stopped the run" : "");
 }
 
-/// Where the gap in the balance comes from. @param gap  relative to the largest energy; negative: energy is missing
-std::string explain_gap(double gap, const Scheme& scheme) {
-  if (gap > 0) return "gained by errors of the steps";
-  const bool dissipates = scheme.gamma > 0.5 + 1e-12;  // order 1 in gamma - 1/2, whatever the form
-  return dissipates ? "lost to numerical dissipation and errors of the steps"
-                    : "lost by errors of the steps; this scheme does not dissipate";
+/// What the balance lacks, relative to the largest energy. Negative: energy is missing.
+struct Gap {
+  double whole, scheme;  ///< of it what the scheme's own damping has taken
+  double errors() const { return whole - scheme; }
+};
+
+std::string explain_gap(const Gap& gap, const Scheme& scheme) {
+  if (SchemeLoss::is_of(scheme))
+    return fmt::format("{:.2g} by the scheme's own dissipation, {:+.2g} by errors of the steps", gap.scheme,
+                       gap.errors());
+  return gap.whole > 0 ? "gained by errors of the steps; this scheme does not dissipate"
+                       : "lost by errors of the steps; this scheme does not dissipate";
+}
+
+std::string judge_gap(const Gap& gap) {
+  std::string text;
+  if (std::abs(gap.errors()) > doubtful)
+    text = "  DOUBTFUL: so large errors in the balance mean steps too long for the motion, or a motion that jumps\n";
+  else if (gap.whole > gained)
+    text = "  energy grows: take smaller steps, or give a `tolerance`\n";
+  else if (gap.errors() > gained)
+    text =
+        "  errors of the steps add energy, which the scheme's dissipation hides: take smaller steps, or give a "
+        "`tolerance`\n";
+  if (gap.scheme < -doubtful)
+    text += fmt::format(
+        "  DOUBTFUL: the scheme's own dissipation took {:.2g} % of the largest energy: the steps are too long for what "
+        "moves, "
+        "unless that is not meant to go on; take smaller ones, or a scheme that dissipates less (`rho` closer to 1)\n",
+        -100 * gap.scheme);
+  return text;
 }
 
 std::string format_energy(const Session& session, const Motion& motion, const Scheme& scheme) {
   const Energy& energy = motion.energy();
   const double balance = motion.balance(), largest = motion.books().largest();
-  std::string text = format_energies(energy);
+  const std::string text = format_energies(energy);
   if (!(largest > energy_noise(session))) return text + "  nothing moved\n";
-  const double gap = balance / largest;
-  text +=
-      fmt::format("  balance {:.3g} J, {:.2g} of the largest energy ({})\n", balance, gap, explain_gap(gap, scheme));
-  if (std::abs(gap) > doubtful)
-    text += "  DOUBTFUL: so large a gap in the balance means steps too long for the motion, or a motion that jumps\n";
-  else if (gap > gained)
-    text += "  energy grows: take smaller steps, or give a `tolerance`\n";
-  return text;
+  const Gap gap{balance / largest, -motion.scheme_loss() / largest};
+  return text +
+         fmt::format("  balance {:.3g} J, {:.2g} of the largest energy ({})\n", balance, gap.whole,
+                     explain_gap(gap, scheme)) +
+         judge_gap(gap);
 }
 
 }  // namespace

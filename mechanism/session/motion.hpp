@@ -56,6 +56,8 @@ class Motion {
   const Energy& energy() const { return parts_.books.totals(); }
   double balance() const { return parts_.books.balance(); }  ///< what is missing [J]
   const EnergyBalance& books() const { return parts_.books; }
+  /// What the scheme's own damping has taken out since the start [J].
+  double scheme_loss() const { return parts_.integration->scheme_loss(); }
   /// What the consistent start changed. Nothing, where a saved motion went on.
   const StartReport& start() const { return start_; }
   const MarchLog& log() const { return parts_.march->log(); }  ///< what steps cost, and why some were refused

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/joints/actions/still_watch.hpp"
+
 namespace bielle::mechanism {
 
 void ActuatorDrive::declare_actuator(Declaration& declaration) const {
@@ -40,6 +42,8 @@ void ActuatorDrive::add_tangent(const LocalState& state, LocalTangent& tangent) 
 void ActuatorDrive::add_energy(const LocalState& state, Energy& energy) const {
   energy.input += force(state) * value(state).rate;
 }
+
+std::unique_ptr<Gatherer> ActuatorDrive::make_gatherer() const { return std::make_unique<StillWatch>(*this); }
 
 // -- limits
 

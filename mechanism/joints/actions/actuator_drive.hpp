@@ -36,6 +36,9 @@ class ActuatorDrive : public Drive {
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   void add_energy(const LocalState& state, Energy& energy) const final;
+  std::unique_ptr<Gatherer> make_gatherer() const final;
+  /// Force or torque, and value of the coordinate.
+  std::pair<double, double> watched(const LocalState& state) const { return {force(state), value(state).value}; }
 
  protected:
   virtual double effort(const LocalState& state) const = 0;

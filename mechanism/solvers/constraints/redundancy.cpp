@@ -208,6 +208,7 @@ bool stands_in_singular_position(const System& system, const Environment& enviro
   // On the way constraints hold to second order, so what always repeats others differs by 1e-6 there, and what does so
   // here alone by 1e-3.
   constexpr double part = 1e-3, least = 3e-5;
+  if (system.dofs() == 0) return false;
   VectorX v(system.dofs());
   for (Eigen::Index k = 0; k < v.size(); ++k)
     v[k] = std::sin(1 + 1.7 * static_cast<double>(k));  // in no direction's favour

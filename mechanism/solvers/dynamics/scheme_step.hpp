@@ -58,6 +58,7 @@ class SchemeStep {
   const State& trial() const { return trial_; }  ///< after `accept`: the state before the accepted step
   const VectorX& trial_velocity() const { return v_; }
   const VectorX& trial_acceleration() const { return a_; }
+  VectorX algorithmic_acceleration() const;  ///< A_{n+1} of the trial, before `take_algorithmic_values`
   void set_trial_velocity(const VectorX& v);
   /// Moves increments, rates and multipliers by a part of an iteration's solution. @param delta (>= system.size())
   void move(const VectorX& delta, double part);
@@ -85,7 +86,6 @@ class SchemeStep {
   State interpolated(double time) const;
 
  private:
-  VectorX algorithmic_acceleration() const;  ///< A_{n+1} of the trial
   VectorX algorithmic_rate() const;          ///< Y_{n+1}
   /// Increments, velocities and first-order unknowns that go with accelerations and rates at the end of a step.
   void calc_end(const VectorX& a, const VectorX& rate, VectorX& dq, VectorX& v, VectorX& y) const;

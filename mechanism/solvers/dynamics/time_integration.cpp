@@ -62,6 +62,7 @@ void TimeIntegration::exchange(Archive& archive) {
   step_.exchange(archive);
   correction_.exchange(archive);
   extrapolation_.exchange(archive);
+  loss_.exchange(archive);
   newton_.begin_anew();
 }
 
@@ -238,6 +239,7 @@ StepReport TimeIntegration::attempt(double h, double end, bool kink) {
 
 bool TimeIntegration::accept() {
   check_set_aside(system_, environment_, step_.trial());
+  loss_.add(step_, environment_);
   step_.take_algorithmic_values();
   correction_.watch(step_);
   const bool branch_left = system_.accept(step_.trial(), environment_);

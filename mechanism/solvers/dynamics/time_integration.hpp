@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "mechanism/solvers/dynamics/extrapolation.hpp"
+#include "mechanism/solvers/dynamics/scheme_loss.hpp"
 #include "mechanism/solvers/dynamics/step_newton.hpp"
 #include "mechanism/solvers/dynamics/velocity_correction.hpp"
 #include "mechanism/solvers/start/start_report.hpp"
@@ -93,6 +94,8 @@ class TimeIntegration {
   }
   /// What the user should know of the last accepted step, whose joints turn far: a sentence, or nothing.
   std::string caution() { return correction_.caution(step_); }
+  /// Energy that the scheme's own damping has taken out since the start [J]. Zero for one without (rho = 1, Newmark).
+  double scheme_loss() const { return loss_.total(); }
   const StartReport& start_report() const { return start_report_; }
 
  private:
@@ -109,6 +112,7 @@ class TimeIntegration {
   VelocityCorrection correction_;
   StepNewton newton_;
   Extrapolation extrapolation_;
+  SchemeLoss loss_;
   VectorX highest_;  ///< a buffer: SchemeStep::get_highest
   StartReport start_report_;
   double end_ = 0;  ///< of the last attempt [s]

@@ -45,7 +45,11 @@ class Slips(BarTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("warning: body.yaml:6: materials.steel.young: is 210000 meant? Solids have 1e6", done.stderr)
         self.assertIn("warning: body.yaml:6: materials.steel.density: is 7.85 meant? Solids have 25", done.stderr)
-        self.body()
+        for damping in ("2", "[0.02, 2]"):
+            self.body("count: 4}", f"count: 4}}\ndamping: {{ratio: {damping}}}")
+            self.assertIn("warning: body.yaml:12: damping.ratio: is 2 meant? 1 is critical damping",
+                          self.run_program("body.yaml", "--quiet").stderr)
+        self.body("count: 4}", "count: 4}\ndamping: {ratio: [0.02, 0.05]}")
         self.assertNotIn("meant?", self.run_program("body.yaml", "--quiet").stderr)
 
     def test_an_interface_node_with_its_position_in_millimetres(self):

@@ -1,5 +1,6 @@
 """What a run says of its own trustworthiness: freedom, loops that are nearly exact, energy, motions that stand still."""
 
+import re
 import unittest
 
 from command import CommandTest
@@ -69,6 +70,21 @@ class SelfJudgement(CommandTest):
         self.assertIn("\n  0 degrees of freedom", text)
         self.assertNotIn("nearly redundant", text)
 
+    def test_a_drive_that_moves_nothing_is_said_although_other_parts_move(self):
+        pendulum = ("\nnodes: {{p: {{position: [5, 0, 0]}}, ", "\nelements:\n  p: {{type: rigid_body, node: p, mass: 1, inertia: [1, 1, 1]}}\n",
+                    "\njoints:\n  p: {{type: hinge, nodes: [ground, p], axis: [0, 1, 0], position: [4, 0, 0]}}\n")
+        model = FOUR_BAR
+        for old, new in zip(("\nnodes: {{", "\nelements:\n", "\njoints:\n"), pendulum):
+            model = model.replace(old, new)
+        for tilt, moves in (("1e-7", False), ("0.09", False), ("0", True)):
+            for push in ("5*t", "-3"):
+                text = self.summary(model.format(tilt=tilt) + f'drives: {{push: {{joint: h1, torque: "{push}"}}}}\n')
+                said = (f"\n  drive 'push' pushes with up to {'0.25' if 't' in push else '3'} N m, and the angle of joint 'h1' stands "
+                        "still: something else holds it\n")
+                self.assertEqual(said in text, not moves, text)
+                self.assertNotIn("nothing moved", text)
+        self.assertNotIn("stands still", self.summary(FOUR_BAR.format(tilt="1e-7") + 'drives: {push: {joint: h1, torque: "0*t"}}\n'))
+
     def test_a_start_in_a_singular_position_is_told_from_drives_that_contradict(self):
         self.write("model.yaml", SLIDER_CRANK)
         self.expect_refusal(2, "model.yaml", says=["drive 'd' looked redundant", "stands in a singular position (links in line"])
@@ -77,9 +93,24 @@ class SelfJudgement(CommandTest):
         self.expect_refusal(2, "model.yaml", says=["drive 'b' looked redundant", "contradicts the joints, locks and drives"])
         self.summary(FOUR_BAR.format(tilt=0) + drives.replace("-2*t", "t"))
 
+    def test_a_model_without_anything_to_move_ends_in_a_sentence(self):
+        held = ("nodes: {a: {position: [1, 0, 0], fixed: true}}\nelements: {m: {type: rigid_body, node: a, mass: 1, inertia: [1, 1, 1]}}\n"
+                "joints: {g: {type: hinge, nodes: [ground, a], axis: [0, 1, 0]}}\n")
+        for analysis in ("dynamic, duration: 0.01, step: 1e-3", "dynamic, duration: 0.01, tolerance: 1e-4, start: equilibrium",
+                         "dynamic, duration: 0.01, step: 1e-3, constraints: stabilized", "kinematic, duration: 0.01, step: 1e-3",
+                         "inverse_dynamics, duration: 0.01, step: 1e-3"):
+            with self.subTest(analysis):
+                model = held + f"analysis: [{{type: {analysis}}}]\n"
+                self.assertIn("0 degrees of freedom", self.summary(model))
+                self.write("model.yaml", model + 'drives: {d: {joint: g, angle: "t"}}\n')
+                says = ["drive 'd' stays"] if "dynamics" in analysis or "kin" in analysis else ["drive 'd' looked redundant", "contradicts the joints"]
+                self.expect_refusal(2, "model.yaml", says=says)
+        for analysis in ("assembly", "static", "eigen"):
+            self.summary(held + f"analysis: [{{type: {analysis}}}]\n" + 'drives: {d: {joint: g, angle: "t"}}\n')
+
     def test_the_gap_in_the_balance_is_explained(self):
         text = self.summary(PENDULUM.format(duration=0.4, step=0.02, rho=1))
-        self.assertIn("(gained by errors of the steps)", text)
+        self.assertIn("(gained by errors of the steps; this scheme does not dissipate)", text)
         self.assertNotIn("energy grows", text)
         text = self.summary(PENDULUM.format(duration=0.4, step=0.05, rho=1))
         self.assertIn("\n  energy grows: take smaller steps, or give a `tolerance`\n", text)
@@ -87,9 +118,32 @@ class SelfJudgement(CommandTest):
         self.assertIn("DOUBTFUL", text)
         falling = PENDULUM.replace("position: [0, 0, -1], velocity: [-6, 0, 0], angular_velocity: [0, 6, 0]",
                                    "position: [1, 0, 0]")
-        self.assertIn("this scheme does not dissipate", self.summary(falling.format(duration=0.4, step=0.02, rho=1)))
-        self.assertIn("lost to numerical dissipation and errors of the steps",
-                      self.summary(falling.format(duration=0.4, step=0.02, rho=0.8)))
+        self.assertIn("(lost by errors of the steps; this scheme does not dissipate)",
+                      self.summary(falling.format(duration=0.4, step=0.02, rho=1)))
+
+    def test_dissipation_of_the_scheme_is_told_from_errors_of_the_steps(self):
+        def parts(model):
+            text = self.summary(model)
+            found = re.search(r"balance \S+ J, (\S+) of the largest energy \((\S+) by the scheme's own dissipation, (\S+) by "
+                              "errors of the steps\\)", text)
+            return [float(number) for number in found.groups()], text
+
+        # An oscillator loses to the scheme alone, whatever its steps.
+        spring = ("nodes: {m: {position: [1.2, 0, 0], velocity: [0.1, 0, 0], fixed: [y, z, rx, ry, rz]}}\n"
+                  "elements: {m: {type: point_mass, node: m, mass: 1}, s: {type: spring_damper, nodes: [ground, m], "
+                  "stiffness: 1, length: 1}}\nanalysis: [{type: dynamic, duration: 60, step: STEP, rho: 0.8}]\n")
+        for step, doubtful in (("0.3", False), ("1", True)):  # loses 2 % and all of it
+            (gap, scheme, errors), text = parts(spring.replace("STEP", step).replace("duration: 60", "duration: 600"))
+            self.assertLess(gap, 0)
+            self.assertLess(abs(errors), 0.05 * abs(gap), text)
+            self.assertEqual("DOUBTFUL: the scheme's own dissipation took" in text, doubtful, text)
+            self.assertNotIn("energy grows", text)
+        # The pendulum gains by errors, and the scheme hides part of it.
+        (gap, scheme, errors), text = parts(PENDULUM.format(duration=0.4, step=0.05, rho=0.8))
+        self.assertLess(scheme, 0)
+        self.assertGreater(errors, 0.01)
+        self.assertAlmostEqual(gap, scheme + errors, delta=0.02 * errors)
+        self.assertIn("take smaller steps, or give a `tolerance`", text)
 
     def test_statics_end_at_no_time(self):
         text = self.summary(FOUR_BAR.format(tilt=0.09).replace("type: dynamic, duration: 0.05, step: 1e-3",

@@ -1,0 +1,28 @@
+// Notices a force or torque that drives nothing: the coordinate that it acts on stands still all along a motion.
+#pragma once
+
+#include "mechanism/joints/actions/actuator_drive.hpp"
+#include "mechanism/model/gatherer.hpp"
+
+namespace bielle::mechanism {
+
+class StillWatch final : public Gatherer {
+ public:
+  /// Keeps a reference.
+  explicit StillWatch(const ActuatorDrive& drive) : drive_(drive) {}
+  void begin() override;
+  void add(const LocalState& state) override;
+  void exchange(Archive& archive) override;
+  std::vector<ResultArray> results() override { return {}; }
+  std::string summary() override;
+  std::string what() const override { return "motion of '" + drive_.name() + "'"; }
+
+ private:
+  const ActuatorDrive& drive_;
+  double most_force_ = 0;  ///< [N] or [N m]
+  double first_ = 0;       ///< of the coordinate
+  double farthest_ = 0;    ///< from there
+  long states_ = 0;
+};
+
+}  // namespace bielle::mechanism
