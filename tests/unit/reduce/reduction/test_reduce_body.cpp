@@ -53,9 +53,8 @@ TEST_CASE("A reduced body keeps rigid motions, mass properties and inertia integ
     values[check.name] = check.value;
   }
   // Closer than the limits of the checks, which leave room for slender bodies and fine meshes.
-  for (const char* exact :
-       {"rigid_motion_force", "mass_error", "centre_error", "inertia_error", "rigid_motion_recovery",
-        "inertia_components_error", "rigid_motion_stress"}) {
+  for (const char* exact : {"rigid_motion_force", "mass_error", "centre_error", "inertia_error",
+                            "rigid_motion_recovery", "inertia_components_error", "rigid_motion_stress"}) {
     INFO(exact << " = " << values.at(exact));
     CHECK(values.at(exact) < 2e-13);
   }
