@@ -66,7 +66,7 @@ class Rotor(unittest.TestCase):
             np.testing.assert_allclose(oscillating, whirl(speed)[:5], rtol=3e-3, err_msg=str(speed))
             self.assertEqual(kinds[:2], ["rigid", "decaying"])  # the disc's angle, and its speed against the bearing
             self.assertTrue(np.all(ratios[2:] > 0))
-            self.assertEqual("axes that do not turn" in summary, speed > 0)
+            self.assertEqual("axes that do not turn" in summary.split("campbell,")[0], speed > 0)
             self.assertNotIn("not steady", summary)
 
     def test_a_study_over_the_speed_has_its_modes(self):
