@@ -54,7 +54,7 @@ def _orders(results, panel, speed, top):
         panel.plot(speed, line, color="#999999", linewidth=0.9)
         shown = np.flatnonzero(line <= top)
         if len(shown):
-            panel.annotate(f"{order:g}x", (speed[shown[-1]], line[shown[-1]]), fontsize=8, color="#777777", ha="right", va="bottom")
+            panel.annotate(f"{order:g}x", (speed[shown[-1]], line[shown[-1]]), fontsize=8, color="#777777", ha="right", va="top")
 
 
 def _stretches(kinds):
