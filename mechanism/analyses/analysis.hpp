@@ -35,6 +35,9 @@ class Analysis {
   /// Goes on with it from what a sink keeps, whose rows of it are there. @throws InputError when it cannot
   AnalysisSummary go_on(Session& session, const std::vector<double>& checkpoint, ResultSink& sink) const;
 
+  /// How the model that it will run on is made anew with another parameter, for those that sweep one.
+  virtual void set_maker(const ModelMaker& /*maker*/) {}
+
   virtual bool can_go_on() const { return false; }  ///< whether sinks get points to go on from
   /// What it keeps as drawn while it brings parts together, for `--check`.
   virtual AssemblyOptions kept() const { return {}; }

@@ -4,7 +4,7 @@ namespace bielle::mechanism {
 
 // Each stands in the file of its analysis.
 AnalysisReader read_assembly, read_static, read_dynamic, read_kinematic, read_inverse_dynamics, read_eigen,
-    read_frequency_response, read_state_space_analysis;
+    read_campbell, read_frequency_response, read_state_space_analysis;
 
 const std::vector<AnalysisType>& analysis_table() {
   static const std::vector<AnalysisType> table = {
@@ -14,6 +14,7 @@ const std::vector<AnalysisType>& analysis_table() {
       {"kinematic", read_kinematic},
       {"inverse_dynamics", read_inverse_dynamics},
       {"eigen", read_eigen},
+      {"campbell", read_campbell},
       {"frequency_response", read_frequency_response},
       {"state_space", read_state_space_analysis},
   };

@@ -5,7 +5,8 @@
 
 namespace bielle::mechanism {
 
-/// Its summary has the numbers "peak" (of each output to each input, outputs first) and "peak_frequency" [Hz].
+/// Its summary has the numbers "peak" (of each output to each input, outputs first) and "peak_frequency" [Hz], of a sum
+/// over modes "deviation".
 class FrequencyResponseAnalysis : public Analysis {
  public:
   explicit FrequencyResponseAnalysis(FrequencyResponseOptions options)

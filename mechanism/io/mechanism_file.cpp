@@ -164,6 +164,11 @@ MechanismFile read_mechanism(YamlValue root, const std::map<std::string, std::st
   MechanismFile file;
   file.text = root.source_text();
   read_parameters(root, overrides);
+  file.maker = [text = file.text, name = root.file(), overrides](const std::string& parameter, double value) {
+    std::map<std::string, std::string> others = overrides;
+    others[parameter] = fmt::format("{}", value);
+    return read_mechanism_text(text, name, others).model;
+  };
   file.model.parameters = root.parameters();
   if (root.has("mechanism")) file.model.title = root.at("mechanism").text();
   if (const auto gravity = root.find("gravity")) {
@@ -196,6 +201,7 @@ MechanismFile read_mechanism(YamlValue root, const std::map<std::string, std::st
 
   if (const auto analyses = root.find("analysis"))
     for (const YamlValue& entry : analyses->items()) file.analyses.push_back(read_analysis(entry, file.model));
+  for (const auto& analysis : file.analyses) analysis->set_maker(file.maker);
   double end = 0;
   bool statics = false;
   for (const auto& analysis : file.analyses) {

@@ -20,6 +20,7 @@ struct MechanismFile {
   std::string path;  ///< of the file; empty when read from a text
   /// Sentences about values that are possible and probably not meant, each with its place.
   std::vector<std::string> doubts;
+  ModelMaker maker;  ///< the model with another value of a parameter
 };
 
 /// Reads a mechanism file.

@@ -21,10 +21,12 @@ using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 std::vector<double> to_vector(const Numbers& numbers) { return {numbers.data(), numbers.data() + numbers.size()}; }
 
-std::unique_ptr<Analysis> read_keys(const std::string& text, const std::string& name, const Model& model) {
+std::unique_ptr<Analysis> read_keys(const std::string& text, const std::string& name, const MechanismFile& file) {
   YamlValue entry = YamlValue::parse(text, name + unseen);
-  entry.set_parameters(model.parameters);
-  return read_analysis(entry, model);
+  entry.set_parameters(file.model.parameters);
+  std::unique_ptr<Analysis> analysis = read_analysis(entry, file.model);
+  analysis->set_maker(file.maker);
+  return analysis;
 }
 
 /// Summary, numbers, rows.
@@ -44,7 +46,7 @@ py::tuple run(WorkingSession& working, const Analysis& analysis, const Callbacks
 std::unique_ptr<HeldMotion> start_motion(const HeldSession& working, const std::string& text,
                                          const std::optional<Numbers>& saved, const Callbacks& callbacks) {
   const std::vector<double> numbers = saved ? to_vector(*saved) : std::vector<double>();
-  const std::unique_ptr<Analysis> analysis = read_keys(text, "Session.dynamics", working->model()->model);
+  const std::unique_ptr<Analysis> analysis = read_keys(text, "Session.dynamics", *working->model());
   const auto& dynamic = dynamic_cast<const DynamicAnalysis&>(*analysis);
   std::unique_ptr<Motion> motion = working->compute(callbacks, [&](Session& session) {
     working->close_motion(session);
@@ -149,7 +151,7 @@ void bind_session(py::module_& module) {
       }))
       .def("run_keys",
            [](WorkingSession& working, const std::string& text, const std::string& name, const Callbacks& callbacks) {
-             return run(working, *read_keys(text, name, working.model()->model), callbacks);
+             return run(working, *read_keys(text, name, *working.model()), callbacks);
            })
       .def("run_listed",
            [](WorkingSession& working, std::size_t k, const Callbacks& callbacks) {

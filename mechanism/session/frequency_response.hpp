@@ -33,6 +33,16 @@ struct FrequencyResponseOptions {
   std::vector<ResponseOutput> outputs;
   std::vector<double> frequencies;  ///< [Hz] >= 0
   std::optional<SteadyRotation> rotation = {};
+  int modes = 0;  ///< so many of the slowest are superposed, with the residual of the others; 0: one factorisation each
+};
+
+/// How a sum over modes was made, and how good it is.
+struct ModalAccuracy {
+  int modes = 0;         ///< in the sum
+  double fastest = 0;    ///< of them [Hz]
+  int direct = 0;        ///< frequencies at which the answer was found directly
+  double deviation = 0;  ///< the largest from such an answer, relative to it, where it was not used
+  double frequency = 0;  ///< where that is [Hz]
 };
 
 struct FrequencyResponse : LinearisedSetting {
@@ -40,6 +50,7 @@ struct FrequencyResponse : LinearisedSetting {
   /// t)).
   std::vector<Eigen::MatrixXcd> response;
   std::vector<std::string> output_units;
+  std::optional<ModalAccuracy> modal;  ///< of a sum over modes
 };
 
 }  // namespace bielle::mechanism

@@ -81,10 +81,13 @@ std::vector<VectorX> LinearResponse::right_sides(const std::vector<ResponseInput
 }
 
 Variation LinearResponse::answer(const ShiftedOperator& D, const VectorX& right) const {
+  return motion(D.shift(), D.solve(-right.cast<Complex>()));
+}
+
+Variation LinearResponse::motion(Complex s, const Eigen::VectorXcd& solution) const {
   const int n = equations_.unknowns();
-  const Eigen::VectorXcd solution = D.solve(-right.cast<Complex>());
   Variation variation{solution.head(n), {}, Eigen::VectorXcd::Zero(system_.multipliers())};
-  variation.rate = D.shift() * variation.u + equations_.W * variation.u;
+  variation.rate = s * variation.u + equations_.W * variation.u;
   for (int k = 0; k < equations_.constraints(); ++k)
     variation.multiplier[equations_.multiplier[static_cast<std::size_t>(k)]] = solution[n + k];
   return variation;

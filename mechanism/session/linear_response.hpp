@@ -24,6 +24,8 @@ class LinearResponse {
                                    const std::vector<ResponseOutput>& outputs) const;
   /// The motion exp(shift t) of that right-hand side.
   Variation answer(const ShiftedOperator& D, const VectorX& right) const;
+  /// The motion exp(s t) of unknowns and multipliers (n + constraints).
+  Variation motion(Complex s, const Eigen::VectorXcd& solution) const;
   /// Variation of an output by a motion.
   Complex value(const ResponseOutput& output, const Variation& variation) const;
   /// Derivative of an output by an input of the model that it contains itself.

@@ -1,6 +1,7 @@
 // What a session answers when it is asked for modes.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "mechanism/session/linearised_setting.hpp"
@@ -21,12 +22,15 @@ struct StandingState {
 struct ModesOptions {
   ModeOptions search;
   std::optional<SteadyRotation> rotation = {};  ///< modes about the steady rotation that begins at the state
+  std::optional<ModeAxes> axes = {};            ///< in which to see them; nothing: those that suit the motion
+  bool energies = true;                         ///< whether they are computed
 };
 
 struct ModesReport : LinearisedSetting {
   StandingState about;
   Modes found;  ///< shapes of unit size (unit_factor)
   MemberEnergies energies;
+  std::shared_ptr<const LinearisedEquations> equations;  ///< whose modes they are
 };
 
 }  // namespace bielle::mechanism

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "mechanism/session/assembly_options.hpp"
+#include "mechanism/session/campbell.hpp"
 #include "mechanism/session/frequency_response.hpp"
 #include "mechanism/session/gatherers.hpp"
 #include "mechanism/session/gauge.hpp"
@@ -86,6 +87,9 @@ class Session {
   /// Small motions about the present state, which stays: about the start made consistent, an equilibrium under the part
   /// of the load that it stands under, the end of a motion. @throws ComputationError
   ModesReport modes(const ModesOptions& options) const;
+  /// Modes over a speed, tracked, with critical speeds; the present state stays. Where it is stopped, the values so far.
+  /// @throws InputError where nothing turns, or the model cannot be made with another parameter; ComputationError
+  Campbell campbell(const CampbellOptions& options);
   /// How small motions about the present state answer to harmonic inputs. @throws InputError for names that the model
   /// does not have; ComputationError at a frequency of an undamped mode
   FrequencyResponse frequency_response(const FrequencyResponseOptions& options) const;
@@ -117,8 +121,8 @@ class Session {
   StepRecord report() const;                           ///< of the last step
 
   // -- calling back
-  /// Called after each step of a motion and each point of statics, once it is recorded; may ask to `stop`. What it
-  /// throws ends the run.
+  /// Called after each step of a motion and each point of statics, once it is recorded, and with each state of a sweep
+  /// over a speed; may ask to `stop`. What it throws ends the run.
   void on_step(std::function<void(Session&)> callback) { on_step_.push_back(std::move(callback)); }
   /// Called with every step that is tried, accepted or not.
   void on_attempt(std::function<void(const Attempt&)> callback) { on_attempt_.push_back(std::move(callback)); }

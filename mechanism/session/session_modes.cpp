@@ -59,7 +59,10 @@ ModesReport Session::modes(const ModesOptions& options) const {
   const State& state = report.about.state;
   const Environment& environment = report.about.environment;
   static_cast<LinearisedSetting&>(report) = linearised_setting(system_, environment, state);
-  const LinearisedEquations equations = linearised_equations(system_, environment, state, report.axes);
+  if (options.axes) report.axes = *options.axes;
+  report.equations =
+      std::make_shared<const LinearisedEquations>(linearised_equations(system_, environment, state, report.axes));
+  const LinearisedEquations& equations = *report.equations;
   try {
     report.found = find_modes(equations, options.search);
   } catch (const SingularEquations& singular) {
@@ -70,7 +73,7 @@ ModesReport Session::modes(const ModesOptions& options) const {
     mode.u *= factor;
     mode.w *= factor;
   }
-  report.energies = member_energies(system_, environment, state, report.found.modes);
+  if (options.energies) report.energies = member_energies(system_, environment, state, report.found.modes);
   return report;
 }
 

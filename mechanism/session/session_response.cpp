@@ -1,13 +1,137 @@
 // Frequency responses about the state that a session shows.
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include <fmt/format.h>
 
-#include "mechanism/session/linear_response.hpp"
+#include "mechanism/session/modal_response.hpp"
 #include "mechanism/session/session.hpp"
 #include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
+namespace {
+
+using Complex = std::complex<double>;
+
+[[noreturn]] void throw_no_response(double frequency) {
+  throw ComputationError(
+      fmt::format("there is no response at {:.6g} Hz: it is a frequency at which the mechanism moves without any force",
+                  frequency));
+}
+
+/// Answers by one factorisation each.
+class DirectResponse {
+ public:
+  DirectResponse(const LinearResponse& response, const LinearisedEquations& equations,
+                 const FrequencyResponseOptions& options)
+      : response_(response),
+        equations_(equations),
+        options_(options),
+        rights_(response.right_sides(options.inputs, options.outputs)) {}
+
+  Eigen::MatrixXcd operator()(Complex s) const {
+    const ShiftedOperator D(equations_, s);
+    if (!D.regular()) throw_no_response(s.imag() / (2 * std::numbers::pi));
+    Eigen::MatrixXcd H(options_.outputs.size(), options_.inputs.size());
+    for (std::size_t j = 0; j < rights_.size(); ++j) {
+      const Variation variation = response_.answer(D, rights_[j]);
+      for (std::size_t i = 0; i < options_.outputs.size(); ++i)
+        H(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+            response_.value(options_.outputs[i], variation) + response_.direct(options_.outputs[i], options_.inputs[j]);
+    }
+    return H;
+  }
+
+ private:
+  const LinearResponse& response_;
+  const LinearisedEquations& equations_;
+  const FrequencyResponseOptions& options_;
+  std::vector<VectorX> rights_;
+};
+
+/// The sum over modes.
+class SuperposedResponse {
+ public:
+  SuperposedResponse(const LinearResponse& response, const LinearisedEquations& equations,
+                     const FrequencyResponseOptions& options)
+      : response_(response), equations_(equations), options_(options) {}
+
+  void run(FrequencyResponse& result) const {
+    const double most =
+                     2 * std::numbers::pi * *std::max_element(options_.frequencies.begin(), options_.frequencies.end()),
+                 least =
+                     2 * std::numbers::pi * *std::min_element(options_.frequencies.begin(), options_.frequencies.end());
+    if (most == 0)
+      throw InputError("`modes`: a sum over modes is for frequencies above 0; the answer at 0 alone is found directly");
+    ModeOptions search;
+    search.count = options_.modes;
+    const Modes found = find_modes(equations_, search);
+    const std::vector<ModalPole> poles = modal_poles(equations_, found.modes);
+    const bool rigid = found.modes.size() > poles.size();
+    const DirectResponse direct(response_, equations_, options_);
+    const ModalResponse superposed(response_, poles, options_, most, direct);
+    result.modal = superposed.accuracy(least);
+    result.modal->modes = static_cast<int>(poles.size());
+    for (const ModalPole& pole : poles)
+      result.modal->fastest = std::max(result.modal->fastest, std::abs(pole.s) / (2 * std::numbers::pi));
+    constexpr double enough = 1e-3;
+    if (result.modal->deviation > enough) check_rigid(*result.modal, found.modes, poles);
+    for (const double frequency : options_.frequencies) {
+      const Complex s(0, 2 * std::numbers::pi * frequency);
+      if (frequency == 0 && rigid) {
+        result.response.push_back(direct(s));
+        continue;
+      }
+      check_not_a_mode(poles, s);
+      result.response.push_back(superposed.at(s));
+    }
+  }
+
+ private:
+  /// What moves without any force answers with 1/s^2 and 1/s, which no smooth rest follows.
+  void check_rigid(const ModalAccuracy& accuracy, const std::vector<Mode>& modes,
+                   const std::vector<ModalPole>& poles) const {
+    for (const Mode& mode : modes)
+      if (mode.kind == ModeKind::rigid && takes_part(mode, poles))
+        throw ComputationError(
+            fmt::format("modes cannot be superposed: a rigid mode that no force resists has a part in these answers "
+                        "(at {:.6g} Hz the "
+                        "sum differs from the direct answer by {:.2g} of it): hold the mechanism, or leave `modes` out",
+                        accuracy.frequency, accuracy.deviation));
+  }
+  /// Whether an input moves it, and an output sees it.
+  bool takes_part(const Mode& mode, const std::vector<ModalPole>& poles) const {
+    constexpr double something = 1e-6;
+    const int n = equations_.unknowns();
+    const double size = mode.u.norm();
+    bool moved = false, seen = false;
+    for (const VectorX& right : response_.right_sides(options_.inputs, options_.outputs))
+      if (std::abs(right.head(n).cast<Complex>().dot(mode.u)) > something * right.head(n).norm() * size) moved = true;
+    Eigen::VectorXcd solution = Eigen::VectorXcd::Zero(n + equations_.constraints());
+    solution.head(n) = mode.u;
+    const Variation motion = response_.motion(0, solution);
+    for (const ResponseOutput& output : options_.outputs) {
+      double usual = 0;
+      for (const ModalPole& pole : poles)
+        usual = std::max(
+            usual, std::abs(response_.value(output, response_.motion(pole.s, pole.right))) / pole.right.head(n).norm());
+      if (std::abs(response_.value(output, motion)) > something * usual * size) seen = true;
+    }
+    return moved && seen;
+  }
+  static void check_not_a_mode(const std::vector<ModalPole>& poles, Complex s) {
+    constexpr double rounding = 1e-13;
+    for (const ModalPole& pole : poles)
+      if (std::abs(pole.s - s) <= rounding * std::abs(s)) throw_no_response(s.imag() / (2 * std::numbers::pi));
+  }
+
+  const LinearResponse& response_;
+  const LinearisedEquations& equations_;
+  const FrequencyResponseOptions& options_;
+};
+
+}  // namespace
 
 FrequencyResponse Session::frequency_response(const FrequencyResponseOptions& options) const {
   check_response_names(model_, options.inputs, options.outputs);
@@ -17,23 +141,14 @@ FrequencyResponse Session::frequency_response(const FrequencyResponseOptions& op
   static_cast<LinearisedSetting&>(result) = linearised_setting(system_, about.environment, about.state);
   const LinearisedEquations equations = linearised_equations(system_, about.environment, about.state, result.axes);
   const LinearResponse response(system_, about, equations);
-  const std::vector<VectorX> rights = response.right_sides(options.inputs, options.outputs);
   for (const ResponseOutput& output : options.outputs) result.output_units.push_back(response.units(output));
-  for (const double frequency : options.frequencies) {
-    const ShiftedOperator D(equations, std::complex<double>(0, 2 * std::numbers::pi * frequency));
-    if (!D.regular())
-      throw ComputationError(fmt::format(
-          "there is no response at {:.6g} Hz: it is a frequency at which the mechanism moves without any force",
-          frequency));
-    Eigen::MatrixXcd H(options.outputs.size(), options.inputs.size());
-    for (std::size_t j = 0; j < rights.size(); ++j) {
-      const Variation variation = response.answer(D, rights[j]);
-      for (std::size_t i = 0; i < options.outputs.size(); ++i)
-        H(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-            response.value(options.outputs[i], variation) + response.direct(options.outputs[i], options.inputs[j]);
-    }
-    result.response.push_back(std::move(H));
+  if (options.modes > 0) {
+    SuperposedResponse(response, equations, options).run(result);
+    return result;
   }
+  const DirectResponse direct(response, equations, options);
+  for (const double frequency : options.frequencies)
+    result.response.push_back(direct(Complex(0, 2 * std::numbers::pi * frequency)));
   return result;
 }
 

@@ -7,7 +7,7 @@ import os
 
 import numpy as np
 
-from . import mode_figures
+from . import campbell_figure, mode_figures
 from . import plot_style as style
 from .messages import InputError
 from .results_columns import column_names, column_units, columns_of
@@ -40,6 +40,7 @@ def draw_all(results, folder, extension="png", nodes=None, joints=None, superele
             written += solver(results, at)
     written += eigenfrequencies(results, at)
     written += mode_figures.draw(results, at, superelements or {})
+    written += campbell_figure.draw(results, at)
     written += frequency_response(results, at)
     if not written:
         raise InputError(f"'{results.path}' holds nothing to draw over time: "

@@ -209,7 +209,8 @@ class Results:
         bad = ~(np.abs(values) < LARGEST)
         if not bad.any():
             return values
-        if place not in self._doubted and not place.endswith(("von_mises", "stress", "strain")):  # of nodes without, on purpose
+        # On purpose: of nodes without stress, of modes that were lost or have no sense of whirl.
+        if place not in self._doubted and not place.endswith(("von_mises", "stress", "strain")) and not place.startswith("campbell/"):
             self._doubted.add(place)
             note(f"{self.path}: '{place}' holds values that are no numbers, or larger than {LARGEST:g}: they are left out")
         return np.where(bad, np.nan, values)

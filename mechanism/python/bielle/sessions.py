@@ -81,6 +81,20 @@ class Session:
         """
         return self.run(_given(type="eigen", count=count, near=near, below=below, rotation=rotation, shapes=shapes), record=record)
 
+    def campbell(self, speeds: Any, *, parameter: str | None = None, rotation: Any = None, modes: int | None = None,
+                 orders: Sequence[float] | None = None, node: str | None = None, record: bool = True) -> Results:
+        """Modes over the speed of a rotor, each followed by its shape, with critical speeds: the analysis `campbell`, with its
+        keys. The session stays where it stands.
+
+            found = session.campbell({"from": 0, "to": 300}, parameter="speed")
+            found["campbell/speed"], found["campbell/damped_frequency"]       # (speeds), (speeds, modes)
+            found.numbers.get("critical_speed", [])                            # [rad/s]
+
+        speeds: {"from": .., "to": .., "count": ..} or a list, of the parameter's values or of the rotation's rates [rad/s].
+        """
+        return self.run(_given(type="campbell", speeds=speeds, parameter=parameter, rotation=rotation, modes=modes, orders=orders,
+                               node=node), record=record)
+
     def dynamics(self, duration: float | str, step: float | str | None = None, *, tolerance: float | None = None,
                  largest_step: float | None = None, scheme: str | None = None, rho: float | None = None,
                  alpha: float | None = None, constraints: str | None = None, start: str | None = None,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace bielle::mechanism {
 namespace {
@@ -13,8 +14,8 @@ using VectorXc = ShiftedOperator::VectorXc;
 
 }  // namespace
 
-ShiftedOperator::ShiftedOperator(const LinearisedEquations& equations, Complex shift)
-    : equations_(equations), shift_(shift) {
+ShiftedOperator::ShiftedOperator(const LinearisedEquations& equations, Complex shift, Side side)
+    : equations_(equations), shift_(shift), side_(side) {
   build();
 }
 
@@ -36,6 +37,7 @@ void ShiftedOperator::build() {
   const int parts = is_real() ? 1 : 2;
   std::vector<Eigen::Triplet<double>> entries;
   const auto add = [&](int row, int column, Complex value) {
+    if (side_ == Side::left) std::swap(row, column);
     if (parts == 1) {
       entries.emplace_back(row, column, value.real());
       return;

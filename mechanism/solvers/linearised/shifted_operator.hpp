@@ -23,8 +23,10 @@ class ShiftedOperator {
   using Complex = std::complex<double>;
   using VectorXc = Eigen::VectorXcd;
 
+  /// Whether `solve` is that of the equations, or of their transpose, which has nothing but `solve`.
+  enum class Side { right, left };
   /// @param equations  must outlive this
-  ShiftedOperator(const LinearisedEquations& equations, Complex shift);
+  ShiftedOperator(const LinearisedEquations& equations, Complex shift, Side side = Side::right);
   ~ShiftedOperator();
   ShiftedOperator(const ShiftedOperator&) = delete;
   ShiftedOperator& operator=(const ShiftedOperator&) = delete;
@@ -59,6 +61,7 @@ class ShiftedOperator {
 
   const LinearisedEquations& equations_;
   Complex shift_;
+  Side side_;
   bool regular_ = false;
   VectorX scale_;
   SparseC rates_;                           ///< sigma M + C

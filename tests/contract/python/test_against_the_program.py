@@ -97,6 +97,16 @@ class AgainstTheProgram(WithModel):
         with self.assertRaisesRegex(bielle.InputError, "did you mean 'eigen/kind'"):
             results["eigen/kinds"]
 
+    def test_a_campbell_diagram(self):
+        """The example's analysis, from keys: the model is made anew with each speed, here and there."""
+        model = os.path.join(EXAMPLES, "rotor.yaml")
+        found = bielle.load(model).session().campbell({"from": 0, "to": 120, "count": 25}, parameter="speed", modes=5)
+        with h5py.File(self.run_program(model)) as program:
+            for name, dataset in program["analysis_2/campbell"].items():
+                text = h5py.check_string_dtype(dataset.dtype)
+                np.testing.assert_array_equal(found[f"campbell/{name}"], dataset.asstr()[:].tolist() if text else dataset[()], name)
+        self.assertEqual(found["campbell/damped_frequency"].shape, (25, 5))
+
     def test_contacts(self):
         self.expect_same_run(os.path.join(EXAMPLES, "contacts.yaml"))
 

@@ -9,7 +9,8 @@ import unittest
 HERE = os.path.dirname(os.path.abspath(__file__))
 REPOSITORY = os.path.abspath(os.path.join(HERE, "..", "..", ".."))
 PROGRAMS = os.environ["BIELLE_PROGRAMS"]
-TOOLS = ["bielle-plot", "bielle-animate", "bielle-paraview", "bielle-rainflow", "study", "install", "demo", "test", "convert_mesh.py"]
+TOOLS = ["bielle-plot", "bielle-animate", "bielle-paraview", "bielle-rainflow", "bielle-loads", "study", "install", "demo", "test",
+         "convert_mesh.py"]
 OTHERS = {"--preset", "--build", "--install", "--prefix",  # of CMake
           "--hostfile"}  # of mpirun
 

@@ -1,0 +1,137 @@
+// Modes over a speed.
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "mechanism/session/session.hpp"
+#include "mechanism/solvers/linearised/whirl.hpp"
+#include "reduce/common/error.hpp"
+#include "reduce/common/expression.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+/// States of a rotor at values of what is swept.
+class CampbellStates {
+ public:
+  CampbellStates(const Session& session, const CampbellOptions& options) : session_(session), options_(options) {}
+
+  /// Axes and setting are those of the last value, and its motion steady in them if any is.
+  void begin(Campbell& found) {
+    const double last = options_.values.back();
+    with_modes(last, 1, [&](const System& /*system*/, const ModesReport& report) {
+      axes_ = report.axes;
+      axis_ = options_.axis.isZero(0) ? fastest(report.about.state, last) : Vector3(options_.axis);
+      static_cast<LinearisedSetting&>(found) = report;
+    });
+    found.axis = axis_;
+    unsteady_ = &found.unsteady;
+  }
+
+  SweepSample sample(double value, int count) {
+    SweepSample sample;
+    with_modes(value, count, [&](const System& system, const ModesReport& report) {
+      const State& state = report.about.state;
+      sample.speed = speed(state);
+      sample.modes.M = report.equations->M;
+      sample.modes.all = report.found.all;
+      for (const Mode& mode : report.found.modes) {
+        if (!(mode.s.imag() > 0)) continue;
+        const auto whirl = whirl_of(system, state, sample.modes.M, mode, axis_);
+        sample.modes.modes.push_back(mode);
+        // Forwards is in the sense of the speed, and nothing is where nothing turns.
+        sample.modes.whirl.push_back(whirl && sample.speed != 0 ? std::copysign(1, sample.speed) * *whirl : NAN);
+      }
+      if (report.steadiness && !steady_in(*report.steadiness) && (unsteady_->empty() || unsteady_->back() != value))
+        unsteady_->push_back(value);
+    });
+    return sample;
+  }
+
+ private:
+  template <class Use>
+  void with_modes(double value, int count, const Use& use) const {
+    ModesOptions options;
+    options.search.count = count;
+    options.axes = axes_;
+    options.energies = false;
+    if (options_.parameter.empty()) {
+      set_rotation(value, options);
+      use(session_.system(), session_.modes(options));
+      return;
+    }
+    Model model = options_.maker(options_.parameter, value);
+    if (options_.rotation) set_rotation(rate_of(model), options);
+    try {
+      const Session other(std::move(model));
+      use(other.system(), other.modes(options));
+    } catch (const ComputationError& error) {
+      throw ComputationError(fmt::format("{} = {:.9g}: {}", options_.parameter, value, error.what()));
+    }
+  }
+
+  void set_rotation(double rate, ModesOptions& options) const {
+    if (rate != 0) options.rotation = SteadyRotation{rate * options_.axis, options_.through};
+  }
+
+  double rate_of(const Model& model) const {
+    const std::string& formula = options_.rate.empty() ? options_.parameter : options_.rate;
+    return Expression(formula, {}, model.parameters)({});
+  }
+
+  bool steady_in(const Steadiness& steadiness) const {
+    constexpr double changes = 1e-3;
+    return (axes_ == ModeAxes::turning ? steadiness.turning : steadiness.inertial) <= changes * steadiness.rate;
+  }
+
+  static Vector3 omega(const NodeState& node) { return node.R * node.Omega; }
+
+  Vector3 fastest(const State& state, double value) const {
+    Vector3 most = Vector3::Zero();
+    for (const NodeState& node : state.nodes)
+      if (omega(node).norm() > most.norm()) most = omega(node);
+    if (most.isZero(0))
+      throw InputError(
+          fmt::format("nothing turns where {} = {:.6g}: the parameter has to set a speed (angular "
+                      "velocities of nodes, rates of joints), or `rotation` turns everything",
+                      options_.parameter, value));
+    return most.normalized();
+  }
+
+  double speed(const State& state) const {
+    if (options_.node >= 0) return omega(state.nodes[static_cast<std::size_t>(options_.node)]).dot(axis_);
+    double most = 0;
+    for (const NodeState& node : state.nodes)
+      if (const double rate = omega(node).dot(axis_); std::abs(rate) > std::abs(most) * (1 + 1e-9)) most = rate;
+    return most;
+  }
+
+  const Session& session_;
+  const CampbellOptions& options_;
+  std::optional<ModeAxes> axes_;
+  Vector3 axis_ = Vector3::Zero();
+  std::vector<double>* unsteady_ = nullptr;
+};
+
+}  // namespace
+
+Campbell Session::campbell(const CampbellOptions& options) {
+  if (!options.parameter.empty() && !options.maker)
+    throw InputError("a parameter is swept of models that were read from a file or a text");
+  Campbell found;
+  CampbellStates states(*this, options);
+  states.begin(found);
+  SpeedSweep sweep(
+      [&](double value, int count) {
+        const double done = (value - options.values.front()) / (options.values.back() - options.values.front());
+        if (notes_) notes_->progress(done, fmt::format("{:.4g}", value));
+        call_back();
+        return states.sample(value, count);
+      },
+      options.values, options.modes, options.orders);
+  stopping_ = false;
+  found.swept = sweep.run([this] { return stopping_; });
+  return found;
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,216 @@
+#include "mechanism/solvers/linearised/modal_poles.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "mechanism/solvers/linearised/shifted_operator.hpp"
+#include "reduce/common/dense_solves.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+using Complex = std::complex<double>;
+using VectorXc = Eigen::VectorXcd;
+using MatrixXc = Eigen::MatrixXcd;
+using SparseC = Eigen::SparseMatrix<Complex>;
+
+/// b without its holonomic rows, or without the others.
+VectorXc rows_of(const LinearisedEquations& e, VectorXc b, bool nonholonomic) {
+  for (int k = 0; k < e.constraints(); ++k)
+    if ((e.nonholonomic[static_cast<std::size_t>(k)] != 0) != nonholonomic) b[k] = 0;
+  return b;
+}
+
+/// D'(s) q.
+VectorXc derivative_times(const LinearisedEquations& e, Complex s, const VectorXc& q) {
+  const int n = e.unknowns();
+  const VectorXc u = q.head(n), turned = e.W.cast<Complex>() * u;
+  VectorXc product(q.size());
+  product.head(n) = e.M.cast<Complex>() * VectorXc(2.0 * s * u + turned) + e.C.cast<Complex>() * u;
+  product.tail(e.constraints()) = rows_of(e, e.B.cast<Complex>() * u, true);
+  return product;
+}
+
+/// The size of its terms in each row of the motion.
+VectorX derivative_terms(const LinearisedEquations& e, Complex s, const VectorXc& q) {
+  const VectorXc u = q.head(e.unknowns()), turned = e.W.cast<Complex>() * u;
+  return (e.M.cast<Complex>() * u).cwiseAbs() * (2 * std::abs(s)) + (e.M.cast<Complex>() * turned).cwiseAbs() +
+         (e.C.cast<Complex>() * u).cwiseAbs();
+}
+
+/// Groups of equal eigenvalues, by the number of each of their modes.
+std::vector<std::vector<std::size_t>> equal_ones(const std::vector<Mode>& modes) {
+  constexpr double same = 1e-7;
+  std::vector<std::vector<std::size_t>> groups;
+  for (std::size_t k = 0; k < modes.size(); ++k) {
+    if (modes[k].kind == ModeKind::rigid) continue;
+    const auto group = std::find_if(groups.begin(), groups.end(), [&](const std::vector<std::size_t>& each) {
+      return std::abs(modes[each.front()].s - modes[k].s) <= same * std::abs(modes[k].s);
+    });
+    if (group == groups.end())
+      groups.push_back({k});
+    else
+      group->push_back(k);
+  }
+  return groups;
+}
+
+class PoleFinder {
+ public:
+  PoleFinder(const LinearisedEquations& equations, const ShiftedOperator& T) : e_(equations), T_(T) {
+    scale_ = VectorX::Ones(e_.unknowns() + e_.constraints());
+    scale_.head(e_.unknowns()) = T.scale().head(e_.unknowns());
+  }
+
+  /// With the multipliers that belong to the shape.
+  VectorXc right_vector(const Mode& mode) const {
+    VectorXc x(e_.states()), v(e_.unknowns() + e_.constraints());
+    x << mode.u, mode.w;
+    x = x.cwiseQuotient(T_.scale().cast<Complex>());
+    VectorXc multipliers(e_.constraints());
+    multipliers.real() = T_.multipliers(VectorX(x.real()));
+    multipliers.imag() = T_.multipliers(VectorX(x.imag()));
+    v << mode.u, (mode.s - T_.shift()) * multipliers;
+    return v / scaled(v).norm();
+  }
+
+  void add(const std::vector<Mode>& modes, const std::vector<std::size_t>& group, std::vector<ModalPole>& poles) const {
+    const auto count = static_cast<Eigen::Index>(group.size());
+    const Complex s = modes[group.front()].s;
+    MatrixXc right(scale_.size(), count);
+    for (Eigen::Index k = 0; k < count; ++k) right.col(k) = right_vector(modes[group[static_cast<std::size_t>(k)]]);
+    MatrixXc left = left_vectors(s, right);
+    MatrixXc changes(scale_.size(), count);
+    for (Eigen::Index k = 0; k < count; ++k) changes.col(k) = derivative_times(e_, s, right.col(k));
+    for (Eigen::Index k = 0; k < count; ++k)
+      left.col(k) /= scaled(left.col(k)).norm() * size_of(derivative_terms(e_, s, right.col(k)).cast<Complex>());
+    const MatrixXc pairing = left.transpose() * changes;
+    const auto inverse = regular_inverse(real_form(MatrixXc(pairing.transpose())));
+    constexpr double nearly_defective = 1e6;
+    if (!inverse || !(inverse->norm() < nearly_defective)) throw_defective(s);
+    left = (left * complex_form(*inverse)).eval();
+    for (Eigen::Index k = 0; k < count; ++k)
+      poles.push_back({modes[group[static_cast<std::size_t>(k)]].s, right.col(k), left.col(k)});
+  }
+
+ private:
+  VectorXc scaled(const VectorXc& v) const { return v.head(e_.unknowns()).cwiseQuotient(scale_.head(e_.unknowns())); }
+
+  /// Of forces, as the scale makes them displacements.
+  double size_of(const VectorXc& forces) const {
+    return forces.head(e_.unknowns()).cwiseProduct(scale_.head(e_.unknowns()).cast<Complex>()).norm();
+  }
+
+  /// How far y^T D(s) is from zero, relative to inertial forces.
+  double left_residual(Complex s, const VectorXc& y) const {
+    // M has a diagonal of ones in scaled unknowns: inertial forces are of the size |s|^2.
+    return size_of(transposed_equations_times(e_, s, y)) / (std::norm(s) * scaled(y).norm());
+  }
+
+  /// Of symmetric equations those of the right, of undamped gyroscopic ones their conjugates.
+  MatrixXc left_vectors(Complex s, const MatrixXc& right) const {
+    constexpr double exact = 1e-9;
+    for (const bool conjugate : {false, true}) {
+      const MatrixXc candidates = conjugate ? MatrixXc(right.conjugate()) : right;
+      bool fits = true;
+      for (Eigen::Index k = 0; k < candidates.cols() && fits; ++k) fits = left_residual(s, candidates.col(k)) <= exact;
+      if (fits) return candidates;
+    }
+    return iterated(s, right);
+  }
+
+  /// Inverse iteration with the transposed equations next to the eigenvalue.
+  MatrixXc iterated(Complex s, const MatrixXc& right) const {
+    constexpr double next_to = 1e-7;
+    constexpr int rounds = 4;
+    MatrixXc left = right.conjugate();
+    for (const double factor : {1.0, 3.0, 10.0}) {
+      const ShiftedOperator transposed(e_, s * (1 + factor * next_to), ShiftedOperator::Side::left);
+      if (!transposed.regular()) continue;
+      for (int round = 0; round < rounds; ++round) {
+        MatrixXc next(left.rows(), left.cols());
+        for (Eigen::Index k = 0; k < left.cols(); ++k) {
+          VectorXc start = VectorXc::Zero(left.rows());
+          start.head(e_.unknowns()) = scaled(left.col(k)).cwiseQuotient(scale_.head(e_.unknowns()).cast<Complex>());
+          VectorXc y = transposed.solve(start);
+          for (int twice = 0; twice < 2; ++twice)
+            for (Eigen::Index j = 0; j < k; ++j) y -= next.col(j) * scaled(next.col(j)).dot(scaled(y));
+          next.col(k) = y / scaled(y).norm();
+        }
+        left = next;
+      }
+      return left;
+    }
+    throw_defective(s);
+  }
+
+  static MatrixX real_form(const MatrixXc& A) {
+    MatrixX whole(2 * A.rows(), 2 * A.cols());
+    whole << A.real(), -A.imag(), A.imag(), A.real();
+    return whole;
+  }
+  static MatrixXc complex_form(const MatrixX& whole) {
+    const auto rows = whole.rows() / 2, columns = whole.cols() / 2;
+    MatrixXc A(rows, columns);
+    A.real() = whole.topLeftCorner(rows, columns);
+    A.imag() = whole.bottomLeftCorner(rows, columns);
+    return A;
+  }
+
+  [[noreturn]] static void throw_defective(Complex s) {
+    throw ComputationError(fmt::format(
+        "modes cannot be superposed: the eigenvalue {:.6g} {:+.6g} i 1/s has fewer shapes than its multiplicity (it is "
+        "defective, or nearly so), and answers are no sum of modes there: leave `modes` out",
+        s.real(), s.imag()));
+  }
+
+  const LinearisedEquations& e_;
+  const ShiftedOperator& T_;
+  VectorX scale_;
+};
+
+}  // namespace
+
+VectorXc equations_times(const LinearisedEquations& e, Complex s, const VectorXc& q) {
+  const int n = e.unknowns();
+  const VectorXc u = q.head(n), lambda = q.tail(e.constraints());
+  const VectorXc rate = s * u + e.W.cast<Complex>() * u;
+  VectorXc product(q.size());
+  product.head(n) = s * (e.M.cast<Complex>() * rate) + e.C.cast<Complex>() * rate + e.K.cast<Complex>() * u;
+  product.head(n) += e.B.transpose().cast<Complex>() * lambda + e.F.cast<Complex>() * lambda;
+  product.tail(e.constraints()) = rows_of(e, e.B.cast<Complex>() * u, false) +
+                                  rows_of(e, VectorXc(e.B.cast<Complex>() * rate + e.S.cast<Complex>() * u), true);
+  return product;
+}
+
+VectorXc transposed_equations_times(const LinearisedEquations& e, Complex s, const VectorXc& q) {
+  const int n = e.unknowns();
+  const VectorXc a = q.head(n), held = rows_of(e, q.tail(e.constraints()), false),
+                 rolling = rows_of(e, q.tail(e.constraints()), true);
+  VectorXc of_rates = s * (e.M.transpose().cast<Complex>() * a) + e.C.transpose().cast<Complex>() * a;
+  of_rates += e.B.transpose().cast<Complex>() * rolling;
+  VectorXc product(q.size());
+  product.head(n) = s * of_rates + e.W.transpose().cast<Complex>() * of_rates + e.K.transpose().cast<Complex>() * a;
+  product.head(n) += e.B.transpose().cast<Complex>() * held + e.S.transpose().cast<Complex>() * rolling;
+  product.tail(e.constraints()) = e.B.cast<Complex>() * a + e.F.transpose().cast<Complex>() * a;
+  return product;
+}
+
+std::vector<ModalPole> modal_poles(const LinearisedEquations& equations, const std::vector<Mode>& modes) {
+  std::vector<ModalPole> poles;
+  const auto slowest =
+      std::find_if(modes.begin(), modes.end(), [](const Mode& mode) { return mode.kind != ModeKind::rigid; });
+  if (slowest == modes.end()) return poles;
+  for (const double factor : {1.0, 1.0137, 1.3}) {
+    const ShiftedOperator T(equations, 0.9 * factor * std::abs(slowest->s));
+    if (!T.regular()) continue;
+    const PoleFinder finder(equations, T);
+    for (const std::vector<std::size_t>& group : equal_ones(modes)) finder.add(modes, group, poles);
+    return poles;
+  }
+  throw ComputationError("the linearised equations are singular whatever the frequency (`eigen` says of what)");
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,184 @@
+#include "mechanism/solvers/linearised/mode_tracking.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bielle::mechanism {
+namespace {
+
+using Complex = std::complex<double>;
+using Shape = Eigen::VectorXcd;
+using Sparse = LinearisedEquations::Sparse;
+
+Complex inner(const Sparse& M, const Shape& u, const Shape& v) { return u.dot(M.cast<Complex>() * v); }
+
+double square(const Sparse& M, const Shape& u) { return std::max(0.0, inner(M, u, u).real()); }
+
+/// Shapes of a space, orthonormal with M.
+class ShapeSpace {
+ public:
+  explicit ShapeSpace(const Sparse& M) : M_(M) {}
+
+  void add(const Shape& shape) {
+    Shape rest = shape;
+    for (int twice = 0; twice < 2; ++twice) rest -= projected(rest);
+    constexpr double repeated = 1e-12;
+    const double left = square(M_, rest);
+    if (left > repeated * square(M_, shape)) basis_.push_back(rest / std::sqrt(left));
+  }
+  Shape projected(const Shape& shape) const {
+    Shape part = Shape::Zero(shape.size());
+    for (const Shape& each : basis_) part += each * inner(M_, each, shape);
+    return part;
+  }
+  /// The share of a shape that lies in the space, 0..1.
+  double share(const Shape& shape) const {
+    const double whole = square(M_, shape);
+    if (whole == 0) return 0;
+    double sum = 0;
+    for (const Shape& each : basis_) sum += std::norm(inner(M_, each, shape));
+    return std::min(1.0, sum / whole);
+  }
+
+ private:
+  const Sparse& M_;
+  std::vector<Shape> basis_;
+};
+
+/// Groups of modes whose frequencies coincide: the number of the group of each. Rounding turns shapes by itself over
+/// the distance of their frequencies.
+std::vector<int> groups_of(const std::vector<Mode>& modes) {
+  constexpr double same = 1e-6;
+  std::vector<int> group(modes.size(), -1);
+  int count = 0;
+  for (std::size_t k = 0; k < modes.size(); ++k) {
+    for (std::size_t before = 0; before < k && group[k] < 0; ++before)
+      if (std::abs(modes[k].s - modes[before].s) <= same * std::abs(modes[k].s)) group[k] = group[before];
+    if (group[k] < 0) group[k] = count++;
+  }
+  return group;
+}
+
+struct Pairing {
+  std::size_t track, mode;
+  bool conjugate;
+  double score, correlation;
+};
+
+class Following {
+ public:
+  Following(const std::vector<TrackedMode>& before, const ModeSample& sample)
+      : before_(before), sample_(sample), group_(groups_of(sample.modes)) {
+    for (const int group : group_) groups_ = std::max(groups_, group + 1);
+    for (int group = 0; group < groups_; ++group) {
+      spaces_.emplace_back(sample.M);
+      mirrored_.emplace_back(sample.M);
+      members_.push_back(0);
+      for (std::size_t k = 0; k < sample.modes.size(); ++k) {
+        if (group_[k] != group) continue;
+        spaces_.back().add(sample.modes[k].u);
+        mirrored_.back().add(sample.modes[k].u.conjugate());
+        ++members_.back();
+      }
+    }
+  }
+
+  std::vector<TrackedMode> run() {
+    std::vector<Pairing> pairings;
+    for (std::size_t i = 0; i < before_.size(); ++i) add_pairings(i, pairings);
+    std::stable_sort(pairings.begin(), pairings.end(),
+                     [](const Pairing& a, const Pairing& b) { return a.score > b.score; });
+    std::vector<TrackedMode> after = before_;
+    for (TrackedMode& track : after) {
+      track.found = false;
+      track.correlation = 0;
+    }
+    std::vector<bool> taken(sample_.modes.size(), false);
+    for (const Pairing& pairing : pairings) {
+      if (after[pairing.track].found || taken[pairing.mode]) continue;
+      taken[pairing.mode] = true;
+      after[pairing.track] = continued(pairing);
+    }
+    return after;
+  }
+
+ private:
+  static Shape shape_of(const Mode& mode, bool conjugate) { return conjugate ? Shape(mode.u.conjugate()) : mode.u; }
+
+  void add_pairings(std::size_t i, std::vector<Pairing>& pairings) const {
+    const TrackedMode& track = before_[i];
+    constexpr double rather_not = 0.99;  // of a shape that is real: it has not passed through zero
+    ShapeSpace open(sample_.M);
+    if (track.open >= 0)
+      for (const TrackedMode& other : before_)
+        if (other.open == track.open) open.add(other.u);
+    for (std::size_t k = 0; k < sample_.modes.size(); ++k)
+      for (const bool conjugate : {false, true}) {
+        const auto group = static_cast<std::size_t>(group_[k]);
+        const bool alone = members_[group] == 1;
+        const double correlation = track.open >= 0 && alone ? open.share(shape_of(sample_.modes[k], conjugate))
+                                                            : (conjugate ? mirrored_ : spaces_)[group].share(track.u);
+        constexpr double least = 1e-3;
+        // Of modes that cannot be told apart, the one of the nearest frequency.
+        const double near = std::abs(std::abs(sample_.modes[k].s) - std::abs(track.s)) / (std::abs(track.s) + 1e-300);
+        constexpr double hardly = 1e-4;
+        const double score = correlation * (conjugate ? rather_not : 1.0) - hardly * std::min(near, 1.0);
+        if (correlation > least) pairings.push_back({i, k, conjugate, score, correlation});
+      }
+  }
+
+  TrackedMode continued(const Pairing& pairing) const {
+    const TrackedMode& track = before_[pairing.track];
+    const Mode& mode = sample_.modes[pairing.mode];
+    const auto group = static_cast<std::size_t>(group_[pairing.mode]);
+    const bool alone = members_[group] == 1;
+    TrackedMode after;
+    after.found = true;
+    after.correlation = pairing.correlation;
+    after.s = pairing.conjugate ? std::conj(mode.s) : mode.s;
+    after.whirl = alone ? (pairing.conjugate ? -1 : 1) * sample_.whirl[pairing.mode] : NAN;
+    after.u = shape_of(mode, pairing.conjugate);
+    if (alone) return after;
+    if (track.open >= 0)
+      after.open = track.open;
+    else
+      after.u = (pairing.conjugate ? mirrored_ : spaces_)[group].projected(track.u);
+    return after;
+  }
+
+  const std::vector<TrackedMode>& before_;
+  const ModeSample& sample_;
+  std::vector<int> group_;
+  int groups_ = 0;
+  std::vector<ShapeSpace> spaces_, mirrored_;  ///< of each group, and of the conjugate shapes
+  std::vector<int> members_;
+};
+
+}  // namespace
+
+double shape_correlation(const Sparse& M, const Shape& u, const Shape& v) {
+  const double sizes = square(M, u) * square(M, v);
+  return sizes > 0 ? std::norm(inner(M, u, v)) / sizes : 0;
+}
+
+std::vector<TrackedMode> begin_tracks(const ModeSample& sample, int count) {
+  const std::vector<int> group = groups_of(sample.modes);
+  std::vector<TrackedMode> tracks;
+  for (std::size_t k = 0; k < std::min(sample.modes.size(), static_cast<std::size_t>(count)); ++k) {
+    const bool alone = std::count(group.begin(), group.end(), group[k]) == 1;
+    TrackedMode& track = tracks.emplace_back();
+    track.found = true;
+    track.s = sample.modes[k].s;
+    track.u = sample.modes[k].u;
+    track.correlation = 1;
+    track.whirl = alone ? sample.whirl[k] : NAN;
+    track.open = alone ? -1 : group[k];
+  }
+  return tracks;
+}
+
+std::vector<TrackedMode> follow_tracks(const std::vector<TrackedMode>& before, const ModeSample& sample) {
+  return Following(before, sample).run();
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,137 @@
+// Tracking of modes alone: two oscillators whose springs change, with and without a spring between them.
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include <catch2/catch.hpp>
+
+#include "mechanism/solvers/linearised/speed_sweep.hpp"
+
+using namespace bielle::mechanism;
+using Complex = std::complex<double>;
+
+namespace {
+
+constexpr double two_pi = 2 * std::numbers::pi, at_rest = 100, slope = 0.8;
+
+/// Masses 1; springs 100 + 0.8 p and 100 - 0.8 p to the ground, and `between` them: w^2 = 100 + between -+
+/// sqrt(between^2 + (0.8 p)^2), shapes turn from one mass to the other within p of the size of between/0.8.
+SweepSample oscillators(double p, double between) {
+  SweepSample sample;
+  sample.speed = p;
+  sample.modes.all = true;
+  sample.modes.M.resize(2, 2);
+  sample.modes.M.setIdentity();
+  const double root = std::hypot(between, slope * p);
+  for (const double sign : {-1.0, 1.0}) {
+    Mode mode;
+    mode.s = Complex(0, std::sqrt(at_rest + between + sign * root));
+    const double angle = 0.5 * std::atan2(-between, slope * p);  // of the stiffer one
+    mode.u = sign > 0 ? Eigen::Vector2cd(std::cos(angle), std::sin(angle))
+                      : Eigen::Vector2cd(-std::sin(angle), std::cos(angle));
+    mode.u *= std::polar(2.0, 1.3 * p + sign);  // of any size and phase
+    sample.modes.modes.push_back(mode);
+    sample.modes.whirl.push_back(0);
+  }
+  return sample;
+}
+
+SweptModes swept(double between, const std::vector<double>& values) {
+  return SpeedSweep([&](double p, int /*count*/) { return oscillators(p, between); }, values, 2, {1}).run();
+}
+
+std::vector<double> even(double from, double to, int count) {
+  std::vector<double> values;
+  for (int k = 0; k < count; ++k) values.push_back(from + (to - from) * k / (count - 1));
+  return values;
+}
+
+}  // namespace
+
+TEST_CASE("modes that cross keep their numbers, which sorting by frequency would swap", "[linearised]") {
+  for (const int count : {2, 4, 5, 12}) {  // with 5 values one is where they coincide
+    const SweptModes found = swept(0, even(-30, 30, count));
+    CAPTURE(count);
+    CHECK(found.doubtful.empty());
+    for (const SweepPoint& point : found.points) {
+      CHECK(std::abs(point.tracks[0].s.imag()) == Approx(std::sqrt(at_rest + slope * point.value)).epsilon(1e-12));
+      CHECK(std::abs(point.tracks[1].s.imag()) == Approx(std::sqrt(at_rest - slope * point.value)).epsilon(1e-12));
+      CHECK(point.tracks[0].correlation == Approx(1).epsilon(1e-12));
+    }
+    REQUIRE(found.meetings.size() == 1);
+    CHECK_FALSE(found.meetings[0].veering);
+    // Frequencies are straight there but for (slope p/200)^2 relative to each other.
+    CHECK(std::abs(found.meetings[0].value) < 1e-6);
+    CHECK(found.meetings[0].frequency == Approx(10 / two_pi).epsilon(3e-3));
+  }
+}
+
+TEST_CASE("modes that veer are told, with the gap that is left and the exchange of their shapes", "[linearised]") {
+  for (const double between : {0.5, 2.0, 8.0}) {
+    const SweptModes found = swept(between, even(-60, 61, 30));
+    CAPTURE(between);
+    CHECK(found.doubtful.empty());
+    REQUIRE(found.meetings.size() == 1);
+    const ModeMeeting& veering = found.meetings[0];
+    CHECK(veering.veering);
+    // Between the springs' -p and +p all is symmetric but for the curvature of the square root, (between/200)^2.
+    const double gap = (std::sqrt(at_rest + 2 * between) - std::sqrt(at_rest)) / two_pi;
+    CHECK(veering.gap == Approx(gap).epsilon(0.02));
+    CHECK(std::abs(veering.value) < 0.1 * between / slope);
+    // Each goes on along its line: the lower one stays the lower one.
+    for (const SweepPoint& point : found.points) CHECK(std::abs(point.tracks[0].s) < std::abs(point.tracks[1].s));
+    // And it has become the other mass.
+    CHECK(std::abs(found.points.front().tracks[0].u[0]) > 10 * std::abs(found.points.front().tracks[0].u[1]));
+    CHECK(std::abs(found.points.back().tracks[0].u[1]) > 10 * std::abs(found.points.back().tracks[0].u[0]));
+  }
+}
+
+TEST_CASE("frequencies that come near without an exchange of shapes are no veering", "[linearised]") {
+  // 100 + p^2/100 and 120: shapes stay.
+  const auto solve = [](double p, int /*count*/) {
+    SweepSample sample;
+    sample.modes.all = true;
+    sample.modes.M.resize(2, 2);
+    sample.modes.M.setIdentity();
+    for (int k = 0; k < 2; ++k) {
+      Mode mode;
+      mode.s = Complex(0, k == 0 ? 10 - p * p / 1000 : 10.1);
+      mode.u = Eigen::Vector2cd::Unit(k);
+      sample.modes.modes.push_back(mode);
+      sample.modes.whirl.push_back(0);
+    }
+    return sample;
+  };
+  CHECK(SpeedSweep(solve, even(-30, 30, 13), 2, {1}).run().meetings.empty());
+}
+
+TEST_CASE("a critical speed is located where a frequency is a multiple of the speed", "[linearised]") {
+  // sqrt(100 + 0.8 p) = n p.
+  SpeedSweep sweep([](double p, int /*count*/) { return oscillators(p, 0); }, even(1, 40, 9), 2, {1, 2});
+  const SweptModes found = sweep.run();
+  REQUIRE(found.critical.size() == 4);
+  for (const CriticalSpeed& each : found.critical) {
+    const double n = each.order, rising = each.mode == 0 ? -slope : slope;  // at first the slower one falls
+    const double exact =
+        (std::copysign(1.0, rising) * slope + std::sqrt(slope * slope + 4 * n * n * at_rest)) / (2 * n * n);
+    CAPTURE(n, each.mode);
+    CHECK(each.speed == Approx(exact).epsilon(1e-9));
+    CHECK(each.frequency == Approx(n * exact / two_pi).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("a mode that no longer oscillates is lost, and told", "[linearised]") {
+  const auto solve = [](double p, int /*count*/) {
+    SweepSample sample = oscillators(p, 0);
+    if (p > 20) sample.modes.modes.pop_back();
+    return sample;
+  };
+  const SweptModes found = SpeedSweep(solve, even(1, 40, 14), 2, {3}).run();
+  REQUIRE(found.doubtful.size() == 1);
+  CHECK(found.doubtful[0].lost);
+  CHECK(found.doubtful[0].from < 20);
+  CHECK(found.doubtful[0].to > 20);
+  CHECK(found.doubtful[0].to - found.doubtful[0].from < 0.1);
+  CHECK(found.points.back().tracks[0].found);
+  CHECK_FALSE(found.points.back().tracks[1].found);
+}

@@ -1,0 +1,60 @@
+"""Materials of a superelement's mesh as another program needs them, from the text of its body file."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import yaml
+
+from . import tetrahedra
+from .messages import InputError
+
+
+@dataclass
+class BodyMaterials:
+    names: list
+    young: list
+    poisson: list
+    densities: list
+    number: dict   # {cell type: (n) which material, from 0}
+    density: dict  # {cell type: (n)} [kg/m^3]
+
+
+def densities(file, body, path):
+    """@raises InputError where they are not isotropic, or do not make the mass that the superelement has"""
+    text = file["input"][()] if "input" in file else file.parent.parent["input"][()]
+    data = yaml.safe_load(text.decode() if isinstance(text, bytes) else text)
+    names = list(data["materials"])
+    young, poisson, density = ([_number(data["materials"][name], key, path, name) for name in names]
+                               for key in ("young", "poisson", "density"))
+    volumes = tetrahedra.volumes(body.points, body.cells)
+    number = _regions(data, names, file, body)
+    of_cells = {kind: np.array(density)[number[kind]] for kind in volumes}
+    mass, wanted = sum(float(of_cells[kind] @ volumes[kind]) for kind in volumes), float(file["mass_properties/mass"][()])
+    if abs(mass - wanted) > 1e-3 * wanted:
+        raise InputError(f"'{path}': with the densities of its body file the mesh has {mass:.6g} kg, the superelement {wanted:.6g} kg: "
+                         "were materials given by parameters, or is this a piece of a body with several materials?")
+    return BodyMaterials(names, young, poisson, density, number, of_cells)
+
+
+def _number(material, key, path, name):
+    try:
+        return float(material[key])
+    except (KeyError, TypeError, ValueError):
+        raise InputError(f"'{path}': `{key}` of material '{name}' is not a plain number in its body file: loads are exported for "
+                         "isotropic materials that are given by numbers") from None
+
+
+def _regions(data, names, file, body):
+    """{type: (n)}: by the nodes of each region's group; the last region that has all nodes of a cell is its own."""
+    regions = data["regions"]
+    found = {kind: np.zeros(len(cells), int) for kind, cells in body.cells.items() if kind.startswith("tetra")}
+    if len(set(regions.values())) == 1:
+        only = names.index(next(iter(regions.values())))
+        return {kind: numbers + only for kind, numbers in found.items()}
+    groups = file["mesh/groups"]
+    for region, material in regions.items():
+        inside = np.zeros(len(body.points), bool)
+        inside[np.asarray(groups[region], int)] = True
+        for kind, numbers in found.items():
+            numbers[inside[body.cells[kind]].all(axis=1)] = names.index(material)
+    return found
