@@ -127,21 +127,41 @@ std::vector<Sample> coupling_samples() {
   const std::string creeps = ", friction: {coefficient: 0.3, velocity: 0.4";
   Sample edge = coupling("cam", "knife edge that rubs",
                          "joints: [one, three], profile: profile.csv, follower: roller, radius: 0" + creeps + "}",
-                         {{"friction.radius", "1", "does not turn"}, {"friction", "0.3", "expected a map"}});
-  Sample roller = coupling(
-      "cam", "roller on its pin",
-      "joints: [one, three], profile: profile.csv, follower: roller, radius: 0.2" + creeps + ", radius: 0.1}",
-      {{"friction.radius", "", "radius"}, {"friction.arm", "1", "no moment"}, {"friction.coefficient", "0", ""}});
+                         {{"friction.radius", "1", "does not turn"},
+                          {"friction", "0.3", "expected a map"},
+                          {"profile", "lift.csv", "greater than 0"},
+                          {"follower", "round", ""},
+                          {"radius", "-1", ""}});
+  Sample roller =
+      coupling("cam", "roller on its pin",
+               "joints: [one, three], profile: profile.csv, follower: roller, radius: 0.2" + creeps + ", radius: 0.1}",
+               {{"friction.radius", "", "radius"},
+                {"friction.arm", "1", "no moment"},
+                {"friction.coefficient", "0", ""},
+                {"friction.velocity", "0", ""},
+                {"profile", "lift.csv", "greater than 0"},
+                {"follower", "round", ""},
+                {"radius", "-1", ""}});
   for (Sample* sample : {&edge, &roller}) sample->scales.amplitude = 0.1;
   const std::string normal = "joints: [one, three], profile: round.csv, follower: flat, normal: [2, -1, 0]";
   Sample face = coupling("cam", "flat face", normal + ", at: [0.1, 0.2, 0.3]",
                          {{"normal", "[1, 2, 3]", "right angles"},
                           {"profile", "hollow.csv", "hollow"},
+                          {"follower", "round", ""},
                           {"at", "[1, 2]", ""},
                           {"radius", "1", "roller"}});
-  Sample rubbing_face =
-      coupling("cam", "flat face that rubs", normal + creeps + "}",
-               {{"friction.radius", "1", "does not turn"}, {"friction.coefficient", "", "coefficient"}});
+  Sample rubbing_face = coupling("cam", "flat face that rubs", normal + creeps + "}",
+                                 {{"friction.radius", "1", "does not turn"},
+                                  {"friction.coefficient", "", "coefficient"},
+                                  {"profile", "hollow.csv", "hollow"},
+                                  {"follower", "round", ""},
+                                  {"normal", "[1, 2, 3]", "right angles"}});
+  for (Sample* sample : {&edge, &roller, &rubbing_face}) {
+    sample->scales.kinks_unloaded = true;  // |F| and |v| where they vanish
+    sample->scales.smooth_within = 0.25;   // on the way there
+  }
+  // Normals of a contour are splines of many pieces.
+  for (Sample* sample : {&face, &rubbing_face}) sample->scales.smooth_within = 0.02;
   for (Sample* sample : {&lift, &knife, &edge, &roller, &face, &rubbing_face}) {
     // Few knots, away from the reference: finite differences stay within a piece of the splines.
     sample->files = [](const std::string& folder) {
