@@ -159,7 +159,7 @@ TEST_CASE("a roller turns on its pin, and is dragged by what rubs there") {
     const double torque = force * (x * std::sin(alpha) - y * std::cos(alpha));
     CHECK(session.read("joints/camshaft/drive_force")[0] == Approx(torque).margin(2e-4));
     // The roller turns clockwise, relative to the pin by R/r of the cam's rate and what its middle adds.
-    const double n_rate = e * s * speed / root;  // of the normal
+    const double n_rate = -e * s * speed / root;  // of the normal, whose x is -e c/reach
     const double spin = (reach * (n_rate - speed) + speed * r) / r;
     CHECK(V * y1 * speed + mu * pin * force * std::abs(spin) == Approx(torque * speed).epsilon(1e-9));
     const std::vector<double> rate = session.read("joints/contact/rate");
