@@ -62,19 +62,18 @@ Matrix12 MiddleFrame::second(const Vector6& factor) const {
   return S;
 }
 
-void check_half_turn(const LocalState& state, const std::string& who, const Vector3& psi, const Vector3& before) {
+void check_half_turn(const LocalState& state, const std::string& who, const Vector3& psi, const Vector3& before,
+                     const std::string& advice) {
   constexpr double largest = 0.95 * std::numbers::pi;
   const bool passed = (psi - before).norm() > std::numbers::pi;
   if (!passed && psi.norm() <= largest) return;
   const std::string when = state.environment().statics
                                ? fmt::format("load factor {:.6g}", state.environment().load_factor)
                                : fmt::format("t = {:.6g} s", state.time());
-  throw ComputationError(fmt::format(
-      "{}: {}: its nodes have turned {} against each other, and it follows up to {:.0f}. What is to turn freely about "
-      "an axis "
-      "is a `bearing` or a hinge",
-      when, who, passed ? std::string("past 180 degrees") : fmt::format("by {:.0f} degrees", degrees(psi.norm())),
-      degrees(largest)));
+  throw ComputationError(
+      fmt::format("{}: {}: its nodes have turned {} against each other, and it follows up to {:.0f}. {}", when, who,
+                  passed ? std::string("past 180 degrees") : fmt::format("by {:.0f} degrees", degrees(psi.norm())),
+                  degrees(largest), advice));
 }
 
 }  // namespace bielle::mechanism

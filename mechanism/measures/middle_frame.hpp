@@ -46,7 +46,8 @@ class MiddleFrame {
 
 /// For the end of a step: refuses relative rotations above 171 degrees, and those that have passed half a turn within
 /// the step, where psi goes over to the other side. @param who  "bushing 'mount'" @param before  psi of the last step
-/// @throws ComputationError
-void check_half_turn(const LocalState& state, const std::string& who, const Vector3& psi, const Vector3& before);
+/// @param advice  a sentence without its full stop @throws ComputationError
+void check_half_turn(const LocalState& state, const std::string& who, const Vector3& psi, const Vector3& before,
+                     const std::string& advice);
 
 }  // namespace bielle::mechanism

@@ -68,7 +68,7 @@ void add_on_surfaces(std::vector<Sample>& list) {
   on_roof("capsule, surface, across its ridge", "capsule: [1.4, 3], axes: {x: [0, 0, 1], y: [1, 0.3, 0]}",
           {{"shapes.1.capsule", "[1]", ""}});
   on_roof("capsule, surface, on its end",
-          "capsule: [1.4, 2], axes: {x: [0.3, 1, 0], y: [0, 0.2, 1]}, at: [0, 1.2, 0.4]",
+          "capsule: [1.4, 2], axes: {x: [0.3, 1, 0], y: [0, 0.2, 1]}, at: [0.07, 1.1, 0.33]",
           {{"shapes.1.capsule", "[1, 0]", ""}});
   on_roof("cylinder, surface, across its ridge",
           "cylinder: [1.5, 4], rounding: 0.7, axes: {x: [0, 0, 1], y: [1, 0.3, 0]}", {{"shapes.1.rounding", "2", ""}});
@@ -107,7 +107,7 @@ void add_cylinders(std::vector<Sample>& list) {
                           {{"shapes.0.rounding", "1", ""}}));
   list.push_back(touching("box, cylinder, corner on an end",
                           "shapes: [{node: a, box: [1.6, 1.6, 1.6], rounding: 0.6, axes: {x: [1, 0.2, 1], y: [-1, 2, "
-                          "1]}}, {node: b, cylinder: [1.5, 1.6], rounding: 0.6, at: [0.2, 0, 0.3]}]",
+                          "1]}}, {node: b, cylinder: [1.5, 1.6], rounding: 0.6, at: [0.27, 0.08, 0.25]}]",
                           {{"shapes.1.cylinder", "[1, x]", ""}}));
 }
 

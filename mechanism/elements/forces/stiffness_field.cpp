@@ -39,7 +39,8 @@ void StiffnessField::declare(Declaration& declaration) const {
 
 void StiffnessField::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {
   const Vector3 psi = PairRotation(state.node(0), state.node(1), frames_[0].R, frames_[1].R).psi();
-  check_half_turn(state, fmt::format("stiffness_field '{}'", name()), psi, memory.head<3>());
+  check_half_turn(state, fmt::format("stiffness_field '{}'", name()), psi, memory.head<3>(),
+                  "What is to turn freely about an axis is a `bearing` or a hinge");
   memory.head<3>() = psi;
 }
 

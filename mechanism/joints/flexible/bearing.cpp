@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/joints/actions/joint_actions.hpp"
+#include "mechanism/measures/middle_frame.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -72,6 +73,19 @@ void Bearing::calc_measures(const LocalState& state, ElasticLaw::Measures& measu
   const PairMeasure factor = compose(c, tilt.f, tilt.f1, tilt.f2);
   measures[3] = -(factor * shaft_along(bearing_y));
   measures[4] = factor * shaft_along(bearing_x);
+}
+
+void Bearing::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {
+  Joint::accept(state, memory);
+  ElasticLaw::Measures measures;
+  calc_measures(state, measures, false);
+  constexpr int tilt_x = 3, tilt_y = 4, entry = 2;  // the memory holds [value, rate] of each coordinate
+  const Vector3 tilt(measures[tilt_x].value, measures[tilt_y].value, 0),
+      before(memory[entry * tilt_x], memory[entry * tilt_y], 0);
+  check_half_turn(state, fmt::format("bearing '{}'", name()), tilt, before,
+                  "What is to tilt freely is a `spherical` joint, or a `bushing` without stiffness of rotations");
+  memory[entry * tilt_x] = tilt.x();
+  memory[entry * tilt_y] = tilt.y();
 }
 
 namespace {

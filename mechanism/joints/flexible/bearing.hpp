@@ -19,6 +19,8 @@ namespace bielle::mechanism {
 class Bearing final : public ElasticPair {
  public:
   Bearing(std::string name, JointFrames frames, const Model& model);
+  /// Keeps the tilt. @throws ComputationError from nearly half a turn on
+  void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
 
  private:
   void calc_measures(const LocalState& state, ElasticLaw::Measures& measures, bool second) const override;

@@ -36,7 +36,8 @@ void Bushing::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const 
   const auto kept = [&](int k) { return 2 * (3 + k); };  // [value, rate] of rx, ry, rz
   Vector3 before;
   for (int k = 0; k < 3; ++k) before[k] = memory[kept(k)];
-  check_half_turn(state, fmt::format("bushing '{}'", name()), psi, before);
+  check_half_turn(state, fmt::format("bushing '{}'", name()), psi, before,
+                  "What is to turn freely about an axis is a `bearing` or a hinge");
   for (int k = 0; k < 3; ++k) memory[kept(k)] = psi[k];
 }
 

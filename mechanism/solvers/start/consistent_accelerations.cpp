@@ -26,6 +26,7 @@ class AccelerationEquations {
         saddle_(saddle),
         reactions_(system),
         length_(model_length(state)),
+        known_(state.multiplier),
         v_(system.dofs()),
         a_(system.dofs()),
         r_(system.size()),
@@ -117,6 +118,11 @@ class AccelerationEquations {
     const VectorX guess = state_.multiplier;
     const State first = state_;
     const VectorX a_first = a_;
+    // From the reactions of a moment ago, where there are any: few change much at an event.
+    if (known_.allFinite() && !known_.isZero(0)) {
+      state_.multiplier = known_;
+      system_.for_each_idle(state_, [&](int multiplier) { state_.multiplier[multiplier] = 0; });
+    }
     const Search found = search();
     const State solution = state_;
     const VectorX a_solution = a_;
@@ -350,6 +356,7 @@ class AccelerationEquations {
   MassSaddle& saddle_;
   ReadReactions reactions_;
   double length_;
+  VectorX known_;  ///< multipliers of the state as it was given
   VectorX v_, a_, r_, step_;
   VectorX begin_;             ///< first-order unknowns
   std::vector<double> size_;  ///< of each algebraic unknown

@@ -140,6 +140,25 @@ TEST_CASE("forces of a capsule on a cylinder stay continuous over side, rim and 
   }
 }
 
+TEST_CASE("a rod that lies across an end of a cylinder is borne by it, level or not") {
+  const ContactShape a = cylinder(), b = capsule();
+  NormalLaw law;
+  law.stiffness = 1e6;
+  law.exponent = 1.5;
+  constexpr double deep = 1e-3;
+  const PlacedShape<double> one = placed(a, Vector3::Zero(), Matrix3::Identity());
+  PairTouches<double> found;
+  for (const double tilt : {-1e-3, -1e-6, 0.0, 1e-6, 1e-3}) {
+    CAPTURE(tilt);
+    find_touches(one, placed(b, Vector3(0, 0, half + r - deep), exp_so3(Vector3(0.5 * M_PI + tilt, 0, 0))), law, found);
+    REQUIRE(found.touches.size() == 1);
+    // On the middle of the dome, from where it moves along with the tilt: R/H of it, R the core's radius, H = R/100.
+    CHECK(found.touches[0].force == Approx(1e6 * std::pow(deep, 1.5)).epsilon(0.1));
+    CHECK(std::abs(found.touches[0].place.y) ==
+          Approx(100 * std::abs(tilt) * (R - rounding)).epsilon(0.02).margin(1e-9));
+  }
+}
+
 TEST_CASE("a rod across a lying cylinder rests at the depth of its weight") {
   // Both lie; the rod across the cylinder's side, held against tilting.
   const double mass = 4, g = 9.81, depth = std::pow(mass * g / 1e6, 1 / 1.5);

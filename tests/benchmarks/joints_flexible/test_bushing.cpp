@@ -380,3 +380,19 @@ joints:
                     Catch::Contains("bushing 'it'") && Catch::Contains("171") && Catch::Contains("`bearing`"));
   CHECK_THROWS_WITH(spin(0.03), Catch::Contains("past 180 degrees"));
 }
+
+TEST_CASE("a bearing whose shaft tilts through half a turn ends the run and says so") {
+  const auto tumble = [](double h, const std::string& rate) {
+    move_to("nodes:\n  body: {angular_velocity: [" + rate + R"yaml(]}
+elements:
+  body: {type: rigid_body, node: body, mass: 2, inertia: [1, 1, 1]}
+joints:
+  it: {type: bearing, nodes: [ground, body], axis: [0, 0, 1], radial: 800, axial: 800, tilting: 1}
+)yaml",
+            h, 1, [](const Session&) {});
+  };
+  CHECK_THROWS_WITH(tumble(1e-3, "20, 0, 0"),
+                    Catch::Contains("bearing 'it'") && Catch::Contains("171") && Catch::Contains("`spherical`"));
+  CHECK_THROWS_WITH(tumble(0.03, "0, 20, 0"), Catch::Contains("past 180 degrees"));
+  CHECK_NOTHROW(tumble(1e-3, "0, 0, 20"));
+}
