@@ -11,6 +11,7 @@
 #include "reduce/common/symmetric_eigenpairs.hpp"
 #include "reduce/spectral/arpack_eigenpairs.hpp"
 #include "reduce/spectral/block_lanczos.hpp"
+#include "reduce/spectral/tall_products.hpp"
 
 namespace bielle {
 
@@ -58,6 +59,19 @@ void polish(const ShiftInvertProblem& problem, Eigen::Index most, Eigenpairs& pa
         error.cwiseProduct(problem.multiply_mass(error)).colwise().sum().cwiseMax(0).cwiseSqrt();
     vectors -= error;
   }
+}
+
+/// What rounding in the solutions left of others in each vector is taken out: V <- V (I - (V^T M V - I) / 2).
+void make_orthonormal(const ShiftInvertProblem& problem, Eigen::MatrixXd& vectors, int threads) {
+  constexpr Eigen::Index most = 64;  // columns at a time
+  const Eigen::Index count = vectors.cols();
+  Eigen::MatrixXd gram(count, count);
+  for (Eigen::Index first = 0; first < count; first += most) {
+    const Eigen::MatrixXd columns = vectors.middleCols(first, std::min(most, count - first));
+    gram.middleCols(first, columns.cols()) = tall_inner_products(vectors, problem.multiply_mass(columns), threads);
+  }
+  const Eigen::MatrixXd excess = (gram + gram.transpose()) / 2 - Eigen::MatrixXd::Identity(count, count);
+  combine_columns(vectors, Eigen::MatrixXd::Identity(count, count) - excess / 2, threads);
 }
 
 /// Small problems, densely: S = (K - shift M)^-1 is symmetric, and S M phi = nu phi with nu = 1 / (lambda - shift)
@@ -108,6 +122,7 @@ Eigenpairs shift_invert_eigenpairs(const ShiftInvertProblem& problem, int count,
                      : options.method == EigenMethod::arpack ? arpack_eigenpairs(problem, count, options)
                                                              : block_lanczos_eigenpairs(problem, count, options);
   polish(problem, options.iteration ? 8 : 64, pairs);  // who iterates elsewhere has little memory here
+  make_orthonormal(problem, pairs.vectors, options.threads);
   put_in_order(pairs);
   return pairs;
 }

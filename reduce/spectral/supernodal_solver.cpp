@@ -8,6 +8,7 @@
 #include <omp.h>
 
 #include "reduce/spectral/blas.hpp"
+#include "reduce/spectral/few_columns.hpp"
 #include "reduce/spectral/symmetric_matrix.hpp"
 
 namespace bielle {
@@ -36,28 +37,49 @@ struct Supernode {
   const std::int64_t* rows_below;
   const double* values;
 
-  int stride() const { return blas_integer(width + below); }
+  std::int64_t stride() const { return width + below; }
 
-  /// own <- L11^-1 own, or L11^-T own, for some of the columns of `own`.
-  void solve_triangle(CBLAS_TRANSPOSE order, double* own, int columns, int row_stride) const {
-    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, order, CblasNonUnit, columns, blas_integer(width), 1, values,
-                stride(), own, row_stride);
+  /// own <- L11^-1 own, for some of the columns of `own`.
+  void solve_forwards(double* own, int columns, int row_stride) const {
+    for (std::int64_t begin = 0; begin < width; begin += block) {
+      const std::int64_t count = std::min(block, width - begin), end = begin + count;
+      solve_block(CblasTrans, begin, count, own, columns, row_stride);
+      subtract_product_with_few(width - end, count, values + end + begin * stride(), stride(), own + begin * row_stride,
+                                own + end * row_stride, columns, row_stride);
+    }
   }
-  /// out <- L21 own, of some of the rows below.
+  /// own <- L11^-T own
+  void solve_backwards(double* own, int columns, int row_stride) const {
+    for (std::int64_t begin = (width - 1) / block * block; begin >= 0; begin -= block) {
+      const std::int64_t count = std::min(block, width - begin), end = begin + count;
+      subtract_transposed_product_with_few(width - end, count, values + end + begin * stride(), stride(),
+                                           own + end * row_stride, own + begin * row_stride, columns, row_stride);
+      solve_block(CblasNoTrans, begin, count, own, columns, row_stride);
+    }
+  }
+  /// out <- -L21 own, of some of the rows below.
   void multiply(Range rows, const double* own, double* out, int columns) const {
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, columns, blas_integer(rows.count), blas_integer(width), 1, own,
-                columns, values + width + rows.first, stride(), 0, out, columns);
+    std::fill_n(out, rows.count * columns, 0.0);
+    subtract_product_with_few(rows.count, width, values + width + rows.first, stride(), own, out, columns, columns);
   }
   /// own <- own - L21^T in, of some of its own columns.
   void subtract_transposed(Range own_columns, const double* in, double* own, int columns) const {
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, columns, blas_integer(own_columns.count),
-                blas_integer(below), -1, in, columns, values + width + own_columns.first * stride(), stride(), 1,
-                own + own_columns.first * columns, columns);
+    subtract_transposed_product_with_few(below, own_columns.count, values + width + own_columns.first * stride(),
+                                         stride(), in, own + own_columns.first * columns, columns, columns);
+  }
+
+ private:
+  static constexpr std::int64_t block = 32;
+
+  void solve_block(CBLAS_TRANSPOSE order, std::int64_t begin, std::int64_t count, double* own, int columns,
+                   int row_stride) const {
+    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, order, CblasNonUnit, columns, blas_integer(count), 1,
+                values + begin * (stride() + 1), blas_integer(stride()), own + begin * row_stride, row_stride);
   }
 };
 
-void add_row(double* to, const double* from, int columns, double scale) {
-  for (int c = 0; c < columns; ++c) to[c] += scale * from[c];
+void add_row(double* to, const double* from, int columns) {
+  for (int c = 0; c < columns; ++c) to[c] += from[c];
 }
 
 }  // namespace
@@ -69,13 +91,14 @@ class SupernodalSolver::Sweep {
       : solver_(solver),
         factor_(solver.factor_),
         parts_(blas_integer(static_cast<std::int64_t>(solver.of_threads_.size()))),
-        columns_(columns),
+        columns_((columns + vectors_abreast - 1) / vectors_abreast * vectors_abreast),
+        given_(columns),
         first_(first),
         b_(b),
         x_(x),
-        y_(factor_.size, columns),
-        rooms_(static_cast<std::size_t>(parts_), RowMatrix(solver.longest_, columns)),
-        sums_(static_cast<std::size_t>(parts_), RowMatrix::Zero(solver.rows_above_, columns)) {}
+        y_(RowMatrix::Zero(factor_.size, columns_)),
+        rooms_(static_cast<std::size_t>(parts_), RowMatrix(solver.longest_, columns_)),
+        sums_(static_cast<std::size_t>(parts_), RowMatrix::Zero(solver.rows_above_, columns_)) {}
 
   void run() {
     // Where fewer threads come than were asked for (inside of other parallel work), each does several parts.
@@ -141,7 +164,7 @@ class SupernodalSolver::Sweep {
     for (std::int64_t k = rows.first; k < rows.first + rows.count; ++k) {
       const double* from = &b_(factor_.order[k], first_);
       double* to = row(k);
-      for (int c = 0; c < columns_; ++c) to[c] = from[c * b_.rows()];
+      for (int c = 0; c < given_; ++c) to[c] = from[c * b_.rows()];
     }
   }
   void copy_out(int part) {
@@ -149,7 +172,7 @@ class SupernodalSolver::Sweep {
     for (std::int64_t k = rows.first; k < rows.first + rows.count; ++k) {
       double* to = &x_(factor_.order[k], first_);
       const double* from = row(k);
-      for (int c = 0; c < columns_; ++c) to[c * x_.rows()] = from[c];
+      for (int c = 0; c < given_; ++c) to[c * x_.rows()] = from[c];
     }
   }
   /// What the subtrees of all threads give to the rows above them.
@@ -158,14 +181,14 @@ class SupernodalSolver::Sweep {
     for (const RowMatrix& sum : sums_) {
       const double* from = sum.data() + rows.first * columns_;
       for (std::int64_t k = rows.first; k < rows.first + rows.count; ++k, from += columns_)
-        add_row(row(solver_.unknowns_above_[static_cast<std::size_t>(k)]), from, columns_, 1);
+        add_row(row(solver_.unknowns_above_[static_cast<std::size_t>(k)]), from, columns_);
     }
   }
 
   /// @param is_above  what is given to rows above is not kept apart
   void forwards(const Supernode& node, int part, bool is_above = false) {
     double* const own = row(node.first);
-    node.solve_triangle(CblasTrans, own, columns_, columns_);
+    node.solve_forwards(own, columns_, columns_);
     if (node.below == 0) return;
     double* update = room(part);
     node.multiply({0, node.below}, own, update, columns_);
@@ -173,7 +196,7 @@ class SupernodalSolver::Sweep {
     for (std::int64_t k = 0; k < node.below; ++k, update += columns_) {
       const std::int64_t to = node.rows_below[k];
       const std::int64_t above = is_above ? -1 : solver_.place_above_[static_cast<std::size_t>(to)];
-      add_row(above < 0 ? row(to) : sums + above * columns_, update, columns_, -1);
+      add_row(above < 0 ? row(to) : sums + above * columns_, update, columns_);
     }
   }
   void backwards(const Supernode& node, int part) {
@@ -182,26 +205,28 @@ class SupernodalSolver::Sweep {
       gather_below(node, part);
       node.subtract_transposed({0, node.width}, room(part), own, columns_);
     }
-    node.solve_triangle(CblasNoTrans, own, columns_, columns_);
+    node.solve_backwards(own, columns_, columns_);
   }
 
   // All threads at one supernode: each with some columns of the vectors, then with some rows of the supernode.
-  void solve_triangle_together(const Supernode& node, CBLAS_TRANSPOSE order) {
+  void solve_triangle_together(const Supernode& node, bool forwards) {
     each_part([&](int part) {
-      const Range columns = share_of(columns_, part, parts_);
-      if (columns.count > 0)
-        node.solve_triangle(order, row(node.first) + columns.first, blas_integer(columns.count), columns_);
+      const Range quads = share_of(columns_ / vectors_abreast, part, parts_);
+      double* const own = row(node.first) + quads.first * vectors_abreast;
+      const int columns = blas_integer(quads.count) * vectors_abreast;
+      if (columns == 0) return;
+      forwards ? node.solve_forwards(own, columns, columns_) : node.solve_backwards(own, columns, columns_);
     });
   }
   void forwards_together(const Supernode& node) {
-    solve_triangle_together(node, CblasTrans);
+    solve_triangle_together(node, true);
     each_part([&](int part) {
       const Range rows = share_of(node.below, part, parts_);
       if (rows.count == 0) return;
       double* update = room(part);
       node.multiply(rows, row(node.first), update, columns_);
       for (std::int64_t k = rows.first; k < rows.first + rows.count; ++k, update += columns_)
-        add_row(row(node.rows_below[k]), update, columns_, -1);
+        add_row(row(node.rows_below[k]), update, columns_);
     });
   }
   void backwards_together(const Supernode& node) {
@@ -211,7 +236,7 @@ class SupernodalSolver::Sweep {
       gather_below(node, part);
       node.subtract_transposed(columns, room(part), row(node.first), columns_);
     });
-    solve_triangle_together(node, CblasNoTrans);
+    solve_triangle_together(node, false);
   }
 
   void gather_below(const Supernode& node, int part) {
@@ -221,7 +246,7 @@ class SupernodalSolver::Sweep {
 
   const SupernodalSolver& solver_;
   const SupernodalFactor& factor_;
-  int parts_, columns_;
+  int parts_, columns_, given_;  // columns are made a multiple of `vectors_abreast` by zeros
   Eigen::Index first_;
   const Eigen::MatrixXd& b_;
   Eigen::MatrixXd& x_;

@@ -288,40 +288,8 @@ std::int64_t SymmetricFactor::size() const { return implementation_->statistics.
 const FactorStatistics& SymmetricFactor::statistics() const { return implementation_->statistics; }
 
 Eigen::MatrixXd SymmetricFactor::solve(const Eigen::MatrixXd& b) const {
-  const Eigen::Index columns = b.cols();
-  Eigen::MatrixXd x(b.rows(), columns);
-  if (columns == 0 || b.rows() == 0) {
-    return x;
-  }
-  const BlasThreads blas(1);
-  constexpr Eigen::Index few = 4;  // columns
-  if (columns >= few) return implementation_->solver->solve(b);
-  const int threads = static_cast<int>(std::min<Eigen::Index>(implementation_->threads, columns));
-  bool failed = false;
-#pragma omp parallel num_threads(threads) reduction(|| : failed)
-  {
-    const Eigen::Index count = omp_get_num_threads(), thread = omp_get_thread_num();
-    const Eigen::Index first = columns * thread / count, width = columns * (thread + 1) / count - first;
-    Common common;  // a workspace of this thread's own; the factor itself is only read
-    cholmod_dense rhs{};
-    rhs.nrow = rhs.d = b.rows();
-    rhs.ncol = width;
-    rhs.nzmax = rhs.nrow * width;
-    rhs.x = const_cast<double*>(b.data() + first * b.rows());
-    rhs.xtype = CHOLMOD_REAL;
-    rhs.dtype = CHOLMOD_DOUBLE;
-    cholmod_dense* solution = cholmod_l_solve(CHOLMOD_A, implementation_->factor, &rhs, common);
-    failed = solution == nullptr;
-    if (solution) {
-      x.middleCols(first, width) =
-          Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(solution->x), b.rows(), width);
-      cholmod_l_free_dense(&solution, common);
-    }
-  }
-  if (failed) {
-    throw ComputationError("not enough memory for the solution with the factorised stiffness matrix");
-  }
-  return x;
+  if (b.size() == 0) return b;
+  return implementation_->solver->solve(b);
 }
 
 PivotSigns SymmetricFactor::count_signs(SymmetricMatrix a, const std::vector<double>& scale) const {

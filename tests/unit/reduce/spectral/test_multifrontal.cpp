@@ -1,10 +1,13 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <vector>
 
 #include <catch2/catch.hpp>
 
 #include "reduce/spectral/symmetric_factor.hpp"
+#include "tests/unit/reduce/spectral/dense_pencil.hpp"
 #include "tests/unit/reduce/spectral/laplacian.hpp"
 
 using namespace bielle;
@@ -104,6 +107,20 @@ TEST_CASE("multifrontal: pivots that vanish show as growth", "[spectral]") {
   const std::vector<double> scale(300, 2.0);
   CHECK(factor.count_signs(shifted(chain, 2), scale).growth > 1e12);  // a zero diagonal
   CHECK(factor.count_signs(shifted(chain, 0.3), scale).growth < 1e6);
+}
+
+TEST_CASE("multifrontal: both of a pair of modes are counted, of two tuning forks on one base", "[spectral]") {
+  // Two equal chains that hang together by a spring of 1e-9, masses 1/2: a search may take a pair for one mode.
+  VectorXd springs = VectorXd::Ones(401);
+  springs(200) = 1e-9;
+  const SymmetricMatrix chain = sparse_lower(test::chain_of_springs(springs));
+  const SymmetricFactor factor(chain);
+  for (int pair = 1; pair < 12; ++pair) {
+    // One chain of 200 masses, held at one end: 4 sin^2((2 k - 1) pi / (2 (2 n + 1))).
+    const auto alone = [](int k) { return 4 * std::pow(std::sin((2 * k - 1) * std::numbers::pi / (2 * 401)), 2); };
+    const double shift = (alone(pair) + alone(pair + 1)) / 2;
+    CHECK(factor.count_signs(shifted(chain, shift), std::vector<double>(400, 2.0)).negative == 2 * pair);
+  }
 }
 
 TEST_CASE("multifrontal: conditions at the border add a negative pivot each and take eigenvalues away", "[spectral]") {
