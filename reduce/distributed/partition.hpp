@@ -1,5 +1,6 @@
 // Cells shared out among ranks: the body's cells are halved, by their centroids, along its longest direction, the
-// halves likewise (recursive coordinate bisection).
+// halves likewise (recursive coordinate bisection). Rank 0, on whose machine bielle-reduce keeps the fields,
+// gets fewer.
 #pragma once
 
 #include <vector>
@@ -15,7 +16,7 @@ struct SolidPart {
   MeshShare share;
 };
 
-/// Cells of each part; as many in each as in any other, or one more.
+/// Cells of each part: the first gets a third of what each of the others does, which get the same up to a few.
 /// @param parts  >= 1; there may be more than cells
 std::vector<std::vector<int>> divided_cells(const Solid& solid, int parts);
 

@@ -78,7 +78,9 @@ if(BIELLE_MPI AND NOT CMAKE_FIND_PACKAGE_NAME)
     set(BIELLE_MPI_FOUND TRUE)
     # Where headers are is enough: flags of those who packed PETSc would not fit our precompiled headers.
     set_target_properties(PkgConfig::slepc PkgConfig::mpi PROPERTIES INTERFACE_COMPILE_OPTIONS "")
-  elseif(BIELLE_MPI STREQUAL AUTO)
+  elseif(NOT BIELLE_MPI STREQUAL AUTO)
+    set(BIELLE_INSTALL_OPTION " --with-mpi")
+  else()
     set(BIELLE_MISSING "${needed}")
     message(STATUS "bielle-reduce-mpi is left out: `tools/install --with-mpi` installs what it needs")
   endif()
@@ -91,6 +93,6 @@ if(BIELLE_MISSING)
   list(JOIN BIELLE_MISSING "\n" BIELLE_MISSING_TEXT)
   if(NOT CMAKE_FIND_PACKAGE_NAME)  # otherwise the installed package looks for what it links, and tells it itself
     message(FATAL_ERROR "Bielle needs these libraries, which were not found:\n${BIELLE_MISSING_TEXT}\n"
-                        "`tools/install` installs all of them.")
+                        "`tools/install${BIELLE_INSTALL_OPTION}` installs all of them.")
   endif()
 endif()
