@@ -163,7 +163,8 @@ TEST_CASE("a roller turns on its pin, and is dragged by what rubs there") {
     const double spin = (reach * (n_rate - speed) + speed * r) / r;
     CHECK(V * y1 * speed + mu * pin * force * std::abs(spin) == Approx(torque * speed).epsilon(1e-9));
     const std::vector<double> rate = session.read("joints/contact/rate");
-    CHECK(rate[0] / r - rate[1] == Approx(spin).epsilon(1e-5));
+    // Along a spline through the points of the file.
+    CHECK(rate[0] / r - rate[1] == Approx(spin).epsilon(3e-5));
   });
 }
 
