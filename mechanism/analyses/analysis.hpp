@@ -41,7 +41,7 @@ class Analysis {
   virtual bool can_go_on() const { return false; }  ///< whether sinks get points to go on from
   /// What it keeps as drawn while it brings parts together, for `--check`.
   virtual AssemblyOptions kept() const { return {}; }
-  virtual double duration() const { return 0; }     ///< by which time goes on [s]
+  virtual double duration() const { return 0; }  ///< by which time goes on [s]
   /// How many rows will be recorded; 0: unknown, or none.
   virtual std::size_t expected_rows(const Recording& /*recording*/) const { return 0; }
 

@@ -19,7 +19,7 @@ struct CampbellOptions {
   /// A parameter of the model, which is made anew with each value; empty: the values are rates of a rotation of the
   /// present state [rad/s].
   std::string parameter;
-  ModelMaker maker;  ///< of these models
+  ModelMaker maker;                   ///< of these models
   bool rotation = false;              ///< everything free is brought into steady rotation; always without a parameter
   Vector3 axis = Vector3::Zero();     ///< unit vector; zero: that of the fastest node at the last value
   Vector3 through = Vector3::Zero();  ///< a point of the axis [m]
