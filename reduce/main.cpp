@@ -7,6 +7,7 @@
 #include <optional>
 
 #include <CLI/CLI.hpp>
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <malloc.h>
 #include <sys/prctl.h>
@@ -56,8 +57,9 @@ class Workplace {
   /// @param ranks_at  number of the open socket to them; negative: there are none
   explicit Workplace(int ranks_at) {
     if (ranks_at < 0) return;
-    prctl(PR_SET_PDEATHSIG, SIGKILL);    // without the ranks nothing is left to do
-    mallopt(M_MMAP_THRESHOLD, 1 << 20);  // what is large goes back to the machine when it is done with
+    prctl(PR_SET_PDEATHSIG, SIGKILL);      // without the ranks nothing is left to do
+    fcntl(ranks_at, F_SETFD, FD_CLOEXEC);  // no child of ours keeps the ranks waiting
+    mallopt(M_MMAP_THRESHOLD, 1 << 20);    // what is large goes back to the machine when it is done with
     ranks_ = std::make_unique<Channel>(ranks_at, "the ranks");
     greeting_ = ranks_->receive_number<Greeting>();
   }
