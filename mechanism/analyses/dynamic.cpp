@@ -137,9 +137,8 @@ std::string judge_gap(const Gap& gap) {
         "`tolerance`\n";
   if (gap.scheme < -doubtful)
     text += fmt::format(
-        "  DOUBTFUL: the scheme's own dissipation took {:.2g} % of the largest energy: the steps are too long for what "
-        "moves, "
-        "unless that is not meant to go on; take smaller ones, or a scheme that dissipates less (`rho` closer to 1)\n",
+        "  DOUBTFUL: the scheme's own dissipation took {:.0f} % of the largest energy: unless what it damps does not matter, "
+        "take smaller steps, or a scheme that dissipates less (`rho` closer to 1)\n",
         -100 * gap.scheme);
   return text;
 }

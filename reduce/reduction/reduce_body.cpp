@@ -15,6 +15,7 @@
 #include "reduce/reduction/free_body.hpp"
 #include "reduce/reduction/load_patterns.hpp"
 #include "reduce/reduction/missed_modes.hpp"
+#include "reduce/reduction/mode_turns.hpp"
 #include "reduce/reduction/point_ties.hpp"
 #include "reduce/reduction/recovery.hpp"
 #include "reduce/reduction/reduced_matrices.hpp"
@@ -224,6 +225,7 @@ Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Prog
   progress.start("loads and recovery");
   body.loads = reduce_loads(solid, options.loads, basis.shapes);
   body.points = named_points(points, basis.shapes);
+  body.mode_turns = mode_turns(solid, basis.shapes.rightCols(basis.modes()), options.name);
   add_recovery(solid, options, basis.shapes, threads, body);
 
   if (options.judged) {

@@ -88,6 +88,9 @@ struct Superelement {
   std::vector<Eigen::MatrixXd> surface_rotations;
 
   Eigen::MatrixXd effective_mass;  ///< (m,6) of the modes: x y z [kg], rx ry rz about the centre [kg m^2]
+  /// Rotations of places spread over the body in each mode, body axes (3 q,m): by them a mechanism judges how far the body
+  /// bends in its modes; may be empty.
+  Eigen::MatrixXd mode_turns;
   double total_mass = 0;           ///< integrated on the mesh [kg]
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();   ///< of mass [m]
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the centre, body axes [kg m^2]

@@ -93,6 +93,7 @@ void check_reduced(const Superelement& body) {
   require(body.residual_vectors >= 0 && body.residual_vectors <= m, "/modes",
           fmt::format("of {}, {} cannot be residual vectors", counted(m, "mode"), body.residual_vectors));
   check_matrix(body.effective_mass, m, 6, "/modes/effective_mass");
+  if (body.mode_turns.size() > 0) check_matrix(body.mode_turns, body.mode_turns.rows() / 3 * 3, m, "/modes/turns");
   for (const auto& [name, pattern] : body.loads)
     for (const Eigen::Matrix3Xd& force : pattern.force) check_matrix(force, 3, n, "/loads/" + name);
   for (const auto& [name, point] : body.points) {

@@ -160,6 +160,8 @@ void write_all(Hdf5File& file, const Superelement& body) {
     file.write_attribute("/modes", "residual_vectors", std::int64_t{body.residual_vectors});
   file.write("/modes/effective_mass", body.effective_mass, "kg, kg m^2",
              "x y z [kg], rx ry rz about the centre of mass [kg m^2]");
+  if (body.mode_turns.size() > 0)
+    file.write("/modes/turns", body.mode_turns, "rad/u_j", "rotation x y z of places spread over the body, body axes");
   file.write("/mass_properties/mass", body.total_mass, "kg");
   file.write("/mass_properties/centre", Eigen::VectorXd(body.centre), "m");
   file.write("/mass_properties/inertia", Eigen::MatrixXd(body.inertia), "kg m^2", "about the centre, body axes");
@@ -355,6 +357,7 @@ Superelement read_superelement(const Hdf5File& file) {
   if (file.has_attribute("/modes", "residual_vectors"))
     body.residual_vectors = file.read_integer_attribute("/modes", "residual_vectors");
   body.effective_mass = file.read_matrix("/modes/effective_mass");
+  if (file.has("/modes/turns")) body.mode_turns = file.read_matrix("/modes/turns");
   read_interfaces(file, reader, body);
   read_reduced(file, reader, body);
   read_mass_properties(file, reader, body);

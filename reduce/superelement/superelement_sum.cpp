@@ -78,6 +78,7 @@ std::int64_t sum_of(const Superelement& body) {
     add(sum, point.shapes);
     for (const bool exact : point.residual) sum.add(exact ? 1.0 : 0.0);
   }
+  if (body.mode_turns.size() > 0) add(sum, body.mode_turns);
   if (body.residual_vectors > 0) sum.add(static_cast<double>(body.residual_vectors));
   if (body.adequacy) add_adequacy(sum, *body.adequacy);
   return sum.value();

@@ -241,6 +241,10 @@ BeamSuperelement BeamChain::reduced() const {
       body.centre.x(), 0;
   body.inertia = symmetric(rigid.bottomRightCorner<3, 3>()) + body.total_mass * lever * lever;
   body.effective_mass = MatrixXd::Zero(modes, 6);
+  const auto chain_nodes = static_cast<Eigen::Index>(nodes.size());
+  body.mode_turns.resize(3 * chain_nodes, modes);
+  for (Eigen::Index k = 0; k < chain_nodes; ++k)
+    body.mode_turns.middleRows<3>(3 * k) = T.middleRows<3>(6 * k + 3).rightCols(modes);
   return result;
 }
 

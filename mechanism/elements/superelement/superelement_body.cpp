@@ -110,6 +110,7 @@ SuperelementBody::SuperelementBody(std::string name, const Superelement& superel
   for (const Interface& interface : superelement.interfaces) interfaces_.push_back(interface.name);
   frequencies_ = superelement.frequencies.head(superelement.fixed_boundary_modes());
   residual_vectors_ = superelement.residual_vectors;
+  mode_turns_ = superelement.mode_turns;
   for (std::size_t k = 0; k < placement.node_names.size(); ++k)
     attributes_.emplace_back("interface " + superelement.interfaces[k].name, placement.node_names[k]);
 }
@@ -285,7 +286,7 @@ void SuperelementBody::gather_peaks(const std::vector<std::string>& quantities) 
 
 std::unique_ptr<Gatherer> SuperelementBody::make_gatherer() const {
   std::vector<std::unique_ptr<Gatherer>> all;
-  all.push_back(std::make_unique<Validity>(name(), frame_.points(), largest_error_));
+  all.push_back(std::make_unique<Validity>(name(), frame_.points(), matrices_->gyration, mode_turns_, largest_error_));
   if (!peaks_.empty())
     all.push_back(
         std::make_unique<StressPeaks>(name(), recovered_.stress(), peaks_, [this](const LocalState& state, double* q) {

@@ -138,6 +138,7 @@ class SuperelementBody : public Component {
   std::vector<std::string> interfaces_;  ///< names, in the order of the nodes
   VectorX frequencies_;                  ///< of the fixed-boundary modes [Hz]
   Eigen::Index residual_vectors_ = 0;    ///< so many modes more
+  MatrixX mode_turns_;                   ///< Superelement::mode_turns
   RecoveredOutputs recovered_;
   std::vector<std::string> peaks_;  ///< that are wanted
   std::unique_ptr<Workspaces> workspaces_;

@@ -5,74 +5,158 @@
 
 #include <fmt/format.h>
 
-#include "mechanism/math/so3.hpp"
 #include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
 namespace {
 
-constexpr double error_per_square = 0.006;  // relative error of displacements over theta^2
+// Of displacements over theta^2, bent by interfaces; where the turn is told by lines alone, since rotations do not act.
+constexpr double error_per_square = 0.006, error_of_lines = 0.05;
+constexpr double error_of_free_end = 0.4, error_between = 0.03;  // over theta, bent in the modes
 constexpr double worth_a_line = 1e-3, worth_a_warning = 5e-3;
+constexpr double turn_over_chord = 1.5;  // of a bar under a force at its end: theta L / deflection
+constexpr std::size_t most_chords = 12;  // points among which chords are compared
 
-}  // namespace
+bool turns(const BodyPoint& point) { return point.rotation.kind() == InterfaceRotation::Kind::vector; }
 
-double largest_turn(const std::vector<BodyPoint>& points, const LocalState& state) {
+double angle_between(const Vector3& a, const Vector3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
+
+/// The angle of a rotation without its axis.
+double angle_of(const Matrix3& R) { return std::acos(std::clamp((R.trace() - 1) / 2, -1.0, 1.0)); }
+
+/// Body axes -> inertial ones, as the interface has them.
+Matrix3 axes_of(const BodyPoint& point, const LocalState& state, std::size_t k) {
+  return state.node(static_cast<int>(k)).R * point.R_ref.transpose();
+}
+
+/// Turn of the line from an interface to one whose rotations do not all act, as the first one sees it.
+double turn_of_chord(const std::vector<BodyPoint>& points, const LocalState& state, std::size_t from, std::size_t to) {
+  const Vector3 drawn = points[to].X - points[from].X;
+  const Vector3 now = state.node(static_cast<int>(to)).x - state.node(static_cast<int>(from)).x;
+  return angle_between(drawn, axes_of(points[from], state, from).transpose() * now);
+}
+
+/// How much more or less the lines to two interfaces enclose than they did.
+double turn_of_chords(const std::vector<BodyPoint>& points, const LocalState& state, std::size_t at, std::size_t a,
+                      std::size_t b) {
+  const auto now = [&](std::size_t k) -> Vector3 {
+    return state.node(static_cast<int>(k)).x - state.node(static_cast<int>(at)).x;
+  };
+  return std::abs(angle_between(now(a), now(b)) -
+                  angle_between(points[a].X - points[at].X, points[b].X - points[at].X));
+}
+
+/// Where no interface has a rotation that another one could be compared with.
+double largest_turn_of_chords(const std::vector<BodyPoint>& points, const LocalState& state) {
+  const std::size_t count = std::min(points.size(), most_chords);
   double largest = 0;
-  for (std::size_t k = 1; k < points.size(); ++k) {
-    if (points[k].rotation.kind() != InterfaceRotation::Kind::vector) continue;
-    const Matrix3 R = state.node(static_cast<int>(k)).R * points[k].R_ref.transpose();
-    for (std::size_t i = 0; i < k; ++i) {
-      if (points[i].rotation.kind() != InterfaceRotation::Kind::vector) continue;
-      const Matrix3 relative = points[i].R_ref * state.node(static_cast<int>(i)).R.transpose() * R;
-      // The angle of a rotation without its axis.
-      largest = std::max(largest, std::acos(std::clamp((relative.trace() - 1) / 2, -1.0, 1.0)));
-    }
-  }
+  for (std::size_t at = 0; at < count; ++at)
+    for (std::size_t a = 0; a < count; ++a)
+      for (std::size_t b = 0; b < a; ++b)
+        if (a != at && b != at && points[at].keeps_position && points[a].keeps_position && points[b].keeps_position)
+          largest = std::max(largest, turn_of_chords(points, state, at, a, b));
   return largest;
 }
 
-double Validity::error() const { return error_per_square * turn_ * turn_; }
+/// Whether the interfaces are at one end of the body, or in its middle: the largest distance between two is less than
+/// half of a bar's length, which is the root of 12 times its radius of gyration.
+bool leave_an_end_free(const std::vector<BodyPoint>& points, double gyration) {
+  double largest = 0;
+  for (const BodyPoint& a : points)
+    for (const BodyPoint& b : points) largest = std::max(largest, (a.X - b.X).norm());
+  return largest < 0.5 * std::sqrt(12.0) * gyration;
+}
+
+}  // namespace
+
+BodyTurn largest_turn(const std::vector<BodyPoint>& points, const LocalState& state) {
+  BodyTurn turn;
+  bool any = false;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!turns(points[i])) continue;
+    any = true;
+    const Matrix3 R = axes_of(points[i], state, i);
+    for (std::size_t k = 0; k < points.size(); ++k)
+      if (k < i && turns(points[k]))
+        turn.of_interfaces = std::max(turn.of_interfaces, angle_of(R.transpose() * axes_of(points[k], state, k)));
+      else if (!turns(points[k]) && points[i].keeps_position && points[k].keeps_position)
+        turn.of_lines = std::max(turn.of_lines, turn_over_chord * turn_of_chord(points, state, i, k));
+  }
+  if (!any) turn.of_lines = turn_over_chord * largest_turn_of_chords(points, state);
+  return turn;
+}
+
+double largest_turn_of_modes(const MatrixX& mode_turns, const LocalState& state) {
+  if (mode_turns.size() == 0) return 0;
+  thread_local VectorX turn;
+  turn.noalias() = mode_turns * state.amplitude();
+  double largest = 0;
+  for (Eigen::Index k = 0; k + 2 < turn.size(); k += 3)
+    for (Eigen::Index i = 0; i < k; i += 3)
+      largest = std::max(largest, (turn.segment<3>(k) - turn.segment<3>(i)).squaredNorm());
+  return std::sqrt(largest);
+}
+
+Validity::Validity(std::string body, const std::vector<BodyPoint>& points, double gyration, const MatrixX& mode_turns,
+                   std::optional<double> most)
+    : body_(std::move(body)),
+      points_(points),
+      mode_turns_(mode_turns),
+      error_per_mode_turn_(leave_an_end_free(points, gyration) ? error_of_free_end : error_between),
+      most_(most) {}
 
 std::string Validity::when() const {
   return statics_ ? fmt::format("load factor {:.6g}", time_) : fmt::format("t = {:.6g} s", time_);
 }
 
+std::string Validity::bends() const {
+  return fmt::format("bends by {:.2g} rad {}", turn_, in_modes_ ? "in its modes" : "between its interfaces");
+}
+
 void Validity::begin() {
-  turn_ = time_ = 0;
-  statics_ = false;
+  error_ = turn_ = time_ = 0;
+  in_modes_ = statics_ = false;
 }
 
 void Validity::add(const LocalState& state) {
-  const double turn = largest_turn(points_, state);
-  if (!(turn > turn_)) return;
-  turn_ = turn;
+  const BodyTurn turn = largest_turn(points_, state);
+  const double of_modes = largest_turn_of_modes(mode_turns_, state);
+  const double by_interfaces = error_per_square * turn.of_interfaces * turn.of_interfaces,
+               by_lines = error_of_lines * turn.of_lines * turn.of_lines, by_modes = error_per_mode_turn_ * of_modes;
+  const double error = std::max({by_interfaces, by_lines, by_modes});
+  if (!(error > error_)) return;
+  error_ = error;
+  in_modes_ = by_modes == error;
+  turn_ = in_modes_ ? of_modes : by_lines == error ? turn.of_lines : turn.of_interfaces;
   statics_ = state.environment().statics;
   time_ = statics_ ? state.environment().load_factor : state.time();
-  if (most_ && error() > *most_)
+  if (most_ && error_ > *most_)
     throw ComputationError(
-        fmt::format("{}: superelement '{}' bends by {:.3g} rad between its interfaces; its deformation is wrong by about "
-                    "{:.2g}, more than its `largest_error`, {:.2g}: cut it into pieces",
-                    when(), body_, turn_, error(), *most_));
+        fmt::format("{}: superelement '{}' {}; its deformation is wrong by about {:.2g}, more than its "
+                    "`largest_error`, {:.2g}: cut it "
+                    "into pieces",
+                    when(), body_, bends(), error_, *most_));
 }
 
 void Validity::exchange(Archive& archive) {
-  for (double* value : {&turn_, &time_}) archive(*value);
+  for (double* value : {&error_, &turn_, &time_}) archive(*value);
+  archive(in_modes_);
   archive(statics_);
 }
 
 std::vector<ResultArray> Validity::results() {
   const std::string group = fmt::format("validity/{}/", body_);
-  return {{group + "error", {}, {error()}, "-", "largest estimate of the relative error of the body's deformation"},
-          {group + "turn", {}, {turn_}, "rad", "of an interface relative to another there"},
+  return {{group + "error", {}, {error_}, "-", "largest estimate of the relative error of the body's deformation"},
+          {group + "turn", {}, {turn_}, "rad", "of an interface, or a place in the modes, relative to another there"},
           {group + "time", {}, {time_}, statics_ ? "-" : "s", statics_ ? "load factor" : "when it was reached"}};
 }
 
 std::string Validity::summary() {
-  if (error() < worth_a_line) return {};
-  const bool warns = error() > worth_a_warning;
-  return fmt::format("  {}superelement '{}' bends by {:.2g} rad between its interfaces at {}: its deformation is wrong by about "
-                     "{:.1g} %{}\n",
-                     warns ? "DOUBTFUL: " : "", body_, turn_, when(), 100 * error(), warns ? "; cut it into pieces" : "");
+  if (error_ < worth_a_line) return {};
+  const bool warns = error_ > worth_a_warning;
+  return fmt::format("  {}superelement '{}' {} at {}: its deformation is wrong by about {:.1g} %{}\n",
+                     warns ? "DOUBTFUL: " : "", body_, bends(), when(), 100 * error_,
+                     warns ? "; cut it into pieces" : "");
 }
 
 }  // namespace bielle::mechanism

@@ -1,10 +1,19 @@
 // How far a superelement can be trusted where it is: an estimate of the error that its linear elasticity leaves.
 //
-// The element is exact to the third order of the deformation, so that the relative error of displacements grows with the
-// square of the angle theta by which interfaces are turned relative to each other. For bars, straight and curved by up to
-// 46 degrees, bent by forces until they are off by 5 to 45 % of their length, it is 0.002 to 0.0075 theta^2, and less under
-// moments and twist (tests/benchmarks/superelement/test_validity.cpp). The estimate is 0.006 theta^2. It knows nothing of
-// bodies whose interfaces carry forces alone, nor of the membrane forces of plates.
+// Bent by its interfaces the element is exact to the third order of the deformation, so that the relative error of
+// displacements grows with the square of the angle theta by which interfaces are turned relative to each other. For
+// bars, straight and curved by up to 46 degrees, bent by forces until they are off by 5 to 45 % of their length, it is
+// 0.002 to 0.0075 theta^2, and less under moments and twist (tests/benchmarks/superelement/test_validity.cpp). The
+// estimate is 0.006 theta^2. The turn of an interface whose rotations do not all act is that of the line to it, half as
+// much again: what it is for a bar under a force there. Such a bar is off by
+// 0.05 theta^2.
+//
+// Bent in its modes (by its own inertia, load patterns, loads at points inside) the body does not become shorter where
+// it bends, as it should by the square of the deformation: the error is of the first order in the angle theta by which
+// places of the body are turned relative to each other. For a bar that is held at one end it is 0.4 theta (shortening
+// of the free end under a force there: 4/15 theta^2 L, deflection 2/3 theta L; under its weight 0.43 theta). Between
+// interfaces, whose distance does become smaller, 0.03 theta is left (bar with clamped ends that approach each other,
+// places at the quarters).
 #pragma once
 
 #include <optional>
@@ -15,17 +24,26 @@
 
 namespace bielle::mechanism {
 
-/// Angle of an interface relative to another, the largest among those whose rotations act [rad]; 0 where there are no two.
-double largest_turn(const std::vector<BodyPoint>& points, const LocalState& state);
+/// Angles of interfaces relative to each other, the largest of all [rad].
+struct BodyTurn {
+  double of_interfaces = 0;  ///< whose rotations act
+  double of_lines = 0;       ///< to and between those whose rotations do not all act, as of a bar under a force there
+};
+BodyTurn largest_turn(const std::vector<BodyPoint>& points, const LocalState& state);
+/// The largest angle of a place relative to another in the modes, at the state's amplitudes [rad].
+/// @param mode_turns  (3 q, amplitudes), see Superelement
+double largest_turn_of_modes(const MatrixX& mode_turns, const LocalState& state);
 
 /// The largest estimate over all steps of an analysis, and when it was reached.
 class Validity final : public Gatherer {
  public:
-  /// @param body    name of the element
-  /// @param points  its interfaces, node k of the state being point k
-  /// @param most    relative error beyond which a run fails; or none
-  Validity(std::string body, const std::vector<BodyPoint>& points, std::optional<double> most)
-      : body_(std::move(body)), points_(points), most_(most) {}
+  /// @param body        name of the element
+  /// @param points      its interfaces, node k of the state being point k
+  /// @param gyration    radius of gyration of the body [m]
+  /// @param mode_turns  as above; may be empty
+  /// @param most        relative error beyond which a run fails; or none
+  Validity(std::string body, const std::vector<BodyPoint>& points, double gyration, const MatrixX& mode_turns,
+           std::optional<double> most);
 
   void begin() override;
   /// @throws ComputationError where the estimate is beyond `most`
@@ -36,14 +54,17 @@ class Validity final : public Gatherer {
   std::string what() const override { return "validity of '" + body_ + "'"; }
 
  private:
-  double error() const;        ///< relative
-  std::string when() const;    ///< "t = 0.1 s"
+  std::string when() const;   ///< "t = 0.1 s"
+  std::string bends() const;  ///< "bends by 0.2 rad between its interfaces"
 
   std::string body_;
   const std::vector<BodyPoint>& points_;
+  const MatrixX& mode_turns_;
+  double error_per_mode_turn_;
   std::optional<double> most_;
-  double turn_ = 0, time_ = 0;
-  bool statics_ = false;  ///< the time is a load factor
+  double error_ = 0, turn_ = 0, time_ = 0;
+  bool in_modes_ = false;  ///< the turn is that of places in the modes
+  bool statics_ = false;   ///< the time is a load factor
 };
 
 }  // namespace bielle::mechanism
