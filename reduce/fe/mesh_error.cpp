@@ -1,7 +1,6 @@
 #include "reduce/fe/mesh_error.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <Eigen/LU>
@@ -9,6 +8,7 @@
 #include "reduce/common/dense_solves.hpp"
 #include "reduce/fe/cell_geometry.hpp"
 #include "reduce/fe/elasticity.hpp"
+#include "reduce/spectral/blas.hpp"
 
 namespace bielle::reduce {
 
@@ -19,7 +19,6 @@ constexpr int at_a_time = 6;  // so many fields: stress at all sampling points i
 using SixRows = Eigen::Matrix<double, 6, at_a_time, Eigen::RowMajor>;  // a component of all fields in each row
 using Fields = Eigen::Matrix<double, Eigen::Dynamic, at_a_time, Eigen::RowMajor>;
 using Samples = Eigen::Matrix<double, Eigen::Dynamic, 6 * at_a_time, Eigen::RowMajor>;
-using Sample = Eigen::Matrix<double, 1, 6 * at_a_time>;
 
 /// What depends on the type of cell: points at which stress is most accurate, and the polynomial fitted to them.
 template <int N>
@@ -157,16 +156,20 @@ class Estimate {
           places.col(static_cast<Eigen::Index>(c) * points + p) = x * sampling_.values[p] - centre;
       }
       const double scale = places.colwise().norm().maxCoeff();
+      Eigen::Matrix<double, terms, Eigen::Dynamic> polynomials(terms, places.cols());
+      Samples values(places.cols(), 6 * at_a_time);
+      for (std::size_t c = 0; c < patch.size(); ++c) {
+        const auto first = static_cast<Eigen::Index>(c) * points;
+        for (Eigen::Index p = first; p < first + points; ++p)
+          polynomials.col(p) = Fit<N>::polynomials(places.col(p) / scale);
+        values.middleRows(first, points) = samples.middleRows(patch[c] * points, points);
+      }
       typename Fit<N>::Normal normal = Fit<N>::Normal::Zero();
-      using Right = Eigen::Matrix<double, terms, 6 * at_a_time, Eigen::RowMajor>;
-      Right right = Right::Zero();
-      for (std::size_t c = 0; c < patch.size(); ++c)
-        for (Eigen::Index p = 0; p < points; ++p) {
-          const typename Fit<N>::Terms terms_here =
-              Fit<N>::polynomials(places.col(static_cast<Eigen::Index>(c) * points + p) / scale);
-          normal.noalias() += terms_here * terms_here.transpose();
-          right.noalias() += terms_here * samples.row(patch[c] * points + p);
-        }
+      Eigen::Matrix<double, terms, 6 * at_a_time> right = Eigen::Matrix<double, terms, 6 * at_a_time>::Zero();
+      const DenseBlock of_terms{polynomials.data(), terms, places.cols(), terms, false};
+      add_dense_product(of_terms, {polynomials.data(), places.cols(), terms, terms, true}, normal.data(), terms);
+      add_dense_product(of_terms, {values.data(), places.cols(), 6 * at_a_time, 6 * at_a_time, true}, right.data(),
+                        terms);
       // Regular meshes and small bodies leave terms undetermined: the high ones are zero then, not the low ones.
       const double size = normal.trace();
       normal.diagonal().tail(terms - 1).array() += 1e-12 * size;
@@ -177,30 +180,42 @@ class Estimate {
     return result;
   }
 
+  /// The polynomials of the vertices of a cell, weighted by its linear functions, at the points of `rule_`: a row each.
+  Samples smooth_stress(Eigen::Index cell, const CellPoints<N>& x, const FittedStress& fitted,
+                        const Surroundings& around) const {
+    const auto points = static_cast<Eigen::Index>(rule_.size());
+    Eigen::Matrix<double, 4 * terms, Eigen::Dynamic> weighted(4 * terms, points);
+    Eigen::Matrix<double, 4 * terms, 6 * at_a_time, Eigen::RowMajor> coefficients;
+    for (int v = 0; v < 4; ++v) {
+      const Eigen::Index vertex = around.number[solid_.nodes(v, cell)];
+      coefficients.template middleRows<terms>(v * terms) =
+          fitted.coefficients.template middleRows<terms>(vertex * terms);
+      for (Eigen::Index p = 0; p < points; ++p) {
+        const Eigen::Vector3d local = rule_.points.col(p), place = x * rule_.values[static_cast<std::size_t>(p)];
+        const double share = v == 0 ? 1 - local.sum() : local(v - 1);
+        weighted.template block<terms, 1>(v * terms, p) =
+            share * Fit<N>::polynomials((place - x.col(v)) / fitted.scale[static_cast<std::size_t>(vertex)]);
+      }
+    }
+    Samples result = Samples::Zero(points, 6 * at_a_time);  // by rows: its transpose by columns
+    add_dense_product({coefficients.data(), 6 * at_a_time, 4 * terms, 6 * at_a_time, false},
+                      {weighted.data(), 4 * terms, points, 4 * terms, false}, result.data(), 6 * at_a_time);
+    return result;
+  }
+
   void compare(const Fields& fields, const FittedStress& fitted, int material, Fields& error, Fields& energy) const {
     const Eigen::Matrix<double, 6, 6> elasticity = solid_.materials[material].elasticity;
-    const Eigen::Matrix<double, 6, 6> compliance =
-        solve_symmetric(elasticity, Eigen::MatrixXd::Identity(6, 6));
-    const Surroundings& around = around_[material];
+    const Eigen::Matrix<double, 6, 6> compliance = solve_symmetric(elasticity, Eigen::MatrixXd::Identity(6, 6));
 #pragma omp parallel for num_threads(threads_) schedule(static)
     for (Eigen::Index e = 0; e < solid_.cells(); ++e) {
       if (solid_.material_of[e] != material) continue;
       const CellPoints<N> x = points_of(e);
       Eigen::Matrix<double, N, 3> gradients;
-      Sample smooth;
+      const Samples smooth = smooth_stress(e, x, fitted, around_[material]);
       for (std::size_t p = 0; p < rule_.size(); ++p) {
         const double volume = map_point<N>(rule_, p, x, gradients);
-        const Eigen::Vector3d local = rule_.points.col(p), place = x * rule_.values[p];
-        const std::array<double, 4> share{1 - local.sum(), local.x(), local.y(), local.z()};
-        smooth.setZero();
-        for (int v = 0; v < 4; ++v) {
-          const Eigen::Index vertex = around.number[solid_.nodes(v, e)];
-          const Eigen::Vector3d from = (place - x.col(v)) / fitted.scale[vertex];
-          smooth.noalias() +=
-              share[v] * Fit<N>::polynomials(from).transpose() * fitted.coefficients.middleRows<terms>(vertex * terms);
-        }
         const SixRows strain = strain_at<N>(fields, solid_.nodes, e, gradients), stress = elasticity * strain;
-        const SixRows difference = Eigen::Map<const SixRows>(smooth.data()) - stress;
+        const SixRows difference = Eigen::Map<const SixRows>(smooth.row(static_cast<Eigen::Index>(p)).data()) - stress;
         const SixRows other = compliance * difference;
         error.row(e) += volume * difference.cwiseProduct(other).colwise().sum();
         energy.row(e) += volume * strain.cwiseProduct(stress).colwise().sum();
@@ -216,6 +231,7 @@ class Estimate {
 
 template <int N>
 MeshError mesh_error(const Solid& solid, const RowMatrix& fields, int threads) {
+  const BlasThreads one(1);
   const Estimate<N> estimate(solid, threads);
   MeshError result{Eigen::VectorXd::Zero(fields.cols())};
   Eigen::VectorXd density = Eigen::VectorXd::Zero(solid.cells());

@@ -12,6 +12,7 @@
 #include "reduce/common/orthogonal_factors.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
 #include "reduce/spectral/dense_products.hpp"
+#include "reduce/spectral/tall_products.hpp"
 
 namespace bielle::reduce {
 
@@ -53,18 +54,24 @@ HeldBody::~HeldBody() = default;
 
 const FactorStatistics& HeldBody::statistics() const { return factor_ ? factor_->statistics() : no_statistics_; }
 
-HeldBody::HeldBody(const Solid& solid, const BodyMatrices& matrices, const Ties& ties)
-    : HeldBody(solid, ties, [&](const std::vector<std::int64_t>& kept, const SparseRows& carried) {
-        return matrices.factorise(kept, carried);
-      }) {}
+HeldBody::HeldBody(const Solid& solid, const BodyMatrices& matrices, const Ties& ties, int threads)
+    : HeldBody(
+          solid, ties,
+          [&](const std::vector<std::int64_t>& kept, const SparseRows& carried) {
+            return matrices.factorise(kept, carried);
+          },
+          threads) {}
 
 HeldBody::HeldBody(const Solid& solid, const SymmetricMatrix& stiffness, const Ties& ties, int threads)
-    : HeldBody(solid, ties, [&](const std::vector<std::int64_t>& kept, const SparseRows& carried) {
-        return factorise_inside(stiffness, kept, carried, threads);
-      }) {}
+    : HeldBody(
+          solid, ties,
+          [&](const std::vector<std::int64_t>& kept, const SparseRows& carried) {
+            return factorise_inside(stiffness, kept, carried, threads);
+          },
+          threads) {}
 
-HeldBody::HeldBody(const Solid& solid, const Ties& ties, const Factorisation& factorisation)
-    : points_(solid.mesh.points), carry_released_(ties.carry_released) {
+HeldBody::HeldBody(const Solid& solid, const Ties& ties, const Factorisation& factorisation, int threads)
+    : threads_(threads), points_(solid.mesh.points), carry_released_(ties.carry_released) {
   const std::vector<bool> inside = points_of_solid(solid);
   for (std::int64_t a = 0; a < solid.points(); ++a) {
     if (inside[a] && !ties.tied[a]) {
@@ -214,14 +221,18 @@ void HeldBody::factorise(const Factorisation& factorisation) {
 }
 
 Eigen::MatrixXd HeldBody::pseudo_solve(const Eigen::MatrixXd& f) const {
-  Eigen::MatrixXd z = Eigen::MatrixXd::Zero(size_, f.cols());
-  if (!factor_) {
-    return z;
+  if (!factor_) return Eigen::MatrixXd::Zero(size_, f.cols());
+  if (supports_.empty()) return factor_->solve(f);
+  Eigen::MatrixXd z(static_cast<Eigen::Index>(not_supports_.size()), f.cols());
+#pragma omp parallel for num_threads(threads_)
+  for (Eigen::Index c = 0; c < f.cols(); ++c) z.col(c) = f.col(c)(not_supports_);
+  const Eigen::MatrixXd inside = factor_->solve(z);
+  z.resize(size_, f.cols());
+#pragma omp parallel for num_threads(threads_)
+  for (Eigen::Index c = 0; c < f.cols(); ++c) {
+    z.col(c)(not_supports_) = inside.col(c);
+    z.col(c)(supports_).setZero();
   }
-  if (supports_.empty()) {
-    return factor_->solve(f);
-  }
-  z(not_supports_, Eigen::all) = factor_->solve(f(not_supports_, Eigen::all));
   return z;
 }
 
@@ -258,14 +269,14 @@ Eigen::MatrixXd HeldBody::solve(const Eigen::MatrixXd& f, const Eigen::MatrixXd&
     return z;
   }
   Eigen::MatrixXd right(a + r, f.cols());
-  right.topRows(a) = transposed_product(conditions_, z);
+  right.topRows(a) = tall_inner_products(conditions_, z, threads_);
   if (averages.size() > 0) {
     right.topRows(a) -= averages;
   }
-  right.bottomRows(r) = transposed_product(rigid_, f);
+  right.bottomRows(r) = tall_inner_products(rigid_, f, threads_);
   const Eigen::MatrixXd unknowns = product(small_, right);
-  add_product(z, flexibility_, unknowns.topRows(a), -1);
-  add_product(z, rigid_, unknowns.bottomRows(r));
+  add_tall_product(z, flexibility_, unknowns.topRows(a), -1, threads_);
+  add_tall_product(z, rigid_, unknowns.bottomRows(r), 1, threads_);
   return z;
 }
 

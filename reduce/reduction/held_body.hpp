@@ -23,10 +23,11 @@ namespace bielle::reduce {
 class HeldBody {
  public:
   /// @param solid  in one piece
+  /// @param threads  of its own products; solutions are the same for the same number
   /// @throws InputError when the body can still move with all kept directions held: how; ComputationError when a part
   /// of
   ///         the mesh hangs on by a point or an edge only: where
-  HeldBody(const Solid& solid, const BodyMatrices& matrices, const Ties& ties);
+  HeldBody(const Solid& solid, const BodyMatrices& matrices, const Ties& ties, int threads = 1);
   /// The same with a stiffness of all points that is here, unknowns x y z of point 0, 1, ...
   HeldBody(const Solid& solid, const SymmetricMatrix& stiffness, const Ties& ties, int threads);
   ~HeldBody();
@@ -60,11 +61,12 @@ class HeldBody {
   void choose_supports();
   using Factorisation =
       std::function<std::unique_ptr<InsideFactor>(const std::vector<std::int64_t>& kept, const SparseRows& carried)>;
-  HeldBody(const Solid& solid, const Ties& ties, const Factorisation& factorisation);
+  HeldBody(const Solid& solid, const Ties& ties, const Factorisation& factorisation, int threads);
   void factorise(const Factorisation& factorisation);
   void close_conditions(const Ties& ties);
   Eigen::MatrixXd pseudo_solve(const Eigen::MatrixXd& f) const;  // K+ f
 
+  int threads_ = 1;
   Eigen::Matrix3Xd points_;
   Eigen::Index size_ = 0;
   std::vector<std::int64_t> free_;  // unknowns x y z of the points that are neither tied nor outside, ascending

@@ -188,7 +188,7 @@ Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Prog
     in_section(options, "modes", [] { throw InputError("proof: modes are counted by bielle-reduce alone, not on ranks"); });
 
   progress.start("factorisation");
-  const HeldBody held(solid, matrices, ties);
+  const HeldBody held(solid, matrices, ties, threads);
   Basis basis = in_section(options, "modes", [&] {
     return make_basis(solid, matrices, ties, held, properties, {options.mode_count, options.modes_below}, progress,
                       threads);

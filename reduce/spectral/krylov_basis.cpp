@@ -47,12 +47,8 @@ Orthonormalisation orthonormalise(const MatrixXd& gram) {
 void KrylovBasis::Block::transform(const MatrixXd& by, int threads) {
   combine_columns(vectors, by, threads);
   combine_columns(mass_vectors, by, threads);
-}
-
-void KrylovBasis::Block::keep(const std::vector<Index>& columns) {
-  vectors = MatrixXd(vectors(Eigen::all, columns));
-  mass_vectors = MatrixXd(mass_vectors(Eigen::all, columns));
-  coupling = MatrixXd(coupling(columns, Eigen::all));
+  vectors.conservativeResize(Eigen::NoChange, by.cols());
+  mass_vectors.conservativeResize(Eigen::NoChange, by.cols());
 }
 
 KrylovBasis::KrylovBasis(const ShiftInvertProblem& problem, Index capacity, int threads,
@@ -82,19 +78,21 @@ void KrylovBasis::set_front(Block block, MatrixXd removed, double negligible) {
   for (int pass = 0; pass < most_passes && block.vectors.cols() > 0; ++pass) {
     const MatrixXd gram = tall_inner_products(block.vectors, block.mass_vectors, threads_);
     if (!(gram.diagonal().maxCoeff() > 0)) {
-      block.keep({});
+      block.transform(MatrixXd(block.vectors.cols(), 0), threads_);
+      block.coupling.resize(0, Eigen::NoChange);
       break;
     }
     const Orthonormalisation by = orthonormalise(gram);
     block.coupling = by.triangle * block.coupling;
-    block.transform(by.transform, threads_);
     std::vector<Index> kept;
     for (Index k = block.coupling.rows() - 1; k >= 0; --k)  // the longest first
       if (block.coupling.row(k).norm() > negligible) kept.push_back(k);
     kept.resize(std::min<std::size_t>(kept.size(), static_cast<std::size_t>(problem_.size - size_)));
-    block.keep(kept);
+    block.coupling = MatrixXd(block.coupling(kept, Eigen::all));
+    const MatrixXd transform = by.transform(Eigen::all, kept);
+    block.transform(transform, threads_);
     // Short directions were scaled up, and what rounding left of Q and of each other in them.
-    const MatrixXd scaled_up = removed * by.transform;
+    const MatrixXd scaled_up = removed * transform;
     if (by.condition < harmless && scaled_up.norm() < harmless) break;
     removed = remove_basis(block.vectors, block.mass_vectors);
   }

@@ -61,7 +61,6 @@ class KrylovBasis {
     Eigen::MatrixXd vectors, mass_vectors;  // Y, M Y
     Eigen::MatrixXd coupling;
     void transform(const Eigen::MatrixXd& by, int threads);
-    void keep(const std::vector<Eigen::Index>& columns);
   };
 
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b);

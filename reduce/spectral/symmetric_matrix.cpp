@@ -2,34 +2,54 @@
 
 #include <algorithm>
 
-#include <omp.h>
-
 namespace bielle {
 
+namespace {
+
+constexpr Eigen::Index most_abreast = 8;  // columns whose sums stay in registers
+
+/// y += A x for `width` columns, which a row of x and y consists of.
+template <int width>
+void add_product_of(const SymmetricMatrix& a, const double* x, double* y) {
+  using Row = Eigen::Array<double, width, 1>;
+  for (std::int64_t j = 0; j < a.size; ++j) {
+    const Row xj = Eigen::Map<const Row>(x + j * width);
+    Row sum = a.values[a.starts[j]] * xj;
+    for (std::int64_t p = a.starts[j] + 1; p < a.starts[j + 1]; ++p) {
+      const double entry = a.values[p];
+      const std::int64_t at = a.rows[p] * width;
+      Eigen::Map<Row>(y + at) += entry * xj;
+      sum += entry * Eigen::Map<const Row>(x + at);
+    }
+    Eigen::Map<Row>(y + j * width) += sum;
+  }
+}
+
+using AddProduct = void (*)(const SymmetricMatrix&, const double*, double*);
+constexpr AddProduct add_product_of_width[most_abreast] = {add_product_of<1>, add_product_of<2>, add_product_of<3>,
+                                                           add_product_of<4>, add_product_of<5>, add_product_of<6>,
+                                                           add_product_of<7>, add_product_of<8>};
+
+}  // namespace
+
 RowMatrix SymmetricMatrix::multiply(const RowMatrix& x, int threads) const {
-  RowMatrix y = RowMatrix::Zero(x.rows(), x.cols());
-  const Eigen::Index columns = x.cols();
-  // Threads take columns of x rather than of A, so that no two write the same number and sums keep their order.
-#pragma omp parallel num_threads(std::max(1, std::min <int>(threads, static_cast <int>(columns))))
+  RowMatrix y(x.rows(), x.cols());
+  const Eigen::Index columns = x.cols(),
+                     sharing = std::clamp<Eigen::Index>(threads, 1, std::max<Eigen::Index>(columns, 1));
+  const Eigen::Index parts = (columns + most_abreast * sharing - 1) / (most_abreast * sharing) * sharing;
+  // Threads take columns of x rather than of A, so that no two write the same number and sums keep their order. Each
+  // copies its own: threads that write to the same lines of the cache wait for each other.
+#pragma omp parallel num_threads(static_cast <int>(sharing))
   {
-    const Eigen::Index count = omp_get_num_threads(), thread = omp_get_thread_num();
-    const Eigen::Index first = columns * thread / count, width = columns * (thread + 1) / count - first;
-    for (std::int64_t j = 0; j < size; ++j) {
-      const double* xj = &x.coeffRef(j, 0) + first;
-      double* yj = &y.coeffRef(j, 0) + first;
-      const double diagonal_entry = values[starts[j]];
-      for (Eigen::Index c = 0; c < width; ++c) {
-        yj[c] += diagonal_entry * xj[c];
-      }
-      for (std::int64_t p = starts[j] + 1; p < starts[j + 1]; ++p) {
-        const double a = values[p];
-        const double* xi = &x.coeffRef(rows[p], 0) + first;
-        double* yi = &y.coeffRef(rows[p], 0) + first;
-        for (Eigen::Index c = 0; c < width; ++c) {
-          yi[c] += a * xj[c];
-          yj[c] += a * xi[c];
-        }
-      }
+    RowMatrix own_x, own_y;
+#pragma omp for schedule(static, 1)
+    for (Eigen::Index part = 0; part < parts; ++part) {
+      const Eigen::Index first = columns * part / parts, width = columns * (part + 1) / parts - first;
+      if (width == 0) continue;
+      own_x = x.middleCols(first, width);
+      own_y.setZero(x.rows(), width);
+      add_product_of_width[width - 1](*this, own_x.data(), own_y.data());
+      y.middleCols(first, width) = own_y;
     }
   }
   return y;

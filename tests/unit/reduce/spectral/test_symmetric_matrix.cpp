@@ -30,10 +30,12 @@ Eigen::MatrixXd dense(const SymmetricMatrix& a) { return a.multiply(RowMatrix::I
 TEST_CASE("A sparse symmetric matrix multiplies blocks as the dense one does, with any number of threads") {
   const Eigen::MatrixXd a = random_sparse(20);
   const SymmetricMatrix sparse = sparse_lower(a);
-  const RowMatrix x = RowMatrix::Random(20, 7);
-  // Sums of 20 products of numbers of order one.
-  CHECK((sparse.multiply(x) - a * x).norm() < 1e-13);
-  CHECK(sparse.multiply(x, 3) == sparse.multiply(x, 1));
+  for (int columns = 0; columns <= 26; ++columns) {
+    const RowMatrix x = RowMatrix::Random(20, columns);
+    // Sums of 20 products of numbers of order one.
+    CHECK((sparse.multiply(x) - a * x).norm() < 1e-13);
+    CHECK(sparse.multiply(x, 3) == sparse.multiply(x, 1));
+  }
   CHECK(sparse.diagonal() == a.diagonal());
 }
 
