@@ -1,5 +1,6 @@
 #include "mechanism/analyses/frequency_response.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -53,6 +54,8 @@ std::unique_ptr<Analysis> read_frequency_response(const YamlValue& entry, const 
     options.modes = modes->integer();
     if (options.modes < 1)
       modes->fail("expected at least one mode; without `modes` each frequency is answered directly");
+    if (std::all_of(options.frequencies.begin(), options.frequencies.end(), [](double f) { return f == 0; }))
+      modes->fail("a sum over modes is for frequencies above 0; the answer at 0 alone is found directly");
   }
   return std::make_unique<FrequencyResponseAnalysis>(std::move(options));
 }
@@ -91,6 +94,9 @@ void FrequencyResponseAnalysis::solve(Session& session, AnalysisSummary& summary
         "  by {} up to {:.6g} Hz, and the residual of the others from direct answers at {} frequencies; where it was "
         "compared with others, it differs by at most {:.2g} of the answer (at {:.6g} Hz)\n",
         counted(modal.modes, "mode"), modal.fastest, modal.direct, modal.deviation, modal.frequency);
+    constexpr double doubtful = 0.05;
+    if (modal.deviation > doubtful)
+      summary.text += "  DOUBTFUL: take more `modes`, up to one and a half times the highest frequency\n";
   }
   for (std::size_t i = 0; i < outputs; ++i)
     for (std::size_t j = 0; j < inputs; ++j) {

@@ -22,6 +22,7 @@ class CampbellStates {
     with_modes(last, 1, [&](const System& /*system*/, const ModesReport& report) {
       axes_ = report.axes;
       axis_ = options_.axis.isZero(0) ? fastest(report.about.state, last) : Vector3(options_.axis);
+      check_turns(report.about.state, last);
       static_cast<LinearisedSetting&>(found) = report;
     });
     found.axis = axis_;
@@ -60,13 +61,21 @@ class CampbellStates {
       use(session_.system(), session_.modes(options));
       return;
     }
-    Model model = options_.maker(options_.parameter, value);
+    Model model = made(value);
     if (options_.rotation) set_rotation(rate_of(model), options);
     try {
       const Session other(std::move(model));
       use(other.system(), other.modes(options));
     } catch (const ComputationError& error) {
       throw ComputationError(fmt::format("{} = {:.9g}: {}", options_.parameter, value, error.what()));
+    }
+  }
+
+  Model made(double value) const {
+    try {
+      return options_.maker(options_.parameter, value);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{} (where {} = {:.9g})", error.what(), options_.parameter, value));
     }
   }
 
@@ -82,6 +91,17 @@ class CampbellStates {
   bool steady_in(const Steadiness& steadiness) const {
     constexpr double changes = 1e-3;
     return (axes_ == ModeAxes::turning ? steadiness.turning : steadiness.inertial) <= changes * steadiness.rate;
+  }
+
+  void check_turns(const State& state, double value) const {
+    if (options_.node < 0 || value == 0) return;
+    const Vector3 rate = omega(state.nodes[static_cast<std::size_t>(options_.node)]);
+    constexpr double rounding = 1e-12;
+    if (std::abs(rate.dot(axis_)) <= rounding * std::abs(most(state)))
+      throw InputError(fmt::format(
+          "`node`: '{}' does not turn about the axis at the last value, {:.6g}: its angular velocity is the "
+          "speed that frequencies are compared with",
+          session_.system().model().nodes()[static_cast<std::size_t>(options_.node)].name, value));
   }
 
   static Vector3 omega(const NodeState& node) { return node.R * node.Omega; }
@@ -100,6 +120,11 @@ class CampbellStates {
 
   double speed(const State& state) const {
     if (options_.node >= 0) return omega(state.nodes[static_cast<std::size_t>(options_.node)]).dot(axis_);
+    return most(state);
+  }
+
+  /// About the axis, of the node that turns fastest [rad/s].
+  double most(const State& state) const {
     double most = 0;
     for (const NodeState& node : state.nodes)
       if (const double rate = omega(node).dot(axis_); std::abs(rate) > std::abs(most) * (1 + 1e-9)) most = rate;

@@ -149,7 +149,7 @@ void March::begin_step(MarchStep& step) {
   }
   crossed_.clear();
   if (!jump) return;
-  integration_.start_branch(h, *jump);
+  integration_.start_branch(h, jump->time);
   if (jump_listener_) jump_listener_(*jump);
 }
 

@@ -150,12 +150,11 @@ Jump TimeIntegration::begin_branch(double h, const std::vector<int>& crossed) {
   return jump;
 }
 
-void TimeIntegration::start_branch(double h, Jump& jump) {
+void TimeIntegration::start_branch(double h, double time) {
   State& state = step_.state();
-  state.time += just_off(jump.time, h);
+  state.time += just_off(time, h);
   start(h);
-  jump.after = system_.energy(state, environment_);
-  state.time = jump.time;
+  state.time = time;
   extrapolate_from_here();
 }
 

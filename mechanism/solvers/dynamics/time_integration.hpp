@@ -70,8 +70,9 @@ class TimeIntegration {
   /// after the last comes `start_branch`.
   /// @param crossed  the crossings that were met, by number
   Jump begin_branch(double h, const std::vector<int>& crossed);
-  /// Algorithmic values for steps of size h on the branch that has begun. @param jump  to it, made complete
-  void start_branch(double h, Jump& jump);
+  /// Algorithmic values for steps of size h on the branch that has begun. What they change of the energy, of second
+  /// order in h, is an error of the steps and no part of the jump. @param time  of the jump
+  void start_branch(double h, double time);
   /// The end of the last attempt.
   const State& attempted() const { return step_.trial(); }
   /// While a crossing is located, attempts differ little in size: factors of the tangent serve them all.

@@ -239,13 +239,25 @@ void SpeedSweep::find_meetings() {
                    [](const ModeMeeting& a, const ModeMeeting& b) { return a.value < b.value; });
 }
 
+/// Where the speed changes its sign, by way of rest: its size has a kink there, and lines may meet on both sides.
+void SpeedSweep::go_to(double value) {
+  const SweepPoint from = result_.points.back();
+  SweepPoint to = followed(from, value);
+  if (from.speed * to.speed < 0) {
+    const double still = from.value - from.speed * (to.value - from.value) / (to.speed - from.speed);
+    SweepPoint rest = followed(from, still);
+    rest.given = false;
+    advance(from, std::move(rest), 0);
+    to = followed(result_.points.back(), value);
+  }
+  const SweepPoint last = result_.points.back();
+  advance(last, std::move(to), 0);
+}
+
 SweptModes SpeedSweep::run(const std::function<bool()>& stops) {
   result_ = {};
   result_.points.push_back(begin());
-  for (std::size_t k = 1; k < values_.size() && !(stops && stops()); ++k) {
-    const SweepPoint from = result_.points.back();
-    advance(from, followed(from, values_[k]), 0);
-  }
+  for (std::size_t k = 1; k < values_.size() && !(stops && stops()); ++k) go_to(values_[k]);
   find_meetings();
   std::stable_sort(result_.critical.begin(), result_.critical.end(),
                    [](const CriticalSpeed& a, const CriticalSpeed& b) { return a.value < b.value; });

@@ -73,6 +73,7 @@ class SpeedSweep {
   SweepSample sample_at(double value);
   SweepPoint begin();
   SweepPoint followed(const SweepPoint& from, double value);
+  void go_to(double value);
   void advance(const SweepPoint& from, SweepPoint to, int depth);
   void accept(const SweepPoint& from, SweepPoint to);
   void find_critical(const SweepPoint& a, const SweepPoint& b);

@@ -145,4 +145,10 @@ TEST_CASE("a sweep that has no speed, or a parameter that is not there, is refus
   CHECK_THROWS_WITH(Ran(disc("parameter: speed, speeds: [0, 1]", "0*speed")), Catch::Contains("nothing turns"));
   CHECK_THROWS_WITH(Ran(disc("rotation: {axis: [0, 0, 1], rate: speed}, speeds: [0, 1]")),
                     Catch::Contains("the rates are the `speeds`"));
+  CHECK_THROWS_WITH(Ran(disc("parameter: speed, speeds: [0, 1], node: ground")),
+                    Catch::Contains("'ground' does not turn about the axis"));
+  std::string failing = disc("parameter: speed, speeds: [0, 1, 2, 3]");
+  failing.replace(failing.find("mass: 5"), 7, "mass: \"2*abs(speed - 1)\"");
+  CHECK_THROWS_WITH(Ran(failing), Catch::StartsWith("model.yaml:") && Catch::Contains("elements.disc.mass") &&
+                                      Catch::EndsWith("(where speed = 1)"));
 }

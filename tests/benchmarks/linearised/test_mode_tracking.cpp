@@ -135,3 +135,15 @@ TEST_CASE("a mode that no longer oscillates is lost, and told", "[linearised]") 
   CHECK(found.points.back().tracks[0].found);
   CHECK_FALSE(found.points.back().tracks[1].found);
 }
+
+TEST_CASE("critical speeds on both sides of rest are found between two values far apart", "[linearised]") {
+  // Frequencies 10 at rest: sqrt(100 -+ 0.8 p) = |p|, p^2 +- 0.8 p = 100 on either side.
+  const SweptModes found =
+      SpeedSweep([](double p, int /*count*/) { return oscillators(p, 0); }, {-30, 29}, 1, {1}).run();
+  std::vector<double> speeds;
+  for (const CriticalSpeed& each : found.critical) speeds.push_back(each.speed);
+  REQUIRE(speeds.size() == 2);
+  const double root = std::sqrt(slope * slope / 4 + at_rest);
+  CHECK(std::abs(speeds[0]) + std::abs(speeds[1]) == Approx(2 * root).epsilon(1e-8));
+  CHECK(speeds[0] * speeds[1] == Approx(-at_rest).epsilon(1e-8));
+}

@@ -161,4 +161,25 @@ TEST_CASE("the analysis `frequency_response` with `modes` says how good it is", 
   CHECK_THAT(summary.text, Catch::Contains("by 9 modes up to") && Catch::Contains("residual of the others"));
   CHECK(summary.numbers.at("deviation").at(0) == sink.read(1, "frequency_response/deviation").at(0));
   CHECK(summary.numbers.at("deviation")[0] < 1e-3);
+  CHECK_THAT(summary.text, !Catch::Contains("DOUBTFUL"));
+}
+
+TEST_CASE("a sum over too few modes is called doubtful, and one at 0 Hz alone is refused where it stands",
+          "[linearised]") {
+  const auto text = [](const std::string& frequencies) {
+    return frame +
+           "analysis: [{type: static}, {type: frequency_response, inputs: [{node: m, direction: z}], outputs: [{node: "
+           "m, "
+           "direction: z}], frequencies: " +
+           frequencies + ", modes: 1}]\n";
+  };
+  const MechanismFile file = read_mechanism_text(text("{from: 1, to: 300}"), "model.yaml");
+  Session session(file.model);
+  file.analyses[0]->run(session);
+  const AnalysisSummary summary = file.analyses[1]->run(session);
+  CHECK(summary.numbers.at("deviation")[0] > 0.05);
+  CHECK_THAT(summary.text, Catch::Contains("DOUBTFUL"));
+  CHECK_THROWS_WITH(
+      read_mechanism_text(text("[0]"), "model.yaml"),
+      Catch::StartsWith("model.yaml:") && Catch::Contains("modes: a sum over modes is for frequencies above 0"));
 }
