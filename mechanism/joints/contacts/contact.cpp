@@ -35,7 +35,7 @@ Contact::Contact(std::string name, std::vector<ContactShape> shapes, std::vector
   // Of a heap each touches some ten others; two boxes touch in up to 16 corners, and edges.
   if (has_bristles()) most_bristles_ = 32 * static_cast<Eigen::Index>(std::min(pairs_.size(), 2 * shapes_.size()));
   for (std::size_t k = 0; k < shapes_.size(); ++k) divided_ = divided_ && !(is_first[k] && is_second[k]);
-  for (const auto& [a, b] : pairs_) thinnest_ = std::min(thinnest_, shape(a).thickness() + shape(b).thickness());
+  for (const auto& [a, b] : pairs_) thinnest_ = std::min(thinnest_, passage(a, b));
 }
 
 void Contact::declare(Declaration& declaration) const {
@@ -365,15 +365,49 @@ void Contact::check_passage(const LocalState& state) const {
   if (4 * farthest <= thinnest_) return;
   for (int pair = 0; pair < static_cast<int>(pairs_.size()); ++pair) {
     const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
-    const double thickness = shape(a).thickness() + shape(b).thickness();
+    const double thickness = passage(a, b);
     const Vector3 now = middle(state, b) - middle(state, a);
     const Vector3 way = now - (memory.segment<3>(1 + 3 * b) - memory.segment<3>(1 + 3 * a));
     const double turn = turned(a) + turned(b);
     if (!(way.norm() + turn > 0.5 * thickness)) continue;
     const double share = std::clamp(now.dot(way) / way.squaredNorm(), 0.0, 1.0);
-    if ((now - share * way).norm() < shape(a).reach() + shape(b).reach() + turn)
-      check_passage_of(state, pair, way, turn);
+    if (!((now - share * way).norm() < shape(a).reach() + shape(b).reach() + turn)) continue;
+    has_surface(a, b) ? check_passage_of_surface(state, pair, way) : check_passage_of(state, pair, way, turn);
   }
+}
+
+bool Contact::has_surface(int a, int b) const {
+  if (std::isinf(shape(a).thickness()) || std::isinf(shape(b).thickness())) return false;  // a plane is solid all below
+  return shape(a).kind == ContactShape::Kind::surface || shape(b).kind == ContactShape::Kind::surface;
+}
+
+double Contact::passage(int a, int b) const {
+  if (has_surface(a, b)) return shape(a).skin() + shape(b).skin();
+  return shape(a).thickness() + shape(b).thickness();
+}
+
+/// Of a surface only the skin is known to be solid: what is deeper in a trial state would feel nothing.
+/// @param way  as below
+void Contact::check_passage_of_surface(const LocalState& state, int pair, const Vector3& way) const {
+  const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
+  NodeState second = state.node(local_node(b));
+  const Vector3 x = second.x;
+  const auto at = [&](double share) {
+    second.x = x - share * way;
+    return PairForce(shape(a), shape(b), state.node(local_node(a)), second).nearest();
+  };
+  const PairForce::Nearest now = at(0);
+  check_depth(state, pair, now);
+  if (now.gap < 0) return;  // it presses, and is felt
+  const double parts = std::min(1000.0, std::ceil(4 * way.norm() / passage(a, b)));
+  for (double k = 1; k <= parts; ++k)
+    if (at(k / parts).gap < 0) fail_passage(state, pair, way);
+}
+
+void Contact::fail_passage(const LocalState& state, int pair, const Vector3& way) const {
+  throw ComputationError(
+      fmt::format("contact '{}' at t = {:.6g} s: {} pass through each other within one step, {:.3g} m in {:.3g} s",
+                  name(), state.time(), pair_name(pair), way.norm(), state.time() - state.memory()[0]));
 }
 
 /// @param way  of the second shape relative to the first, since the last accepted step
@@ -397,10 +431,7 @@ void Contact::check_passage_of(const LocalState& state, int pair, const Vector3&
                     name(), state.time(), pair_name(pair), way.norm() + turn, state.time() - state.memory()[0]));
   const double parts = std::min(1000.0, std::ceil(4 * way.norm() / thickness));
   for (double k = 1; k < parts; ++k)
-    if (presses(k / parts))
-      throw ComputationError(
-          fmt::format("contact '{}' at t = {:.6g} s: {} pass through each other within one step, {:.3g} m in {:.3g} s",
-                      name(), state.time(), pair_name(pair), way.norm(), state.time() - state.memory()[0]));
+    if (presses(k / parts)) fail_passage(state, pair, way);
 }
 
 std::pair<std::string, double> Contact::drawn_into_each_other(const Model& model) const {

@@ -112,6 +112,10 @@ class Contact final : public Component, public OpenContact {
   void remember(const LocalState& state, Eigen::Ref<VectorX> memory) const;
   void check_passage(const LocalState& state) const;
   void check_passage_of(const LocalState& state, int pair, const Vector3& way, double turn) const;
+  void check_passage_of_surface(const LocalState& state, int pair, const Vector3& way) const;
+  [[noreturn]] void fail_passage(const LocalState& state, int pair, const Vector3& way) const;
+  bool has_surface(int a, int b) const;  ///< with something else than a plane
+  double passage(int a, int b) const;    ///< twice as far as a pair may move in a step without a look [m]
   std::string pair_name(int pair) const;
 
   std::vector<ContactShape> shapes_;
@@ -121,7 +125,7 @@ class Contact final : public Component, public OpenContact {
   std::vector<int> nodes_, local_node_;
   NearPairs near_pairs_;
   bool divided_ = true;  ///< no shape is the first of one pair and the second of another
-  double thinnest_ = 0;  ///< pair, sum of its thicknesses [m]
+  double thinnest_ = 0;  ///< smallest passage of a pair [m]
   std::string remark_;
 };
 

@@ -170,3 +170,23 @@ TEST_CASE("what is drawn through a surface, or within it, is told with its names
   CHECK_THAT(says("box: [2, 2, 0.4]", "position: [0, 0, 0]"), Contains("surface on 'ground' and box on 'b' press"));
   CHECK_THAT(says("box: [0.1, 0.1, 0.1]", "position: [0, 0, 0.56]"), Contains("went on"));
 }
+
+TEST_CASE("what falls on a floor of triangles in adaptive steps meets it as it meets a plane") {
+  // In free flight steps are as long as they like: some would end deep within the floor, where it is felt no more.
+  const TemporaryFolder folder;
+  write_triangles(folder.path() + "/floor.stl", floor_of_triangles(2, 6));
+  for (const char* shape : {"cylinder: [0.1, 0.3]", "box: [0.2, 0.2, 0.3]", "capsule: [0.1, 0.1]"}) {
+    CAPTURE(shape);
+    const auto height = [&](const std::string& ground) {
+      double z = 0;
+      run_contact(contact_model({{"b", "position: [0.02, 0.01, 0.2]", 10, {0.1, 0.1, 0.05}}},
+                                fmt::format("  it: {{type: contact, shapes: [{{node: ground, {}}}, {{node: b, {}}}], "
+                                            "stiffness: 1e7, damping: 0.5}}\n",
+                                            ground, shape),
+                                "[0, 0, -9.81]"),
+                  {0.01, 0.25, 1e-6}, [&](const Session& session, const Motion&) { z = session.node("b").x.z(); });
+      return z;
+    };
+    CHECK(height("surface: " + folder.path() + "/floor.stl") == Approx(height("plane: [0, 0, 1]")).margin(1e-4));
+  }
+}
