@@ -319,9 +319,16 @@ bool Contact::has_turned_over(const LocalState& state, int pair, const PairForce
   const auto memory = state.memory();
   if (!(state.time() > memory[0])) return false;
   const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
+  const Vector3 way =
+      middle(state, b) - middle(state, a) - (memory.segment<3>(1 + 3 * b) - memory.segment<3>(1 + 3 * a));
+  return nearest_before(state, pair, way).normal.dot(found.normal) < 0;
+}
+
+PairForce::Nearest Contact::nearest_before(const LocalState& state, int pair, const Vector3& way) const {
+  const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
   NodeState second = state.node(local_node(b));
-  second.x -= middle(state, b) - middle(state, a) - (memory.segment<3>(1 + 3 * b) - memory.segment<3>(1 + 3 * a));
-  return PairForce(shape(a), shape(b), state.node(local_node(a)), second).nearest().normal.dot(found.normal) < 0;
+  second.x -= way;
+  return PairForce(shape(a), shape(b), state.node(local_node(a)), second).nearest();
 }
 
 void Contact::remember(const LocalState& state, Eigen::Ref<VectorX> memory) const {
@@ -390,18 +397,12 @@ double Contact::passage(int a, int b) const {
 /// @param way  as below
 void Contact::check_passage_of_surface(const LocalState& state, int pair, const Vector3& way) const {
   const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
-  NodeState second = state.node(local_node(b));
-  const Vector3 x = second.x;
-  const auto at = [&](double share) {
-    second.x = x - share * way;
-    return PairForce(shape(a), shape(b), state.node(local_node(a)), second).nearest();
-  };
-  const PairForce::Nearest now = at(0);
+  const PairForce::Nearest now = nearest_before(state, pair, Vector3::Zero());
   check_depth(state, pair, now);
   if (now.gap < 0) return;  // it presses, and is felt
   const double parts = std::min(1000.0, std::ceil(4 * way.norm() / passage(a, b)));
   for (double k = 1; k <= parts; ++k)
-    if (at(k / parts).gap < 0) fail_passage(state, pair, way);
+    if (nearest_before(state, pair, k / parts * way).gap < 0) fail_passage(state, pair, way);
 }
 
 void Contact::fail_passage(const LocalState& state, int pair, const Vector3& way) const {
@@ -414,12 +415,7 @@ void Contact::fail_passage(const LocalState& state, int pair, const Vector3& way
 /// @param turn  how far their surfaces may have turned since then [m]
 void Contact::check_passage_of(const LocalState& state, int pair, const Vector3& way, double turn) const {
   const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
-  NodeState second = state.node(local_node(b));
-  const Vector3 x = second.x;
-  const auto gap = [&](double share) {
-    second.x = x - share * way;
-    return PairForce(shape(a), shape(b), state.node(local_node(a)), second).nearest().gap;
-  };
+  const auto gap = [&](double share) { return nearest_before(state, pair, share * way).gap; };
   const auto presses = [&](double share) { return gap(share) < 0; };
   const double thickness = shape(a).thickness() + shape(b).thickness();
   // From within they might leave on the other side; turning they might sweep over each other.

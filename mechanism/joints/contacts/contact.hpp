@@ -113,6 +113,8 @@ class Contact final : public Component, public OpenContact {
   void check_passage(const LocalState& state) const;
   void check_passage_of(const LocalState& state, int pair, const Vector3& way, double turn) const;
   void check_passage_of_surface(const LocalState& state, int pair, const Vector3& way) const;
+  /// With the second shape of the pair moved back by `way`.
+  PairForce::Nearest nearest_before(const LocalState& state, int pair, const Vector3& way) const;
   [[noreturn]] void fail_passage(const LocalState& state, int pair, const Vector3& way) const;
   bool has_surface(int a, int b) const;  ///< with something else than a plane
   double passage(int a, int b) const;    ///< twice as far as a pair may move in a step without a look [m]
