@@ -19,7 +19,8 @@ namespace bielle {
 
 namespace {
 
-/// A walk reads what describes the numbers, a few kB per dataset: the largest files take a second or two. Texts come whole.
+/// A walk reads what describes the numbers, a few kB per dataset: the largest files take a second or two. Texts come
+/// whole.
 ChildLimits limits_of_a_walk(std::uint64_t size) {
   return {.seconds = 3 + static_cast<int>(size / 10'000'000), .memory = 3 * size + 200'000'000};
 }
@@ -36,7 +37,7 @@ Identity identity_of(const std::string& path) {
 
 /// What a walk has found: HDF5 calls back from C, through which nothing may be thrown.
 struct Walk {
-  std::string damaged;  ///< name of an object whose text cannot be read
+  std::string damaged;  ///< what is wrong with an object
 };
 
 std::string name_of(hid_t object) {
@@ -44,6 +45,8 @@ std::string name_of(hid_t object) {
   H5Iget_name(object, name, sizeof name);
   return name;
 }
+
+std::string unreadable_text(hid_t object) { return fmt::format("a text at {} cannot be read", name_of(object)); }
 
 /// Texts have lengths that stand elsewhere in the file. Where they are damaged, HDF5 clears gigabytes before it fails.
 /// @returns whether they could be read
@@ -66,7 +69,7 @@ herr_t walk_attribute(hid_t object, const char* name, const H5A_info_t*, void* d
   if (count != 1) return 0;  // of other shapes none is read
   const auto read = [&](hid_t memory, void* into) { return H5Aread(attribute, memory, into); };
   if (H5Tget_class(type) == H5T_STRING && !read_texts(type, space, 1, read)) {
-    static_cast<Walk*>(data)->damaged = name_of(object);
+    static_cast<Walk*>(data)->damaged = unreadable_text(object);
     return -1;
   }
   std::int64_t number = 0;
@@ -74,23 +77,36 @@ herr_t walk_attribute(hid_t object, const char* name, const H5A_info_t*, void* d
   return 0;
 }
 
-/// @returns whether its texts could be read
-bool walk_dataset(hid_t dataset) {
+/// Pieces of a dataset are read as they are stored: from one that is shorter than it should be, HDF5 reads what stands
+/// behind it in memory. What is compressed may have any size.
+bool has_whole_chunks(hid_t dataset, hid_t type, hid_t space, hid_t creation) {
+  if (H5Pget_layout(creation) != H5D_CHUNKED) return true;
+  hsize_t chunks = 0;
+  if (H5Dget_num_chunks(dataset, space, &chunks) < 0) return false;
+  if (H5Pget_nfilters(creation) > 0) return true;
+  std::array<hsize_t, H5S_MAX_RANK> shape{};
+  const int rank = H5Pget_chunk(creation, H5S_MAX_RANK, shape.data());
+  hsize_t bytes = H5Tget_size(type);
+  for (int k = 0; k < rank; ++k) bytes *= shape[static_cast<std::size_t>(k)];
+  return H5Dget_storage_size(dataset) == chunks * bytes;
+}
+
+/// @returns what is wrong with it; empty: nothing
+std::string walk_dataset(hid_t dataset) {
   const Hdf5Id type(H5Dget_type(dataset), H5Tclose), space(H5Dget_space(dataset), H5Sclose);
   const Hdf5Id creation(H5Dget_create_plist(dataset), H5Pclose);
-  if (H5Pget_layout(creation) == H5D_CHUNKED) {
-    hsize_t chunks = 0;
-    H5Dget_num_chunks(dataset, H5S_ALL, &chunks);
-  }
+  if (!has_whole_chunks(dataset, type, space, creation))
+    return fmt::format("the pieces of {} are not as large as they should be", name_of(dataset));
   const hssize_t count = H5Sget_simple_extent_npoints(space);
-  if (count <= 0) return true;
+  if (count <= 0) return {};
   if (H5Tget_class(type) == H5T_STRING) {
-    if (static_cast<hsize_t>(count) > H5Dget_storage_size(dataset)) return true;  // refused by those who read it
-    return read_texts(type, space, static_cast<std::size_t>(count), [&](hid_t memory, void* data) {
+    if (static_cast<hsize_t>(count) > H5Dget_storage_size(dataset)) return {};  // refused by those who read it
+    const bool could_be_read = read_texts(type, space, static_cast<std::size_t>(count), [&](hid_t memory, void* data) {
       return H5Dread(dataset, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, data);
     });
+    return could_be_read ? std::string() : unreadable_text(dataset);
   }
-  if (H5Tget_class(type) != H5T_FLOAT && H5Tget_class(type) != H5T_INTEGER) return true;
+  if (H5Tget_class(type) != H5T_FLOAT && H5Tget_class(type) != H5T_INTEGER) return {};
   const std::array<hsize_t, H5S_MAX_RANK> first{};
   const bool scalar = H5Sget_simple_extent_ndims(space) == 0;
   if (!scalar) H5Sselect_elements(space, H5S_SELECT_SET, 1, first.data());
@@ -99,7 +115,7 @@ bool walk_dataset(hid_t dataset) {
   std::int64_t whole = 0;
   H5Dread(dataset, H5T_NATIVE_DOUBLE, one, space, H5P_DEFAULT, &real);
   if (H5Tget_class(type) == H5T_INTEGER) H5Dread(dataset, H5T_NATIVE_INT64, one, space, H5P_DEFAULT, &whole);
-  return true;
+  return {};
 }
 
 herr_t pass_over(hid_t, const char*, const H5L_info_t*, void*) { return 0; }
@@ -109,7 +125,7 @@ herr_t walk_object(hid_t root, const char* name, const H5O_info_t*, void* data) 
   if (!object.valid()) return 0;
   H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, walk_attribute, data);
   auto& walk = *static_cast<Walk*>(data);
-  if (H5Iget_type(object) == H5I_DATASET && !walk_dataset(object)) walk.damaged = name_of(object);
+  if (walk.damaged.empty() && H5Iget_type(object) == H5I_DATASET) walk.damaged = walk_dataset(object);
   if (H5Iget_type(object) == H5I_GROUP)
     H5Literate(object, H5_INDEX_CRT_ORDER, H5_ITER_INC, nullptr, pass_over, nullptr);
   return walk.damaged.empty() ? 0 : -1;
@@ -120,8 +136,7 @@ void walk(const std::string& path) {
   const Hdf5Id file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose);
   Walk found;
   if (file.valid()) H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_NATIVE, walk_object, &found, H5O_INFO_BASIC);
-  if (!found.damaged.empty())
-    throw InputError(fmt::format("{}: is damaged: a text at {} cannot be read", path, found.damaged));
+  if (!found.damaged.empty()) throw InputError(fmt::format("{}: is damaged: {}", path, found.damaged));
 }
 
 }  // namespace

@@ -225,6 +225,24 @@ TEST_CASE("Texts with damaged lengths are told before memory is spent on them") 
              Contains("long.h5: is damaged: a text at /text cannot be read"));
 }
 
+TEST_CASE("Pieces of rows that are shorter than they should be are told before HDF5 reads beyond them") {
+  const TemporaryFolder folder;
+  {
+    Hdf5File file = Hdf5File::create(folder / "whole.h5");
+    file.create_rows("/position", {6}, "m", "", 4);
+    file.append_rows("/position", std::vector<double>(18, 1.5), 3);
+  }
+  CHECK(Hdf5File::open(folder / "whole.h5").shape("/position") == Shape{3, 6});
+  std::string bytes = bytes_of(folder / "whole.h5");
+  // A node of the tree of pieces (of type 1) has a head of 24 bytes, then the size of the first piece (4 bytes).
+  const std::size_t node = bytes.find(std::string("TREE\x01"));
+  REQUIRE(node != std::string::npos);
+  REQUIRE(bytes.substr(node + 24, 4) == std::string("\xc0\0\0\0", 4));
+  bytes[node + 24] = '\x80';
+  CHECK_THAT(why_unreadable([&] { Hdf5File::open(folder.file("short.h5", bytes)); }),
+             Contains("short.h5: is damaged: the pieces of /position are not as large as they should be"));
+}
+
 TEST_CASE("HDF5 itself prints nothing") {
   const TemporaryFolder folder;
   const std::string log = folder / "log";
