@@ -4,6 +4,8 @@
 #include <array>
 #include <stdexcept>
 
+#include "reduce/spectral/few_vectors.hpp"
+
 namespace bielle::reduce {
 
 namespace {
@@ -96,7 +98,19 @@ std::vector<std::vector<int>> colour_cells(const Eigen::MatrixXi& nodes, Eigen::
 
 namespace {
 
-/// y = m x with `width` consecutive numbers per node; a width known to the compiler stays in registers.
+/// y = m x with `width` consecutive numbers per node, a multiple of `vectors_abreast`.
+void multiply_many(const NodeMatrix& m, const double* x, double* y, int width, int threads) {
+  const NodeGraph& graph = *m.graph;
+  const FewVectors& kernels = FewVectors::fastest();
+#pragma omp parallel for num_threads(threads) schedule(static)
+  for (Eigen::Index a = 0; a < graph.size(); ++a) {
+    const std::int64_t first = graph.starts[a];
+    kernels.weighted_sum(graph.starts[a + 1] - first, m.values.data() + first, graph.neighbours.data() + first, x,
+                         width, y + a * width);
+  }
+}
+
+/// The same for any width; one known to the compiler stays in registers.
 template <int fixed_width>
 void multiply_nodes(const NodeMatrix& m, const double* x, double* y, Eigen::Index width, int threads) {
   using Numbers = Eigen::Array<double, fixed_width, 1>;
@@ -124,10 +138,9 @@ RowMatrix NodeMatrix::multiply(const RowMatrix& x, int rows_per_node, int thread
 
 void NodeMatrix::multiply_into(const RowMatrix& x, int rows_per_node, RowMatrix& y, int threads) const {
   const Eigen::Index width = rows_per_node * x.cols();  // numbers that a node owns, consecutive in memory
-  // One and four fields of displacements are what eigen-solvers ask for again and again.
-  width == 3    ? multiply_nodes<3>(*this, x.data(), y.data(), width, threads)
-  : width == 12 ? multiply_nodes<12>(*this, x.data(), y.data(), width, threads)
-                : multiply_nodes<Eigen::Dynamic>(*this, x.data(), y.data(), width, threads);
+  if (width % vectors_abreast == 0) return multiply_many(*this, x.data(), y.data(), static_cast<int>(width), threads);
+  width == 3 ? multiply_nodes<3>(*this, x.data(), y.data(), width, threads)
+             : multiply_nodes<Eigen::Dynamic>(*this, x.data(), y.data(), width, threads);
 }
 
 }  // namespace bielle::reduce

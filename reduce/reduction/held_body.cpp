@@ -12,6 +12,7 @@
 #include "reduce/common/orthogonal_factors.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
 #include "reduce/spectral/dense_products.hpp"
+#include "reduce/spectral/few_vectors.hpp"
 #include "reduce/spectral/tall_products.hpp"
 
 namespace bielle::reduce {
@@ -76,6 +77,8 @@ HeldBody::HeldBody(const Solid& solid, const Ties& ties, const Factorisation& fa
   for (std::int64_t a = 0; a < solid.points(); ++a) {
     if (inside[a] && !ties.tied[a]) {
       free_.insert(free_.end(), {3 * a, 3 * a + 1, 3 * a + 2});
+    } else {
+      not_free_.insert(not_free_.end(), {3 * a, 3 * a + 1, 3 * a + 2});
     }
   }
   size_ = static_cast<Eigen::Index>(free_.size()) + carry_released_.cols();
@@ -87,7 +90,7 @@ HeldBody::HeldBody(const Solid& solid, const Ties& ties, const Factorisation& fa
 }
 
 RowMatrix HeldBody::expand(const Eigen::MatrixXd& z) const {
-  RowMatrix u = RowMatrix::Zero(carry_released_.rows(), z.cols());
+  RowMatrix u(carry_released_.rows(), z.cols());
   expand_into(z, u);
   return u;
 }
@@ -99,34 +102,51 @@ Eigen::MatrixXd HeldBody::restrict(const RowMatrix& forces) const {
 }
 
 void HeldBody::expand_into(const Eigen::Ref<const Eigen::MatrixXd>& z, RowMatrix& u) const {
-  if (carry_released_.cols() > 0) u = carry_released_ * z.bottomRows(carry_released_.cols());
-  for (std::size_t k = 0; k < free_.size(); ++k) u.row(free_[k]) = z.row(static_cast<Eigen::Index>(k));
+  const auto free = static_cast<Eigen::Index>(free_.size()), columns = z.cols(), blank = u.cols() - columns;
+#pragma omp parallel num_threads(threads_)
+  {
+#pragma omp for schedule(static) nowait
+    for (Eigen::Index k = 0; k < free; ++k) {
+      auto row = u.row(free_[static_cast<std::size_t>(k)]);
+      for (Eigen::Index c = 0; c < columns; ++c) row(c) = z(k, c);
+      row.tail(blank).setZero();
+    }
+#pragma omp for schedule(static)
+    for (std::size_t k = 0; k < not_free_.size(); ++k) {
+      auto row = u.row(not_free_[k]);
+      row.setZero();
+      for (SparseRows::InnerIterator carried(carry_released_, not_free_[k]); carried; ++carried)
+        row.head(columns) += carried.value() * z.row(free + carried.col());
+    }
+  }
 }
 
 void HeldBody::restrict_into(const RowMatrix& forces, Eigen::Ref<Eigen::MatrixXd> f) const {
-  for (std::size_t k = 0; k < free_.size(); ++k) f.row(static_cast<Eigen::Index>(k)) = forces.row(free_[k]);
-  f.bottomRows(carry_released_.cols()) = carry_released_.transpose() * forces;
+  const auto free = static_cast<Eigen::Index>(free_.size()), columns = f.cols();
+#pragma omp parallel for num_threads(threads_) schedule(static)
+  for (Eigen::Index k = 0; k < free; ++k) {
+    const auto row = forces.row(free_[static_cast<std::size_t>(k)]);
+    for (Eigen::Index c = 0; c < columns; ++c) f(k, c) = row(c);
+  }
+  f.bottomRows(carry_released_.cols()).setZero();
+  for (const std::int64_t row : not_free_)
+    for (SparseRows::InnerIterator carried(carry_released_, row); carried; ++carried)
+      f.row(free + carried.col()) += carried.value() * forces.row(row).head(columns);
 }
 
 Eigen::MatrixXd HeldBody::inertia(const NodeMatrix& mass, const Eigen::MatrixXd& z, int threads) const {
-  constexpr Eigen::Index few = 4;
-  const Eigen::Index groups = (z.cols() + few - 1) / few;
-  if (groups < threads) return restrict(mass.multiply(expand(z), 3, threads));
+  constexpr Eigen::Index few = 16;
   Eigen::MatrixXd forces(size_, z.cols());
-#pragma omp parallel num_threads(threads)
-  {
-    RowMatrix u, of_points;
-#pragma omp for schedule(dynamic)
-    for (Eigen::Index group = 0; group < groups; ++group) {
-      const Eigen::Index first = few * group, width = std::min(few, z.cols() - first);
-      if (u.cols() != width) {
-        u.setZero(carry_released_.rows(), width);
-        of_points.resize(u.rows(), width);
-      }
-      expand_into(z.middleCols(first, width), u);
-      mass.multiply_into(u, 3, of_points);
-      restrict_into(of_points, forces.middleCols(first, width));
-    }
+  RowMatrix u, of_points;
+  for (Eigen::Index first = 0; first < z.cols(); first += few) {
+    const Eigen::Index width = std::min(few, z.cols() - first);
+    // Products with several vectors are fastest for a multiple of so many.
+    const Eigen::Index columns = width == 1 ? 1 : (width + vectors_abreast - 1) / vectors_abreast * vectors_abreast;
+    u.resize(carry_released_.rows(), columns);
+    of_points.resize(u.rows(), columns);
+    expand_into(z.middleCols(first, width), u);
+    mass.multiply_into(u, 3, of_points, threads);
+    restrict_into(of_points, forces.middleCols(first, width));
   }
   return forces;
 }
@@ -223,17 +243,37 @@ void HeldBody::factorise(const Factorisation& factorisation) {
 Eigen::MatrixXd HeldBody::pseudo_solve(const Eigen::MatrixXd& f) const {
   if (!factor_) return Eigen::MatrixXd::Zero(size_, f.cols());
   if (supports_.empty()) return factor_->solve(f);
-  Eigen::MatrixXd z(static_cast<Eigen::Index>(not_supports_.size()), f.cols());
-#pragma omp parallel for num_threads(threads_)
-  for (Eigen::Index c = 0; c < f.cols(); ++c) z.col(c) = f.col(c)(not_supports_);
-  const Eigen::MatrixXd inside = factor_->solve(z);
-  z.resize(size_, f.cols());
+  Eigen::MatrixXd inside(static_cast<Eigen::Index>(not_supports_.size()), f.cols()), z(size_, f.cols());
+  leave_supports_out(f, inside);
+  put_supports_in(factor_->solve(inside), z);
+  return z;
+}
+
+void HeldBody::leave_supports_out(const Eigen::MatrixXd& f, Eigen::MatrixXd& inside) const {
 #pragma omp parallel for num_threads(threads_)
   for (Eigen::Index c = 0; c < f.cols(); ++c) {
-    z.col(c)(not_supports_) = inside.col(c);
-    z.col(c)(supports_).setZero();
+    Eigen::Index begin = 0, done = 0;
+    for (const Eigen::Index support : supports_) {
+      inside.col(c).segment(done, support - begin) = f.col(c).segment(begin, support - begin);
+      done += support - begin;
+      begin = support + 1;
+    }
+    inside.col(c).tail(size_ - begin) = f.col(c).tail(size_ - begin);
   }
-  return z;
+}
+
+void HeldBody::put_supports_in(const Eigen::MatrixXd& inside, Eigen::MatrixXd& z) const {
+#pragma omp parallel for num_threads(threads_)
+  for (Eigen::Index c = 0; c < z.cols(); ++c) {
+    Eigen::Index begin = 0, done = 0;
+    for (const Eigen::Index support : supports_) {
+      z.col(c).segment(begin, support - begin) = inside.col(c).segment(done, support - begin);
+      done += support - begin;
+      begin = support + 1;
+      z(support, c) = 0;
+    }
+    z.col(c).tail(size_ - begin) = inside.col(c).tail(size_ - begin);
+  }
 }
 
 void HeldBody::close_conditions(const Ties& ties) {
@@ -241,11 +281,13 @@ void HeldBody::close_conditions(const Ties& ties) {
   if (a == 0) {
     return;
   }
-  flexibility_ = pseudo_solve(conditions_);
+  const Eigen::MatrixXd flexibility = pseudo_solve(conditions_);
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(a + r, a + r);
-  matrix.topLeftCorner(a, a) = transposed_product(conditions_, flexibility_);
+  matrix.topLeftCorner(a, a) = transposed_product(conditions_, flexibility);
   matrix.topRightCorner(a, r) = -transposed_product(conditions_, rigid_);
   matrix.bottomLeftCorner(r, a) = transposed_product(rigid_, conditions_);
+  corrections_.resize(size_, a + r);
+  corrections_ << flexibility, -rigid_;
   // Scaled to comparable entries before it is inverted: multipliers are forces and moments.
   Eigen::VectorXd scale = Eigen::VectorXd::Ones(a + r);
   for (Eigen::Index k = 0; k < a; ++k) {
@@ -274,9 +316,7 @@ Eigen::MatrixXd HeldBody::solve(const Eigen::MatrixXd& f, const Eigen::MatrixXd&
     right.topRows(a) -= averages;
   }
   right.bottomRows(r) = tall_inner_products(rigid_, f, threads_);
-  const Eigen::MatrixXd unknowns = product(small_, right);
-  add_tall_product(z, flexibility_, unknowns.topRows(a), -1, threads_);
-  add_tall_product(z, rigid_, unknowns.bottomRows(r), 1, threads_);
+  add_tall_product(z, corrections_, product(small_, right), -1, threads_);
   return z;
 }
 

@@ -41,7 +41,7 @@ class HeldBody {
   /// The transposed: forces on points become forces on z.
   Eigen::MatrixXd restrict(const RowMatrix& forces) const;
 
-  /// Forces on z of the inertia of accelerations z, a few columns at a time: what they need fits in the caches.
+  /// Forces on z of the inertia of accelerations z, a few columns at a time.
   /// @param mass  of all points
   Eigen::MatrixXd inertia(const NodeMatrix& mass, const Eigen::MatrixXd& z, int threads) const;
   Eigen::MatrixXd inertia(const BodyMatrices& matrices, const Eigen::MatrixXd& z, int threads) const;
@@ -54,9 +54,13 @@ class HeldBody {
   std::optional<PivotSigns> count_below(const BodyMatrices& matrices, double eigenvalue, int threads) const;
 
  private:
-  /// @param u  (3 points, k), zero outside
+  /// @param u  (3 points, at least k): the columns of z, then zeros
   void expand_into(const Eigen::Ref<const Eigen::MatrixXd>& z, RowMatrix& u) const;
+  /// @param f  (size, k): of the first k columns of the forces
   void restrict_into(const RowMatrix& forces, Eigen::Ref<Eigen::MatrixXd> f) const;
+  /// Columns without the rows of the supports, and with zeros there.
+  void leave_supports_out(const Eigen::MatrixXd& f, Eigen::MatrixXd& inside) const;
+  void put_supports_in(const Eigen::MatrixXd& inside, Eigen::MatrixXd& z) const;
   void find_rigid_motions(const Solid& solid, const Ties& ties);
   void choose_supports();
   using Factorisation =
@@ -69,7 +73,8 @@ class HeldBody {
   int threads_ = 1;
   Eigen::Matrix3Xd points_;
   Eigen::Index size_ = 0;
-  std::vector<std::int64_t> free_;  // unknowns x y z of the points that are neither tied nor outside, ascending
+  std::vector<std::int64_t> free_;      // unknowns x y z of the points that are neither tied nor outside, ascending
+  std::vector<std::int64_t> not_free_;  // the others
   SparseRows carry_released_;
   std::vector<Eigen::Index> supports_;      // held freedoms, numbers in z, ascending
   std::vector<Eigen::Index> not_supports_;  // the other numbers in z
@@ -77,7 +82,7 @@ class HeldBody {
   FactorStatistics no_statistics_;
   Eigen::MatrixXd rigid_;        // N (size, r)
   Eigen::MatrixXd conditions_;   // C^T (size, averages)
-  Eigen::MatrixXd flexibility_;  // K+ C^T
+  Eigen::MatrixXd corrections_;  // K+ C^T, then -N: what lambda and alpha take away
   Eigen::MatrixXd small_;        // inverse of the matrix of lambda and alpha
 };
 

@@ -55,7 +55,7 @@ std::optional<PivotSigns> HeldBody::count_below(const BodyMatrices& matrices, do
     // A condition has no size of its own: it gets one by which its multiplier's pivot is about 1.
     Eigen::MatrixXd conditions = conditions_;
     for (Eigen::Index c = 0; c < averages; ++c)
-      conditions.col(c) /= std::sqrt(conditions_.col(c).dot(flexibility_.col(c)));
+      conditions.col(c) /= std::sqrt(conditions_.col(c).dot(corrections_.col(c)));
     Eigen::MatrixXd border(kept.size(), first_average + averages);
     border << images(inner, Eigen::all), conditions(inner, Eigen::all);
     Eigen::MatrixXd corner = Eigen::MatrixXd::Zero(border.cols(), border.cols());

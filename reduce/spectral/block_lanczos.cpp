@@ -29,7 +29,7 @@ constexpr double equal = 1e-9;
 constexpr double vanishing = 1e-13;
 
 Index block_columns(const EigenpairOptions& options, Index size) {
-  constexpr Index best = 12;  // as measured (performance_reduce_modes)
+  constexpr Index best = 8;  // as measured (performance_reduce_modes)
   return std::clamp<Index>(options.block > 0 ? options.block : best, 1, size);
 }
 

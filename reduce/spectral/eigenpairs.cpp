@@ -38,26 +38,31 @@ void put_in_order(Eigenpairs& pairs) {
 /// Normalises the vectors, measures what the operator makes of them, and takes that: a step of inverse iteration, which
 /// leaves less of other eigenvectors, and nothing of directions without mass. Eigenvalues are Rayleigh's quotients.
 /// @param most  columns at a time: a few blocks cost as much as one, and need less memory
-void polish(const ShiftInvertProblem& problem, Eigen::Index most, Eigenpairs& pairs) {
+void polish(const ShiftInvertProblem& problem, Eigen::Index most, int threads, Eigenpairs& pairs) {
   const Eigen::Index count = pairs.values.size();
   pairs.residuals.resize(count);
   for (Eigen::Index first = 0; first < count; first += most) {
     const Eigen::Index width = std::min(most, count - first);
     auto vectors = pairs.vectors.middleCols(first, width);
     Eigen::MatrixXd mass_vectors = problem.multiply_mass(vectors);
+#pragma omp parallel for num_threads(threads)
     for (Eigen::Index k = 0; k < width; ++k) {
       const double norm = std::sqrt(vectors.col(k).dot(mass_vectors.col(k)));
       vectors.col(k) /= norm;
       mass_vectors.col(k) /= norm;
     }
-    const Eigen::MatrixXd images = problem.solve(mass_vectors);
-    const Eigen::VectorXd nu = images.cwiseProduct(mass_vectors).colwise().sum().transpose();
-    const Eigen::VectorXd distance = nu.cwiseInverse();
-    const Eigen::MatrixXd error = vectors - images * distance.asDiagonal();
-    pairs.values.segment(first, width) = problem.shift + distance.array();
-    pairs.residuals.segment(first, width) =
-        error.cwiseProduct(problem.multiply_mass(error)).colwise().sum().cwiseMax(0).cwiseSqrt();
-    vectors -= error;
+    Eigen::MatrixXd error = problem.solve(mass_vectors);
+#pragma omp parallel for num_threads(threads)
+    for (Eigen::Index k = 0; k < width; ++k) {
+      const double distance = 1 / error.col(k).dot(mass_vectors.col(k));
+      pairs.values(first + k) = problem.shift + distance;
+      error.col(k) = vectors.col(k) - distance * error.col(k);
+      vectors.col(k) -= error.col(k);
+    }
+    const Eigen::MatrixXd mass_error = problem.multiply_mass(error);
+#pragma omp parallel for num_threads(threads)
+    for (Eigen::Index k = 0; k < width; ++k)
+      pairs.residuals(first + k) = std::sqrt(std::max(0.0, error.col(k).dot(mass_error.col(k))));
   }
 }
 
@@ -121,7 +126,7 @@ Eigenpairs shift_invert_eigenpairs(const ShiftInvertProblem& problem, int count,
                      : options.iteration                     ? options.iteration(problem, count, options)
                      : options.method == EigenMethod::arpack ? arpack_eigenpairs(problem, count, options)
                                                              : block_lanczos_eigenpairs(problem, count, options);
-  polish(problem, options.iteration ? 8 : 64, pairs);  // who iterates elsewhere has little memory here
+  polish(problem, options.iteration ? 8 : 64, options.threads, pairs);  // who iterates elsewhere has little memory here
   make_orthonormal(problem, pairs.vectors, options.threads);
   put_in_order(pairs);
   return pairs;

@@ -36,7 +36,7 @@ struct EigenpairOptions {
   EigenMethod method = EigenMethod::block_lanczos;
   EigenIteration iteration;  ///< in place of the method, where it is given
   /// Residuals of the eigenpairs of the inverted operator, relative to their eigenvalues.
-  double tolerance = 1e-10;
+  double tolerance = 1e-8;
   int restarts = 300;  ///< before giving up
   int block = 0;       ///< columns of a block; 0: as many as have proved best
   int basis = 0;       ///< columns that the block method holds before it restarts; 0: as many as have proved best

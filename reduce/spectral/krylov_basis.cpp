@@ -97,9 +97,14 @@ void KrylovBasis::set_front(Block block, MatrixXd removed, double negligible) {
     removed = remove_basis(block.vectors, block.mass_vectors);
   }
   front_ = block.vectors.cols();
-  vectors_.middleCols(size_, front_) = block.vectors;
+  put_front(block.vectors);
   mass_front_ = std::move(block.mass_vectors);
   coupling_of_front_ = std::move(block.coupling);
+}
+
+void KrylovBasis::put_front(const MatrixXd& vectors) {
+#pragma omp parallel for num_threads(threads_)
+  for (Index k = 0; k < vectors.cols(); ++k) vectors_.col(size_ + k) = vectors.col(k);
 }
 
 void KrylovBasis::start(Index width) {

@@ -70,6 +70,7 @@ class KrylovBasis {
   /// @param removed     what of Q was removed
   /// @param negligible  directions with less coupling than this are dropped
   void set_front(Block block, Eigen::MatrixXd removed, double negligible);
+  void put_front(const Eigen::MatrixXd& vectors);
 
   const ShiftInvertProblem& problem_;
   int threads_;

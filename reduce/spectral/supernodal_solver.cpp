@@ -1,15 +1,16 @@
 #include "reduce/spectral/supernodal_solver.hpp"
 
 #include <algorithm>
-#include <numeric>
+#include <array>
+#include <cstdlib>
+#include <memory>
+#include <new>
 #include <queue>
 
-#include <cblas.h>
 #include <omp.h>
 
-#include "reduce/spectral/blas.hpp"
-#include "reduce/spectral/few_columns.hpp"
-#include "reduce/spectral/symmetric_matrix.hpp"
+#include "reduce/spectral/huge_pages.hpp"
+#include "reduce/spectral/supernode.hpp"
 
 namespace bielle {
 
@@ -20,62 +21,23 @@ constexpr Eigen::Index most_columns = 64;  // at a time: more bring no more spee
 /// Less of the factor than this is not worth another thread, or that threads wait for each other.
 constexpr std::int64_t entries_of_a_thread = 100000;
 
-int blas_integer(std::int64_t k) { return static_cast<int>(k); }
-
-struct Range {
-  std::int64_t first, count;
-};
-
-Range share_of(std::int64_t count, int part, int parts) {
-  const std::int64_t first = count * part / parts;
-  return {first, count * (part + 1) / parts - first};
-}
-
-/// A supernode with the vectors of its rows. Blocks of vectors are by rows: transposed matrices by columns for BLAS.
-struct Supernode {
-  std::int64_t first, width, below;  // own columns, rows below
-  const std::int64_t* rows_below;
-  const double* values;
-
-  std::int64_t stride() const { return width + below; }
-
-  /// own <- L11^-1 own, for some of the columns of `own`.
-  void solve_forwards(double* own, int columns, int row_stride) const {
-    for (std::int64_t begin = 0; begin < width; begin += block) {
-      const std::int64_t count = std::min(block, width - begin), end = begin + count;
-      solve_block(CblasTrans, begin, count, own, columns, row_stride);
-      subtract_product_with_few(width - end, count, values + end + begin * stride(), stride(), own + begin * row_stride,
-                                own + end * row_stride, columns, row_stride);
-    }
+/// Vectors by rows. Not set to anything: each thread touches first what it will use.
+class RowsOfVectors {
+ public:
+  RowsOfVectors(std::int64_t rows, int vectors)
+      : stride_(vectors),
+        numbers_(static_cast<double*>(allocate_in_huge_pages(
+            std::max<std::size_t>(1, static_cast<std::size_t>(rows * vectors)) * sizeof(double)))) {
+    if (!numbers_) throw std::bad_alloc();
   }
-  /// own <- L11^-T own
-  void solve_backwards(double* own, int columns, int row_stride) const {
-    for (std::int64_t begin = (width - 1) / block * block; begin >= 0; begin -= block) {
-      const std::int64_t count = std::min(block, width - begin), end = begin + count;
-      subtract_transposed_product_with_few(width - end, count, values + end + begin * stride(), stride(),
-                                           own + end * row_stride, own + begin * row_stride, columns, row_stride);
-      solve_block(CblasNoTrans, begin, count, own, columns, row_stride);
-    }
-  }
-  /// out <- -L21 own, of some of the rows below.
-  void multiply(Range rows, const double* own, double* out, int columns) const {
-    std::fill_n(out, rows.count * columns, 0.0);
-    subtract_product_with_few(rows.count, width, values + width + rows.first, stride(), own, out, columns, columns);
-  }
-  /// own <- own - L21^T in, of some of its own columns.
-  void subtract_transposed(Range own_columns, const double* in, double* own, int columns) const {
-    subtract_transposed_product_with_few(below, own_columns.count, values + width + own_columns.first * stride(),
-                                         stride(), in, own + own_columns.first * columns, columns, columns);
-  }
+  double* row(std::int64_t k) const { return numbers_.get() + k * stride_; }
 
  private:
-  static constexpr std::int64_t block = 32;
-
-  void solve_block(CBLAS_TRANSPOSE order, std::int64_t begin, std::int64_t count, double* own, int columns,
-                   int row_stride) const {
-    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, order, CblasNonUnit, columns, blas_integer(count), 1,
-                values + begin * (stride() + 1), blas_integer(stride()), own + begin * row_stride, row_stride);
-  }
+  struct Freed {
+    void operator()(double* memory) const { std::free(memory); }
+  };
+  std::int64_t stride_;
+  std::unique_ptr<double, Freed> numbers_;
 };
 
 void add_row(double* to, const double* from, int columns) {
@@ -84,21 +46,33 @@ void add_row(double* to, const double* from, int columns) {
 
 }  // namespace
 
+/// What one solution writes to.
+struct SupernodalSolver::Room {
+  int columns;
+  RowsOfVectors y;
+  std::vector<RowsOfVectors> sums;  // what the subtrees of each thread give to the rows above them
+
+  Room(const SupernodalSolver& solver, int count) : columns(count), y(solver.factor_.size, count) {
+    for (std::size_t part = 0; part < solver.of_threads_.size(); ++part) sums.emplace_back(solver.rows_above_, count);
+  }
+};
+
 /// One solution with some columns.
 class SupernodalSolver::Sweep {
  public:
-  Sweep(const SupernodalSolver& solver, const Eigen::MatrixXd& b, Eigen::MatrixXd& x, Eigen::Index first, int columns)
+  /// @param given  columns of b and x from the first on
+  Sweep(const SupernodalSolver& solver, Room& room, const Eigen::MatrixXd& b, Eigen::MatrixXd& x, Eigen::Index first,
+        int given)
       : solver_(solver),
         factor_(solver.factor_),
-        parts_(blas_integer(static_cast<std::int64_t>(solver.of_threads_.size()))),
-        columns_((columns + vectors_abreast - 1) / vectors_abreast * vectors_abreast),
-        given_(columns),
+        parts_(static_cast<int>(solver.of_threads_.size())),
+        columns_(room.columns),
+        given_(given),
         first_(first),
         b_(b),
         x_(x),
-        y_(RowMatrix::Zero(factor_.size, columns_)),
-        rooms_(static_cast<std::size_t>(parts_), RowMatrix(solver.longest_, columns_)),
-        sums_(static_cast<std::size_t>(parts_), RowMatrix::Zero(solver.rows_above_, columns_)) {}
+        y_(room.y),
+        sums_(room.sums) {}
 
   void run() {
     // Where fewer threads come than were asked for (inside of other parallel work), each does several parts.
@@ -114,9 +88,9 @@ class SupernodalSolver::Sweep {
           [&](const Supernode& node) { forwards(node, 0, true); });
       for_above(
           std::vector<std::int64_t>(solver_.above_.rbegin(), solver_.above_.rend()),
-          [&](const Supernode& node) { backwards_together(node); }, [&](const Supernode& node) { backwards(node, 0); });
+          [&](const Supernode& node) { backwards_together(node); }, [&](const Supernode& node) { backwards(node); });
       each_part([&](int part) {
-        for (auto s = own(part).rbegin(); s != own(part).rend(); ++s) backwards(supernode(*s), part);
+        for (auto s = own(part).rbegin(); s != own(part).rend(); ++s) backwards(supernode(*s));
       });
       each_part([&](int part) { copy_out(part); });
     }
@@ -149,99 +123,105 @@ class SupernodalSolver::Sweep {
   static std::int64_t entries(const Supernode& node) { return node.width * (node.width + node.below); }
 
   const std::vector<std::int64_t>& own(int part) const { return solver_.of_threads_[static_cast<std::size_t>(part)]; }
-  double* room(int part) { return rooms_[static_cast<std::size_t>(part)].data(); }
-
   Supernode supernode(std::int64_t s) const {
     const std::int64_t width = factor_.columns[s + 1] - factor_.columns[s];
     const std::int64_t rows = factor_.row_starts[s + 1] - factor_.row_starts[s];
     return {factor_.columns[s], width, rows - width, factor_.rows + factor_.row_starts[s] + width,
             factor_.values + factor_.value_starts[s]};
   }
-  double* row(std::int64_t k) { return y_.data() + k * columns_; }
+  double* row(std::int64_t k) const { return y_.row(k); }
+  Vectors all_vectors() const { return {0, columns_, columns_}; }
 
+  // Along the columns of the vectors: unknowns that follow each other in the factor are all over the place in them,
+  // while the rows here are as long as a line of the cache or longer.
   void copy_in(int part) {
-    const Range rows = share_of(factor_.size, part, parts_);
-    for (std::int64_t k = rows.first; k < rows.first + rows.count; ++k) {
-      const double* from = &b_(factor_.order[k], first_);
-      double* to = row(k);
+    const Range unknowns = share_of(factor_.size, part, parts_);
+    for (std::int64_t i = unknowns.first; i < unknowns.first + unknowns.count; ++i) {
+      const double* const from = &b_(i, first_);
+      double* const to = row(solver_.places_[static_cast<std::size_t>(i)]);
       for (int c = 0; c < given_; ++c) to[c] = from[c * b_.rows()];
+      std::fill(to + given_, to + columns_, 0.0);
     }
+    std::fill_n(sums_[static_cast<std::size_t>(part)].row(0), solver_.rows_above_ * columns_, 0.0);
   }
   void copy_out(int part) {
-    const Range rows = share_of(factor_.size, part, parts_);
-    for (std::int64_t k = rows.first; k < rows.first + rows.count; ++k) {
-      double* to = &x_(factor_.order[k], first_);
-      const double* from = row(k);
+    const Range unknowns = share_of(factor_.size, part, parts_);
+    for (std::int64_t i = unknowns.first; i < unknowns.first + unknowns.count; ++i) {
+      double* const to = &x_(i, first_);
+      const double* const from = row(solver_.places_[static_cast<std::size_t>(i)]);
       for (int c = 0; c < given_; ++c) to[c * x_.rows()] = from[c];
     }
   }
   /// What the subtrees of all threads give to the rows above them.
   void add_sums(int part) {
     const Range rows = share_of(solver_.rows_above_, part, parts_);
-    for (const RowMatrix& sum : sums_) {
-      const double* from = sum.data() + rows.first * columns_;
-      for (std::int64_t k = rows.first; k < rows.first + rows.count; ++k, from += columns_)
-        add_row(row(solver_.unknowns_above_[static_cast<std::size_t>(k)]), from, columns_);
+    for (const RowsOfVectors& sums : sums_)
+      for (std::int64_t k = rows.first; k < rows.first + rows.count; ++k)
+        add_row(row(solver_.unknowns_above_[static_cast<std::size_t>(k)]), sums.row(k), columns_);
+  }
+
+  /// Where the vectors of the rows of a panel below a supernode are.
+  using RowAddresses = std::array<double*, lines_abreast>;
+  RowAddresses rows_of(const Supernode& node, Range rows) const {
+    RowAddresses addresses{};
+    for (std::int64_t k = 0; k < rows.count; ++k)
+      addresses[static_cast<std::size_t>(k)] = row(node.rows_below[rows.first + k]);
+    return addresses;
+  }
+  /// Where a subtree puts what it gives to them: rows above all subtrees have a sum in each of them.
+  RowAddresses sums_of(const Supernode& node, Range rows, int part) const {
+    RowAddresses addresses{};
+    for (std::int64_t k = 0; k < rows.count; ++k) {
+      const std::int64_t to = node.rows_below[rows.first + k];
+      const std::int64_t above = solver_.place_above_[static_cast<std::size_t>(to)];
+      addresses[static_cast<std::size_t>(k)] = above < 0 ? row(to) : sums_[static_cast<std::size_t>(part)].row(above);
     }
+    return addresses;
   }
 
   /// @param is_above  what is given to rows above is not kept apart
   void forwards(const Supernode& node, int part, bool is_above = false) {
     double* const own = row(node.first);
-    node.solve_forwards(own, columns_, columns_);
-    if (node.below == 0) return;
-    double* update = room(part);
-    node.multiply({0, node.below}, own, update, columns_);
-    double* const sums = sums_[static_cast<std::size_t>(part)].data();
-    for (std::int64_t k = 0; k < node.below; ++k, update += columns_) {
-      const std::int64_t to = node.rows_below[k];
-      const std::int64_t above = is_above ? -1 : solver_.place_above_[static_cast<std::size_t>(to)];
-      add_row(above < 0 ? row(to) : sums + above * columns_, update, columns_);
+    node.substitute_forwards(own, all_vectors());
+    for (std::int64_t panel = 0; panel < node.panels_below(); ++panel) {
+      const Range rows = node.rows_of_panel(panel);
+      const RowAddresses to = is_above ? rows_of(node, rows) : sums_of(node, rows, part);
+      FewVectors::fastest().subtract_product(node.panel_below(rows, {0, node.width}), own, to.data(), all_vectors());
     }
   }
-  void backwards(const Supernode& node, int part) {
-    double* const own = row(node.first);
-    if (node.below > 0) {
-      gather_below(node, part);
-      node.subtract_transposed({0, node.width}, room(part), own, columns_);
+  /// own <- own - L21^T of the rows below, some of its own columns.
+  void take_from_below(const Supernode& node, Range own_columns) {
+    double* const own = row(node.first + own_columns.first);
+    for (std::int64_t panel = 0; panel < node.panels_below(); ++panel) {
+      const Range rows = node.rows_of_panel(panel);
+      FewVectors::fastest().subtract_transposed_product(node.panel_below(rows, own_columns), rows_of(node, rows).data(),
+                                                        own, all_vectors());
     }
-    node.solve_backwards(own, columns_, columns_);
+  }
+  void backwards(const Supernode& node) {
+    take_from_below(node, {0, node.width});
+    node.substitute_backwards(row(node.first), all_vectors());
   }
 
-  // All threads at one supernode: each with some columns of the vectors, then with some rows of the supernode.
-  void solve_triangle_together(const Supernode& node, bool forwards) {
-    each_part([&](int part) {
-      const Range quads = share_of(columns_ / vectors_abreast, part, parts_);
-      double* const own = row(node.first) + quads.first * vectors_abreast;
-      const int columns = blas_integer(quads.count) * vectors_abreast;
-      if (columns == 0) return;
-      forwards ? node.solve_forwards(own, columns, columns_) : node.solve_backwards(own, columns, columns_);
-    });
+  // All threads at one supernode: each with some of the vectors, then with some rows or columns of the supernode.
+  Vectors own_vectors(int part) const {
+    const Range own = share_of(columns_ / vectors_abreast, part, parts_);
+    return {static_cast<int>(own.first) * vectors_abreast, static_cast<int>(own.count) * vectors_abreast, columns_};
   }
   void forwards_together(const Supernode& node) {
-    solve_triangle_together(node, true);
+    each_part([&](int part) { node.substitute_forwards(row(node.first), own_vectors(part)); });
     each_part([&](int part) {
-      const Range rows = share_of(node.below, part, parts_);
-      if (rows.count == 0) return;
-      double* update = room(part);
-      node.multiply(rows, row(node.first), update, columns_);
-      for (std::int64_t k = rows.first; k < rows.first + rows.count; ++k, update += columns_)
-        add_row(row(node.rows_below[k]), update, columns_);
+      const Range panels = share_of(node.panels_below(), part, parts_);
+      for (std::int64_t panel = panels.first; panel < panels.first + panels.count; ++panel) {
+        const Range rows = node.rows_of_panel(panel);
+        FewVectors::fastest().subtract_product(node.panel_below(rows, {0, node.width}), row(node.first),
+                                               rows_of(node, rows).data(), all_vectors());
+      }
     });
   }
   void backwards_together(const Supernode& node) {
-    each_part([&](int part) {
-      const Range columns = share_of(node.width, part, parts_);
-      if (node.below == 0 || columns.count == 0) return;
-      gather_below(node, part);
-      node.subtract_transposed(columns, room(part), row(node.first), columns_);
-    });
-    solve_triangle_together(node, false);
-  }
-
-  void gather_below(const Supernode& node, int part) {
-    double* to = room(part);
-    for (std::int64_t k = 0; k < node.below; ++k, to += columns_) std::copy_n(row(node.rows_below[k]), columns_, to);
+    each_part([&](int part) { take_from_below(node, share_of(node.width, part, parts_)); });
+    each_part([&](int part) { node.substitute_backwards(row(node.first), own_vectors(part)); });
   }
 
   const SupernodalSolver& solver_;
@@ -250,23 +230,46 @@ class SupernodalSolver::Sweep {
   Eigen::Index first_;
   const Eigen::MatrixXd& b_;
   Eigen::MatrixXd& x_;
-  RowMatrix y_;
-  std::vector<RowMatrix> rooms_, sums_;
+  RowsOfVectors& y_;
+  std::vector<RowsOfVectors>& sums_;
 };
 
-SupernodalSolver::SupernodalSolver(const SupernodalFactor& factor, int threads) : factor_(factor) {
+SupernodalSolver::SupernodalSolver(const SupernodalFactor& factor, double* values, int threads) : factor_(factor) {
+  factor_.values = values;
   std::vector<std::int64_t> owner(static_cast<std::size_t>(factor.size));
   for (std::int64_t s = 0; s < factor.supernodes; ++s)
     std::fill(owner.begin() + factor.columns[s], owner.begin() + factor.columns[s + 1], s);
   parents_.resize(static_cast<std::size_t>(factor.supernodes), -1);
   for (std::int64_t s = 0; s < factor.supernodes; ++s) {
     const std::int64_t below = factor.row_starts[s] + factor.columns[s + 1] - factor.columns[s];
-    longest_ = std::max(longest_, factor.row_starts[s + 1] - below);
     if (below < factor.row_starts[s + 1])
       parents_[static_cast<std::size_t>(s)] = owner[static_cast<std::size_t>(factor.rows[below])];
   }
+  places_.resize(static_cast<std::size_t>(factor.size));
+  for (std::int64_t k = 0; k < factor.size; ++k) places_[static_cast<std::size_t>(factor.order[k])] = k;
   share_out(threads);
+  cut_into_panels(values);
 }
+
+void SupernodalSolver::cut_into_panels(double* values) const {
+  std::int64_t largest = 0;
+  for (std::int64_t s = 0; s < factor_.supernodes; ++s)
+    largest = std::max(largest, factor_.value_starts[s + 1] - factor_.value_starts[s]);
+  std::vector<RowsOfVectors> rooms;
+  for (std::size_t part = 0; part < of_threads_.size(); ++part) rooms.emplace_back(largest, 1);
+#pragma omp parallel num_threads(static_cast<int>(rooms.size()))
+  {
+    double* const room = rooms[static_cast<std::size_t>(omp_get_thread_num())].row(0);
+#pragma omp for schedule(dynamic, 1)
+    for (std::int64_t k = 0; k < factor_.supernodes; ++k) {
+      const std::int64_t s = factor_.supernodes - 1 - k;  // the largest come last
+      bielle::cut_into_panels(factor_.row_starts[s + 1] - factor_.row_starts[s],
+                              factor_.columns[s + 1] - factor_.columns[s], values + factor_.value_starts[s], room);
+    }
+  }
+}
+
+SupernodalSolver::~SupernodalSolver() = default;
 
 /// Cuts the largest subtree off its root until there are enough for each thread, and gives each in turn to the thread
 /// that has least.
@@ -291,7 +294,7 @@ void SupernodalSolver::share_out(int threads) {
     }
   }
   const std::int64_t useful = std::clamp<std::int64_t>(all / entries_of_a_thread, 1, std::max(1, threads));
-  threads = blas_integer(useful);
+  threads = static_cast<int>(useful);
   of_threads_.resize(static_cast<std::size_t>(threads));
   if (threads > 1) {
     const std::int64_t small = all / (4 * threads);
@@ -326,11 +329,29 @@ void SupernodalSolver::share_out(int threads) {
 }
 
 Eigen::MatrixXd SupernodalSolver::solve(const Eigen::MatrixXd& b) const {
-  const BlasThreads one(1);
   Eigen::MatrixXd x(b.rows(), b.cols());
-  for (Eigen::Index first = 0; first < b.cols(); first += most_columns)
-    Sweep(*this, b, x, first, blas_integer(std::min(most_columns, b.cols() - first))).run();
+  for (Eigen::Index first = 0; first < b.cols(); first += most_columns) {
+    const auto given = static_cast<int>(std::min(most_columns, b.cols() - first));
+    std::unique_ptr<Room> room = take_room((given + vectors_abreast - 1) / vectors_abreast * vectors_abreast);
+    Sweep(*this, *room, b, x, first, given).run();
+    keep(std::move(room));
+  }
   return x;
+}
+
+std::unique_ptr<SupernodalSolver::Room> SupernodalSolver::take_room(int columns) const {
+  {
+    const std::lock_guard lock(guard_);
+    if (kept_ && kept_->columns == columns) return std::move(kept_);
+  }
+  return std::make_unique<Room>(*this, columns);
+}
+
+void SupernodalSolver::keep(std::unique_ptr<Room> room) const {
+  constexpr int most_kept = 16;  // columns: little beside the factor
+  if (room->columns > most_kept) return;
+  const std::lock_guard lock(guard_);
+  kept_ = std::move(room);
 }
 
 }  // namespace bielle

@@ -286,8 +286,8 @@ SymmetricFactor::SymmetricFactor(const SymmetricMatrix& a, std::span<const std::
     throw NotPositiveDefinite(unknown);
   }
   statistics.reciprocal_condition = cholmod_l_rcond(factor, common);
-  implementation_->structure.values = static_cast<const double*>(factor->x);
-  implementation_->solver.emplace(implementation_->structure, implementation_->threads);
+  implementation_->solver.emplace(implementation_->structure, static_cast<double*>(factor->x),
+                                  implementation_->threads);
 }
 
 SymmetricFactor::SymmetricFactor(SymmetricFactor&&) noexcept = default;

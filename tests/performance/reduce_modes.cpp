@@ -1,7 +1,7 @@
 // What the fixed-boundary modes of the connecting rod cost: block Lanczos with blocks of several widths against ARPACK
 // with single vectors, with the same factor, in one run.
 //
-//   reduce_modes [--size MM ...] [--modes N ...] [--block B ...] [--no-arpack] [--rounds R]
+//   reduce_modes [--size MM ...] [--modes N ...] [--block B ...] [--tolerance T] [--no-arpack] [--rounds R]
 //
 // For each mesh: the time of a solution with 1, 2, 4 .. 64 columns, of a product with the mass, then for each number of
 // modes the time, sweeps (readings of the factor), columns and restarts of each method, its time over ARPACK's, and the
@@ -35,6 +35,7 @@ struct Settings {
   std::vector<double> sizes{3.4, 2.13};  // [mm]
   std::vector<int> modes{20, 200}, blocks{0};
   bool no_arpack = false;
+  double tolerance = EigenpairOptions().tolerance;
   int rounds = 2, threads = available_processors();
 };
 
@@ -99,7 +100,10 @@ void measure_methods(const ShiftInvertProblem& problem, int modes, const Setting
     runs.push_back({block == 0 ? "block (default)" : fmt::format("block of {}", block), {}});
     runs.back().options.block = block;
   }
-  for (Run& run : runs) run.options.threads = settings.threads;
+  for (Run& run : runs) {
+    run.options.threads = settings.threads;
+    run.options.tolerance = settings.tolerance;
+  }
   for (int round = 0; round < settings.rounds; ++round) {
     for (Run& run : runs) {
       run.seconds.take_less(seconds_of([&] { run.pairs = shift_invert_eigenpairs(problem, modes + 1, run.options); }));
@@ -150,6 +154,7 @@ int main(int argc, char** argv) {
   app.add_option("--modes", settings.modes, "numbers of modes");
   app.add_option("--block", settings.blocks, "columns of a block; 0: the default");
   app.add_flag("--no-arpack", settings.no_arpack);
+  app.add_option("--tolerance", settings.tolerance, "relative, of the iteration");
   app.add_option("--rounds", settings.rounds);
   app.add_option("--threads", settings.threads);
   CLI11_PARSE(app, argc, argv);

@@ -18,6 +18,11 @@ TEST_CASE("tall products: those of Eigen, for any number of threads and rows", "
       combine_columns(Q, C, threads);
       CHECK(Q.leftCols(5).isApprox(A * C, 1e-13));
       CHECK(Q.rightCols(8) == A.rightCols(8));
+      const MatrixXd many = MatrixXd::Random(rows, 40), weights = MatrixXd::Random(13, 40);  // too many for registers
+      CHECK(tall_inner_products(A, many, threads).isApprox(A.transpose() * many, 1e-13));
+      Y = many;
+      add_tall_product(Y, A, weights, 1, threads);
+      CHECK(Y.isApprox(many + A * weights, 1e-13));
     }
   }
 }
