@@ -36,7 +36,9 @@ TEST_CASE("Memory is touched while others work, and given back") {
     }
   }
   CHECK(most > before + 200);
+#ifndef __SANITIZE_ADDRESS__  // which holds back what is freed
   CHECK(resident_MB() < before + 50);
+#endif
 }
 
 TEST_CASE("More memory than there is is not touched") {
