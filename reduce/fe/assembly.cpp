@@ -1,5 +1,6 @@
 #include "reduce/fe/assembly.hpp"
 
+#include <array>
 #include <atomic>
 #include <cmath>
 
@@ -8,6 +9,7 @@
 #include "reduce/common/error.hpp"
 #include "reduce/fe/cell_geometry.hpp"
 #include "reduce/fe/elasticity.hpp"
+#include "reduce/spectral/blas.hpp"
 
 namespace bielle::reduce {
 
@@ -58,6 +60,24 @@ SymmetricMatrix stiffness_pattern(const NodeGraph& graph) {
   return k;
 }
 
+/// Column of blocks b, and how many neighbours after b itself the block's row is.
+struct BlockPlace {
+  int b;
+  std::int64_t behind;
+};
+
+/// @param block  K_ab(i,j) at i + 3 j
+void add_block(const BlockPlace& to, const double* block, SymmetricMatrix& k) {
+  for (int j = 0; j < 3; ++j) {
+    double* column = &k.values[k.starts[3 * to.b + j]];
+    if (to.behind == 0) {
+      for (int i = j; i < 3; ++i) column[i - j] += block[i + 3 * j];
+    } else {  // three rows for each higher neighbour follow the node's own block
+      for (int i = 0; i < 3; ++i) column[3 * to.behind - j + i] += block[i + 3 * j];
+    }
+  }
+}
+
 /// The cell's stiffness by blocks: K_ab(i,k) in row i + 3 k of column a + N b, for all a >= b in the order of the mesh.
 template <int N>
 void add_stiffness(const Solid& solid, const NodeGraph& graph, SymmetricMatrix& k, int threads) {
@@ -67,11 +87,12 @@ void add_stiffness(const Solid& solid, const NodeGraph& graph, SymmetricMatrix& 
     tensors.push_back(elasticity_tensor(material.elasticity));
   }
   InvertedCells inverted;
+  constexpr int most_points = N == 4 ? 1 : 27, pairs = N * (N + 1) / 2;
+  const BlasThreads one(1);
   for_each_cell(solid.nodes, solid.points(), threads, [&](Eigen::Index e) {
     const CellPoints<N> x = cell_points<N>(solid.mesh.points, solid.nodes, e);
     const CellRule<N>& rule = rules.of(x);
-    // w_(3a+j)(3b+l) = int dN_a/dx_j dN_b/dx_l dV
-    Eigen::Matrix<double, 3 * N, 3 * N> w = Eigen::Matrix<double, 3 * N, 3 * N>::Zero();
+    Eigen::Matrix<double, 3 * N, most_points> g, weighted;
     Eigen::Matrix<double, N, 3> gradients;
     for (std::size_t p = 0; p < rule.size(); ++p) {
       const double volume = map_point<N>(rule, p, x, gradients);
@@ -79,36 +100,29 @@ void add_stiffness(const Solid& solid, const NodeGraph& graph, SymmetricMatrix& 
         inverted.note(e);
         return;
       }
-      const Eigen::Matrix<double, 3 * N, 1> g = gradients.transpose().reshaped();
-      w.noalias() += volume * g * g.transpose();
+      g.col(static_cast<Eigen::Index>(p)) = gradients.transpose().reshaped();
+      weighted.col(static_cast<Eigen::Index>(p)) = volume * g.col(static_cast<Eigen::Index>(p));
     }
-    const Eigen::Matrix<double, 9, 9>& tensor = tensors[solid.material_of[e]];
+    // w_(3a+j)(3b+l) = int dN_a/dx_j dN_b/dx_l dV
+    Eigen::Matrix<double, 3 * N, 3 * N> w = Eigen::Matrix<double, 3 * N, 3 * N>::Zero();
+    const auto points = static_cast<Eigen::Index>(rule.size());
+    add_dense_product({weighted.data(), 3 * N, points, 3 * N, false}, {g.data(), points, 3 * N, 3 * N, true}, w.data(),
+                      3 * N);
+    const CellPlaces<N> places(graph, solid.nodes, e);
+    std::array<BlockPlace, pairs> to;
+    Eigen::Matrix<double, 9, pairs> w_of_pairs, k_of_pairs = Eigen::Matrix<double, 9, pairs>::Zero();
+    int pair = 0;
     for (int cell_b = 0; cell_b < N; ++cell_b) {
       const int b = solid.nodes(cell_b, e);
       const std::int64_t own = graph.place(b, b);
-      for (int cell_a = 0; cell_a < N; ++cell_a) {
-        const int a = solid.nodes(cell_a, e);
-        if (a < b) {
-          continue;
-        }
-        const Eigen::Matrix<double, 9, 1> w_ab = w.template block<3, 3>(3 * cell_a, 3 * cell_b).reshaped();
-        const Eigen::Matrix<double, 9, 1> k_ab = tensor * w_ab;
-        // Three rows for each higher neighbour follow the node's own block.
-        const std::int64_t behind = a == b ? 0 : 3 * (graph.place(b, a) - own - 1);
-        for (int j = 0; j < 3; ++j) {
-          double* column = &k.values[k.starts[3 * b + j]];
-          if (a == b) {
-            for (int i = j; i < 3; ++i) {
-              column[i - j] += k_ab(i + 3 * j);
-            }
-          } else {
-            for (int i = 0; i < 3; ++i) {
-              column[3 - j + behind + i] += k_ab(i + 3 * j);
-            }
-          }
-        }
-      }
+      places.from(cell_b, own, [&](int cell_a, std::int64_t place) {
+        w_of_pairs.col(pair) = w.template block<3, 3>(3 * cell_a, 3 * cell_b).reshaped();
+        to[static_cast<std::size_t>(pair++)] = {b, place - own};
+      });
     }
+    const Eigen::Matrix<double, 9, 9>& tensor = tensors[solid.material_of[e]];
+    add_dense_product({tensor.data(), 9, 9, 9, false}, {w_of_pairs.data(), 9, pairs, 9, false}, k_of_pairs.data(), 9);
+    for (pair = 0; pair < pairs; ++pair) add_block(to[static_cast<std::size_t>(pair)], k_of_pairs.col(pair).data(), k);
   });
   inverted.check(solid);
 }
@@ -116,11 +130,8 @@ void add_stiffness(const Solid& solid, const NodeGraph& graph, SymmetricMatrix& 
 template <int N>
 void add_to_node_matrix(const Solid& solid, const NodeGraph& graph, Eigen::Index e,
                         const Eigen::Matrix<double, N, N>& values, NodeMatrix& m) {
-  for (int a = 0; a < N; ++a) {
-    for (int b = 0; b < N; ++b) {
-      m.values[graph.place(solid.nodes(a, e), solid.nodes(b, e))] += values(a, b);
-    }
-  }
+  const CellPlaces<N> places(graph, solid.nodes, e);
+  for (int a = 0; a < N; ++a) places.all(a, [&](int b, std::int64_t place) { m.values[place] += values(a, b); });
 }
 
 template <int N>

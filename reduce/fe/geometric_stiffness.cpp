@@ -1,11 +1,12 @@
 #include "reduce/fe/geometric_stiffness.hpp"
 
 #include <algorithm>
+#include <memory>
 
 #include <omp.h>
 
+#include "reduce/fe/cell_fields.hpp"
 #include "reduce/fe/cell_geometry.hpp"
-#include "reduce/fe/elasticity.hpp"
 #include "reduce/spectral/blas.hpp"
 
 namespace bielle::reduce {
@@ -18,78 +19,103 @@ using Eigen::MatrixXd;
 /// The matrices g of all fields, lower triangles with half of the diagonal: column `first[a] + j` has the numbers of
 /// all fields for node a and its j-th neighbour from itself on.
 struct FieldMatrices {
-  std::vector<std::int64_t> first;  ///< and one more
-  std::vector<std::int64_t> own;    ///< place of node a among its own neighbours
-  MatrixXd values;                  ///< (fields, pairs)
+  Index fields;
+  std::vector<std::int64_t> first{0};  ///< and one more
+  std::vector<std::int64_t> own;       ///< place of node a among its own neighbours
+  std::unique_ptr<double[]> values;    ///< (fields, pairs)
 
-  FieldMatrices(const NodeGraph& graph, Index fields) : first{0} {
+  FieldMatrices(const NodeGraph& graph, Index count, int threads) : fields(count) {
     for (int a = 0; a < graph.size(); ++a) {
       own.push_back(graph.starts[a] == graph.starts[a + 1] ? graph.starts[a] : graph.place(a, a));
       first.push_back(first.back() + graph.starts[a + 1] - own[a]);
     }
-    values = MatrixXd::Zero(fields, first.back());
+    values = std::make_unique_for_overwrite<double[]>(static_cast<std::size_t>(fields * first.back()));
+#pragma omp parallel for num_threads(threads) schedule(static)
+    for (Index a = 0; a < graph.size(); ++a) std::fill(column(first[a]), column(first[a + 1]), 0.0);
   }
+  double* column(std::int64_t pair) { return values.get() + pair * fields; }
+  const double* column(std::int64_t pair) const { return values.get() + pair * fields; }
 };
 
-/// Places of the components of a symmetric tensor, and the products of gradients that they multiply.
-constexpr int tensor_rows[6] = {0, 1, 2, 1, 0, 0}, tensor_columns[6] = {0, 1, 2, 2, 2, 1};
+/// Exact to degree 3, as P. Keast, Comput. Methods Appl. Mech. Eng. 55 (1986) 339, gives it: the product of a linear
+/// stress and two linear gradients.
+Quadrature five_points() {
+  Quadrature rule{Eigen::MatrixXd::Constant(3, 5, 1.0 / 6), Eigen::VectorXd::Constant(5, 3.0 / 40)};
+  rule.points.leftCols<3>().diagonal().setConstant(0.5);
+  rule.points.col(4).setConstant(0.25);
+  rule.weights(4) = -2.0 / 15;
+  return rule;
+}
+
+/// What stress component xx yy zz yz xz xy, in one field, is multiplied by in g_ab: products of gradients, those off
+/// the diagonal for two. Rows 6 p + s of a column for each pair a <= b of nodes; the diagonal of g is halved.
+template <int N>
+void set_products(const Eigen::Matrix<double, N, 3>& d, Index p, MatrixXd& products) {
+  double* column = &products(6 * p, 0);
+  for (int a = 0; a < N; ++a) {
+    for (int b = a; b < N; ++b, column += products.rows()) {
+      const double half = a == b ? 0.5 : 1, x = half * d(b, 0), y = half * d(b, 1), z = half * d(b, 2);
+      column[0] = d(a, 0) * x;
+      column[1] = d(a, 1) * y;
+      column[2] = d(a, 2) * z;
+      column[3] = d(a, 1) * z + d(a, 2) * y;
+      column[4] = d(a, 0) * z + d(a, 2) * x;
+      column[5] = d(a, 0) * y + d(a, 1) * x;
+    }
+  }
+}
+
+/// Number of a pair of nodes of a cell, in the order of `set_products`.
+constexpr int pair_number(int a, int b, int nodes) {
+  return a <= b ? a * nodes - a * (a - 1) / 2 + b - a : pair_number(b, a, nodes);
+}
 
 template <int N>
 void add_cells(const Solid& solid, const NodeGraph& graph, const RowMatrix& fields, FieldMatrices& g, int threads) {
   constexpr int pairs = N * (N + 1) / 2;
-  const CellRules<N> rules(N == 4 ? CellDegrees{0, 0} : CellDegrees{3, 5});
-  const Index count = fields.cols();
-  for_each_cell(solid.nodes, solid.points(), threads, [&](Index e) {
-    const CellPoints<N> x = cell_points<N>(solid.mesh.points, solid.nodes, e);
-    const CellRule<N>& rule = rules.of(x);
-    const auto& elasticity = solid.materials[solid.material_of[e]].elasticity;
-    const auto points = static_cast<Index>(rule.size());
-    // Row 3 f + i: displacements along i of field f; columns 3 p + j: gradients along j at point p.
-    MatrixXd displacements(3 * count, N), gradients(N, 3 * points), products(6 * points, pairs);
-    for (int a = 0; a < N; ++a) {
-      for (Index f = 0; f < count; ++f) {
-        displacements.block<3, 1>(3 * f, a) = fields.block<3, 1>(3 * solid.nodes(a, e), f);
-      }
-    }
-    Eigen::VectorXd volumes(points);
-    Eigen::Matrix<double, N, 3> d;
-    for (Index p = 0; p < points; ++p) {
-      volumes(p) = map_point<N>(rule, static_cast<std::size_t>(p), x, d);
-      gradients.middleCols<3>(3 * p) = d;
-      int pair = 0;
-      for (int a = 0; a < N; ++a) {
-        for (int b = a; b < N; ++b, ++pair) {
-          for (int s = 0; s < 6; ++s) {
-            const int i = tensor_rows[s], j = tensor_columns[s];
-            // Components off the diagonal stand for two; the diagonal of g is halved.
-            products(6 * p + s, pair) =
-                (i == j ? 1 : 2) * (a == b ? 0.5 : 1) * (d(a, i) * d(b, j) + d(a, j) * d(b, i)) / 2;
-          }
+  const CellRule<N> straight(N == 4 ? simplex_quadrature(3, 0) : five_points());
+  const CellRule<N> curved(simplex_quadrature(3, N == 4 ? 0 : 5));
+  const Index count = fields.cols(), most = static_cast<Index>(std::max(straight.size(), curved.size()));
+  const std::vector<std::vector<int>> colours = colour_cells(solid.nodes, solid.points());
+#pragma omp parallel num_threads(threads)
+  {
+    CellFields<N> cell(most, count);
+    MatrixXd stresses(count, 6 * most), products(6 * most, pairs), sums(count, pairs);
+    Eigen::Matrix<double, N, 3> gradients;
+    for (const std::vector<int>& colour : colours) {
+#pragma omp for schedule(static)
+      for (std::size_t k = 0; k < colour.size(); ++k) {
+        const int e = colour[k];
+        const CellPoints<N> x = cell_points<N>(solid.mesh.points, solid.nodes, e);
+        const CellRule<N>& rule = is_straight<N>(x) ? straight : curved;
+        const auto points = static_cast<Index>(rule.size());
+        for (Index p = 0; p < points; ++p) {
+          const double volume = map_point<N>(rule, static_cast<std::size_t>(p), x, gradients);
+          cell.set_point(p, volume * solid.materials[solid.material_of[e]].elasticity, gradients);
+          set_products<N>(gradients, p, products);
+        }
+        cell.take(fields, solid.nodes, e);
+        cell.evaluate(points, stresses.data());
+        sums.setZero();
+        add_dense_product({stresses.data(), count, 6 * points, count, false},
+                          {products.data(), 6 * points, pairs, products.rows(), false}, sums.data(), count);
+        const CellPlaces<N> places(graph, solid.nodes, e);
+        for (int a = 0; a < N; ++a) {
+          const int low = solid.nodes(a, e);
+          places.from(a, g.own[low], [&](int b, std::int64_t place) {
+            Eigen::Map<Eigen::VectorXd>(g.column(g.first[low] + place - g.own[low]), count) +=
+                sums.col(pair_number(a, b, N));
+          });
         }
       }
     }
-    const MatrixXd h = dense_product(displacements, gradients);
-    MatrixXd stresses(count, 6 * points);
-    for (Index f = 0; f < count; ++f) {
-      for (Index p = 0; p < points; ++p) {
-        stresses.block<1, 6>(f, 6 * p) = volumes(p) * (elasticity * strain_of(h.block<3, 3>(3 * f, 3 * p))).transpose();
-      }
-    }
-    const MatrixXd sums = dense_product(stresses, products);
-    int pair = 0;
-    for (int a = 0; a < N; ++a) {
-      for (int b = a; b < N; ++b, ++pair) {
-        const auto [low, high] = std::minmax(solid.nodes(a, e), solid.nodes(b, e));
-        g.values.col(g.first[low] + graph.place(low, high) - g.own[low]) += sums.col(pair);
-      }
-    }
-  });
+  }
 }
 
 /// The sum over nodes a, neighbours b and components i of T_ai^T g_ab T_bi: (n, n fields), columns of field f at f, f +
 /// fields, ...
 MatrixXd reduce(const NodeGraph& graph, const FieldMatrices& g, const RowMatrix& shapes, int threads) {
-  const Index n = shapes.cols(), fields = g.values.rows(), nodes = graph.size(), width = 3 * n;
+  const Index n = shapes.cols(), fields = g.fields, nodes = graph.size(), width = 3 * n;
   constexpr Index batch = 32;  // nodes: what they make stays in the cache
   std::vector<MatrixXd> sums(threads, MatrixXd::Zero(n, n * fields));
 #pragma omp parallel num_threads(threads)
@@ -108,7 +134,7 @@ MatrixXd reduce(const NodeGraph& graph, const FieldMatrices& g, const RowMatrix&
         }
         double* const out = made.data() + (a - begin) * width * fields;
         std::fill_n(out, width * fields, 0.0);
-        add_dense_product({g.values.data() + g.first[a] * fields, fields, count, fields, false},
+        add_dense_product({g.column(g.first[a]), fields, count, fields, false},
                           {around.data(), count, width, width, true}, out, fields);
       }
       for (int i = 0; i < 3; ++i) {
@@ -129,7 +155,7 @@ std::vector<MatrixXd> reduced_geometric_stiffness(const Solid& solid, const Node
                                                   const RowMatrix& shapes, int threads) {
   const Index count = fields.cols(), n = shapes.cols();
   const BlasThreads one(1);
-  FieldMatrices g(graph, count);
+  FieldMatrices g(graph, count, threads);
   solid.type == CellType::tet4 ? add_cells<4>(solid, graph, fields, g, threads)
                                : add_cells<10>(solid, graph, fields, g, threads);
   const MatrixXd sums = reduce(graph, g, shapes, threads);

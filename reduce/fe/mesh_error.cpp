@@ -2,23 +2,38 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <memory>
 
 #include <Eigen/LU>
 
 #include "reduce/common/dense_solves.hpp"
+#include "reduce/common/symmetric_eigenpairs.hpp"
+#include "reduce/fe/cell_fields.hpp"
 #include "reduce/fe/cell_geometry.hpp"
-#include "reduce/fe/elasticity.hpp"
+#include "reduce/fe/vertex_patches.hpp"
 #include "reduce/spectral/blas.hpp"
 
 namespace bielle::reduce {
 
 namespace {
 
-constexpr int at_a_time = 6;  // so many fields: stress at all sampling points is in memory, and sizes are fixed
+constexpr Eigen::Index at_a_time = 9;  // so many fields: stress at all sampling points is in memory
 
-using SixRows = Eigen::Matrix<double, 6, at_a_time, Eigen::RowMajor>;  // a component of all fields in each row
-using Fields = Eigen::Matrix<double, Eigen::Dynamic, at_a_time, Eigen::RowMajor>;
-using Samples = Eigen::Matrix<double, Eigen::Dynamic, 6 * at_a_time, Eigen::RowMajor>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using RowArray = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+using Numbers = std::unique_ptr<double[]>;
+Numbers numbers(Eigen::Index count) {
+  return std::make_unique_for_overwrite<double[]>(static_cast<std::size_t>(count));
+}
+
+/// W of C = W W.
+Matrix6 root_of(const Matrix6& elasticity) {
+  const SymmetricEigenpairs pairs = symmetric_eigenpairs(elasticity);
+  const Matrix6 vectors = pairs.vectors;
+  return vectors * pairs.values.cwiseMax(0).cwiseSqrt().asDiagonal() * vectors.transpose();
+}
 
 /// What depends on the type of cell: points at which stress is most accurate, and the polynomial fitted to them.
 template <int N>
@@ -37,216 +52,237 @@ struct Fit {
   }
 };
 
-/// Strain at a point of a cell.
-template <int N>
-SixRows strain_at(const Fields& fields, const Eigen::MatrixXi& nodes, Eigen::Index cell,
-                  const Eigen::Matrix<double, N, 3>& gradients) {
-  SixRows strain = SixRows::Zero();
-  for (int a = 0; a < N; ++a)
-    for (int i = 0; i < 3; ++i) {
-      const auto u = fields.row(3 * static_cast<Eigen::Index>(nodes(a, cell)) + i);
-      for (int j = 0; j < 3; ++j) strain.row(voigt(i, j)) += gradients(a, j) * u;
-    }
-  return strain;
-}
-
-/// Cells of one material around each of its vertices.
-struct Surroundings {
-  std::vector<int> vertices;            // points
-  std::vector<int> number;              // of each point, in `vertices`; -1: no vertex of the material
-  std::vector<std::vector<int>> cells;  // around each vertex
-};
-
-Surroundings surroundings(const Solid& solid, int material) {
-  Surroundings result;
-  result.number.assign(solid.points(), -1);
-  for (Eigen::Index e = 0; e < solid.cells(); ++e) {
-    if (solid.material_of[e] != material) continue;
-    for (int v = 0; v < 4; ++v) {
-      int& number = result.number[solid.nodes(v, e)];
-      if (number < 0) {
-        number = static_cast<int>(result.vertices.size());
-        result.vertices.push_back(solid.nodes(v, e));
-        result.cells.emplace_back();
-      }
-      result.cells[number].push_back(static_cast<int>(e));
-    }
-  }
-  return result;
-}
-
-/// The cells around a vertex, and around their vertices until there are as many as asked for or no more.
-std::vector<int> patch_of(const Solid& solid, const Surroundings& around, std::size_t vertex, std::size_t least) {
-  std::vector<int> patch = around.cells[vertex];
-  for (std::size_t before = 0; patch.size() < least && patch.size() > before;) {
-    before = patch.size();
-    std::vector<int> wider;
-    for (const int cell : patch)
-      for (int v = 0; v < 4; ++v) {
-        const std::vector<int>& more = around.cells[around.number[solid.nodes(v, cell)]];
-        wider.insert(wider.end(), more.begin(), more.end());
-      }
-    std::sort(wider.begin(), wider.end());
-    wider.erase(std::unique(wider.begin(), wider.end()), wider.end());
-    patch = std::move(wider);
-  }
-  return patch;
-}
-
-/// The polynomials of all vertices of one material: `terms` rows for each vertex, one column for each component of each
-/// field (component by component), in coordinates from the vertex in units of `scale`.
+/// The polynomials of all vertices of one material, in coordinates from the vertex in units of `scale`: for each vertex
+/// (6 fields, terms), one column after the other.
 struct FittedStress {
-  Samples coefficients;
+  double* coefficients;
   std::vector<double> scale;  // [m]
 };
 
+/// The estimate for some fields. Stress is that of unit compliance, W^-1 s = W eps: its square is twice the energy, and
+/// fits do not care, since each component has its own.
 template <int N>
 class Estimate {
  public:
-  Estimate(const Solid& solid, int threads)
+  /// @param width  fields at a time, at most
+  Estimate(const Solid& solid, const RowMatrix& fields, Eigen::Index width, int threads)
       : solid_(solid),
+        fields_(fields),
         threads_(threads),
         sampling_(simplex_quadrature(3, Fit<N>::sampling_degree)),
-        rule_(simplex_quadrature(3, Fit<N>::error_degree)) {
-    for (int m = 0; m < static_cast<int>(solid.materials.size()); ++m) around_.push_back(surroundings(solid, m));
+        rule_(simplex_quadrature(3, Fit<N>::error_degree)),
+        around_(all_surroundings(solid)),
+        samples_(numbers(solid.cells() * size_of_samples(width))),
+        coefficients_(numbers(most_vertices() * terms * 6 * width)) {
+    for (const Material& material : solid.materials) roots_.push_back(root_of(material.elasticity));
+    set_interpolation();
   }
 
-  /// Energies of the error and of the field, (cells, fields).
-  void add(const Fields& fields, Fields& error, Fields& energy) const {
-    const Samples samples = sample(fields);
-    for (std::size_t m = 0; m < around_.size(); ++m)
-      compare(fields, fit(samples, around_[m]), static_cast<int>(m), error, energy);
+  /// Energies, doubled, of the error and of the fields from `first` on: (cells, fields).
+  void calc(Eigen::Index first, RowArray& error, RowArray& energy) {
+    first_ = first;
+    width_ = error.cols();
+    sample(energy);
+    for (std::size_t m = 0; m < around_.size(); ++m) compare(fit(around_[m]), static_cast<int>(m), error, energy);
   }
 
  private:
   static constexpr int terms = Fit<N>::terms;
+  static constexpr int most_points = 8;  // of `rule_`
 
-  CellPoints<N> points_of(Eigen::Index cell) const { return cell_points<N>(solid_.mesh.points, solid_.nodes, cell); }
-
-  /// Stress at the sampling points, one row for each point of each cell.
-  Samples sample(const Fields& fields) const {
-    const auto points = static_cast<Eigen::Index>(sampling_.size());
-    Samples result(solid_.cells() * points, 6 * at_a_time);
-#pragma omp parallel for num_threads(threads_) schedule(static)
-    for (Eigen::Index e = 0; e < solid_.cells(); ++e) {
-      const CellPoints<N> x = points_of(e);
-      Eigen::Matrix<double, N, 3> gradients;
-      for (Eigen::Index p = 0; p < points; ++p) {
-        map_point<N>(sampling_, p, x, gradients);
-        Eigen::Map<SixRows>(result.row(e * points + p).data()) =
-            solid_.materials[solid_.material_of[e]].elasticity * strain_at<N>(fields, solid_.nodes, e, gradients);
-      }
-    }
+  static std::vector<Surroundings> all_surroundings(const Solid& solid) {
+    std::vector<Surroundings> result;
+    for (int m = 0; m < static_cast<int>(solid.materials.size()); ++m) result.push_back(surroundings(solid, m));
     return result;
   }
+  Eigen::Index most_vertices() const {
+    std::size_t most = 0;
+    for (const Surroundings& around : around_) most = std::max(most, around.vertices.size());
+    return static_cast<Eigen::Index>(most);
+  }
+  Eigen::Index size_of_samples(Eigen::Index fields) const {
+    return 6 * fields * static_cast<Eigen::Index>(sampling_.size());
+  }
+  CellPoints<N> points_of(Eigen::Index cell) const { return cell_points<N>(solid_.mesh.points, solid_.nodes, cell); }
+  double* samples_of(Eigen::Index cell) { return samples_.get() + cell * size_of_samples(width_); }
 
-  FittedStress fit(const Samples& samples, const Surroundings& around) const {
+  /// What a linear function of the cell takes from the sampling points to those of `rule_`.
+  void set_interpolation() {
+    const auto columns = static_cast<Eigen::Index>(sampling_.size());
+    interpolation_ = Eigen::MatrixXd::Ones(columns, rule_.weights.size());
+    if (columns == 1) return;
+    const auto barycentric = [](const Eigen::MatrixXd& points) {
+      Eigen::MatrixXd result(4, points.cols());
+      result << 1 - points.colwise().sum().array(), points;
+      return result;
+    };
+    interpolation_ = Eigen::Matrix4d(barycentric(sampling_.points)).inverse() * barycentric(rule_.points);
+  }
+
+  /// Stress at the sampling points, and its energy in each cell; these points integrate the square of a linear stress
+  /// exactly. Curved cells take their energy from `rule_`.
+  void sample(RowArray& energy) {
+    const auto points = static_cast<Eigen::Index>(sampling_.size());
+#pragma omp parallel num_threads(threads_)
+    {
+      CellFields<N> cell(points, width_);
+      Eigen::Matrix<double, N, 3> gradients;
+      Eigen::VectorXd volumes(points);
+#pragma omp for schedule(static)
+      for (Eigen::Index e = 0; e < solid_.cells(); ++e) {
+        const CellPoints<N> x = points_of(e);
+        for (Eigen::Index p = 0; p < points; ++p) {
+          volumes(p) = map_point<N>(sampling_, static_cast<std::size_t>(p), x, gradients);
+          cell.set_point(p, roots_[static_cast<std::size_t>(solid_.material_of[e])], gradients);
+        }
+        cell.take(fields_, solid_.nodes, e, first_);
+        cell.evaluate(points, samples_of(e));
+        if (is_straight<N>(x)) add_squares(samples_of(e), volumes, &energy(e, 0));
+      }
+    }
+  }
+
+  /// Adds to each field the integral of the square of its stress, (fields, 6 points).
+  void add_squares(const double* stress, const Eigen::VectorXd& volumes, double* sums) const {
+    Eigen::Map<Eigen::ArrayXd> sum(sums, width_);
+    for (Eigen::Index p = 0; p < volumes.size(); ++p)
+      for (int s = 0; s < 6; ++s)
+        sum += volumes(p) * Eigen::Map<const Eigen::ArrayXd>(stress + (6 * p + s) * width_, width_).square();
+  }
+
+  /// The places of a patch's sampling points seen from a vertex, in units of the distance of the farthest.
+  double set_places(const std::vector<int>& patch, const Eigen::Vector3d& centre, Eigen::Matrix3Xd& places) const {
+    const auto points = static_cast<Eigen::Index>(sampling_.size());
+    places.resize(3, static_cast<Eigen::Index>(patch.size()) * points);
+    for (std::size_t c = 0; c < patch.size(); ++c) {
+      const CellPoints<N> x = points_of(patch[c]);
+      for (Eigen::Index p = 0; p < points; ++p)
+        places.col(static_cast<Eigen::Index>(c) * points + p) =
+            x * sampling_.values[static_cast<std::size_t>(p)] - centre;
+    }
+    const double scale = places.colwise().norm().maxCoeff();
+    places /= scale;
+    return scale;
+  }
+
+  FittedStress fit(const Surroundings& around) {
     const auto points = static_cast<Eigen::Index>(sampling_.size());
     const auto count = static_cast<Eigen::Index>(around.vertices.size());
-    FittedStress result{Samples(count * terms, 6 * at_a_time), std::vector<double>(count)};
+    const Eigen::Index size = 6 * width_;  // of a sample
+    FittedStress result{coefficients_.get(), std::vector<double>(count)};
     const std::size_t least = 2 * terms / sampling_.size() + 1;  // cells: two samples for each term
-#pragma omp parallel for num_threads(threads_) schedule(dynamic, 64)
-    for (Eigen::Index v = 0; v < count; ++v) {
-      const std::vector<int> patch = patch_of(solid_, around, v, least);
-      const Eigen::Vector3d centre = solid_.mesh.points.col(around.vertices[v]);
-      Eigen::Matrix3Xd places(3, static_cast<Eigen::Index>(patch.size()) * points);
-      for (std::size_t c = 0; c < patch.size(); ++c) {
-        const CellPoints<N> x = points_of(patch[c]);
-        for (Eigen::Index p = 0; p < points; ++p)
-          places.col(static_cast<Eigen::Index>(c) * points + p) = x * sampling_.values[p] - centre;
+#pragma omp parallel num_threads(threads_)
+    {
+      Eigen::Matrix3Xd places;
+      Eigen::Matrix<double, terms, Eigen::Dynamic> polynomials;
+      Eigen::MatrixXd values, right(terms, size);
+#pragma omp for schedule(dynamic, 64)
+      for (Eigen::Index v = 0; v < count; ++v) {
+        const std::vector<int> patch = patch_of(solid_, around, static_cast<std::size_t>(v), least);
+        result.scale[v] = set_places(patch, solid_.mesh.points.col(around.vertices[v]), places);
+        polynomials.resize(terms, places.cols());
+        for (Eigen::Index p = 0; p < places.cols(); ++p) polynomials.col(p) = Fit<N>::polynomials(places.col(p));
+        values.resize(size, places.cols());
+        for (std::size_t c = 0; c < patch.size(); ++c)
+          std::copy_n(samples_of(patch[c]), size * points, values.col(static_cast<Eigen::Index>(c) * points).data());
+        typename Fit<N>::Normal normal = Fit<N>::Normal::Zero();
+        right.setZero();
+        const DenseBlock of_terms{polynomials.data(), terms, places.cols(), terms, false};
+        add_dense_product(of_terms, {polynomials.data(), places.cols(), terms, terms, true}, normal.data(), terms);
+        add_dense_product(of_terms, {values.data(), places.cols(), size, size, true}, right.data(), terms);
+        // Regular meshes and small bodies leave terms undetermined: the high ones are zero then, not the low ones.
+        const double trace = normal.trace();
+        normal.diagonal().tail(terms - 1).array() += 1e-12 * trace;
+        if constexpr (N == 10) normal.diagonal().tail(terms - 4).array() += 1e-9 * trace;
+        Eigen::Map<Eigen::MatrixXd>(result.coefficients + v * terms * size, size, terms) =
+            solve_symmetric(normal, right).transpose();
       }
-      const double scale = places.colwise().norm().maxCoeff();
-      Eigen::Matrix<double, terms, Eigen::Dynamic> polynomials(terms, places.cols());
-      Samples values(places.cols(), 6 * at_a_time);
-      for (std::size_t c = 0; c < patch.size(); ++c) {
-        const auto first = static_cast<Eigen::Index>(c) * points;
-        for (Eigen::Index p = first; p < first + points; ++p)
-          polynomials.col(p) = Fit<N>::polynomials(places.col(p) / scale);
-        values.middleRows(first, points) = samples.middleRows(patch[c] * points, points);
-      }
-      typename Fit<N>::Normal normal = Fit<N>::Normal::Zero();
-      Eigen::Matrix<double, terms, 6 * at_a_time> right = Eigen::Matrix<double, terms, 6 * at_a_time>::Zero();
-      const DenseBlock of_terms{polynomials.data(), terms, places.cols(), terms, false};
-      add_dense_product(of_terms, {polynomials.data(), places.cols(), terms, terms, true}, normal.data(), terms);
-      add_dense_product(of_terms, {values.data(), places.cols(), 6 * at_a_time, 6 * at_a_time, true}, right.data(),
-                        terms);
-      // Regular meshes and small bodies leave terms undetermined: the high ones are zero then, not the low ones.
-      const double size = normal.trace();
-      normal.diagonal().tail(terms - 1).array() += 1e-12 * size;
-      if constexpr (N == 10) normal.diagonal().tail(terms - 4).array() += 1e-9 * size;
-      result.coefficients.middleRows<terms>(v * terms) = solve_symmetric(normal, right);
-      result.scale[v] = scale;
     }
     return result;
   }
 
-  /// The polynomials of the vertices of a cell, weighted by its linear functions, at the points of `rule_`: a row each.
-  Samples smooth_stress(Eigen::Index cell, const CellPoints<N>& x, const FittedStress& fitted,
-                        const Surroundings& around) const {
+  /// Adds the polynomials of the vertices of a cell, weighted by its linear functions, at the points of `rule_`.
+  /// @param stress  (6 fields, points)
+  void add_smooth_stress(Eigen::Index cell, const CellPoints<N>& x, const FittedStress& fitted,
+                         const Surroundings& around, double* stress) const {
     const auto points = static_cast<Eigen::Index>(rule_.size());
-    Eigen::Matrix<double, 4 * terms, Eigen::Dynamic> weighted(4 * terms, points);
-    Eigen::Matrix<double, 4 * terms, 6 * at_a_time, Eigen::RowMajor> coefficients;
+    const Eigen::Index size = 6 * width_;
+    Eigen::Matrix<double, terms, most_points> weighted;
     for (int v = 0; v < 4; ++v) {
       const Eigen::Index vertex = around.number[solid_.nodes(v, cell)];
-      coefficients.template middleRows<terms>(v * terms) =
-          fitted.coefficients.template middleRows<terms>(vertex * terms);
+      const double scale = fitted.scale[static_cast<std::size_t>(vertex)];
       for (Eigen::Index p = 0; p < points; ++p) {
         const Eigen::Vector3d local = rule_.points.col(p), place = x * rule_.values[static_cast<std::size_t>(p)];
         const double share = v == 0 ? 1 - local.sum() : local(v - 1);
-        weighted.template block<terms, 1>(v * terms, p) =
-            share * Fit<N>::polynomials((place - x.col(v)) / fitted.scale[static_cast<std::size_t>(vertex)]);
+        weighted.col(p) = share * Fit<N>::polynomials((place - x.col(v)) / scale);
       }
+      add_dense_product({fitted.coefficients + vertex * terms * size, size, terms, size, false},
+                        {weighted.data(), terms, points, terms, false}, stress, size);
     }
-    Samples result = Samples::Zero(points, 6 * at_a_time);  // by rows: its transpose by columns
-    add_dense_product({coefficients.data(), 6 * at_a_time, 4 * terms, 6 * at_a_time, false},
-                      {weighted.data(), 4 * terms, points, 4 * terms, false}, result.data(), 6 * at_a_time);
-    return result;
   }
 
-  void compare(const Fields& fields, const FittedStress& fitted, int material, Fields& error, Fields& energy) const {
-    const Eigen::Matrix<double, 6, 6> elasticity = solid_.materials[material].elasticity;
-    const Eigen::Matrix<double, 6, 6> compliance = solve_symmetric(elasticity, Eigen::MatrixXd::Identity(6, 6));
-#pragma omp parallel for num_threads(threads_) schedule(static)
-    for (Eigen::Index e = 0; e < solid_.cells(); ++e) {
-      if (solid_.material_of[e] != material) continue;
-      const CellPoints<N> x = points_of(e);
+  void compare(const FittedStress& fitted, int material, RowArray& error, RowArray& energy) {
+    const auto points = static_cast<Eigen::Index>(rule_.size()), sampled = static_cast<Eigen::Index>(sampling_.size());
+    const Eigen::Index size = 6 * width_;
+    const Eigen::MatrixXd backward = -interpolation_;
+#pragma omp parallel num_threads(threads_)
+    {
+      CellFields<N> curved(points, width_);
+      Eigen::MatrixXd stress(size, points), own(size, points);
       Eigen::Matrix<double, N, 3> gradients;
-      const Samples smooth = smooth_stress(e, x, fitted, around_[material]);
-      for (std::size_t p = 0; p < rule_.size(); ++p) {
-        const double volume = map_point<N>(rule_, p, x, gradients);
-        const SixRows strain = strain_at<N>(fields, solid_.nodes, e, gradients), stress = elasticity * strain;
-        const SixRows difference = Eigen::Map<const SixRows>(smooth.row(static_cast<Eigen::Index>(p)).data()) - stress;
-        const SixRows other = compliance * difference;
-        error.row(e) += volume * difference.cwiseProduct(other).colwise().sum();
-        energy.row(e) += volume * strain.cwiseProduct(stress).colwise().sum();
+      Eigen::VectorXd volumes(points);
+#pragma omp for schedule(static)
+      for (Eigen::Index e = 0; e < solid_.cells(); ++e) {
+        if (solid_.material_of[e] != material) continue;
+        const CellPoints<N> x = points_of(e);
+        stress.setZero();
+        if (is_straight<N>(x)) {
+          volumes = rule_.weights * Eigen::Matrix3d(x * rule_.local_gradients[0]).determinant();
+          add_dense_product({samples_of(e), size, sampled, size, false},
+                            {backward.data(), sampled, points, sampled, false}, stress.data(), size);
+        } else {
+          for (Eigen::Index p = 0; p < points; ++p) {
+            volumes(p) = map_point<N>(rule_, static_cast<std::size_t>(p), x, gradients);
+            curved.set_point(p, roots_[static_cast<std::size_t>(material)], gradients);
+          }
+          curved.take(fields_, solid_.nodes, e, first_);
+          curved.evaluate(points, own.data());
+          add_squares(own.data(), volumes, &energy(e, 0));
+          stress = -own;
+        }
+        add_smooth_stress(e, x, fitted, around_[static_cast<std::size_t>(material)], stress.data());
+        add_squares(stress.data(), volumes, &error(e, 0));
       }
     }
   }
 
   const Solid& solid_;
+  const RowMatrix& fields_;
   int threads_;
   CellRule<N> sampling_, rule_;
   std::vector<Surroundings> around_;  // of each material
+  std::vector<Matrix6> roots_;        // W of each material
+  Eigen::MatrixXd interpolation_;     // (sampling points, points of `rule_`)
+  Numbers samples_;                   // of each cell (fields, 6 points), one column after the other
+  Numbers coefficients_;              // of `FittedStress`
+  Eigen::Index first_ = 0, width_ = 0;
 };
 
 template <int N>
 MeshError mesh_error(const Solid& solid, const RowMatrix& fields, int threads) {
   const BlasThreads one(1);
-  const Estimate<N> estimate(solid, threads);
+  const Eigen::Index shares = (fields.cols() + at_a_time - 1) / at_a_time, most = (fields.cols() + shares - 1) / shares;
+  Estimate<N> estimate(solid, fields, most, threads);
   MeshError result{Eigen::VectorXd::Zero(fields.cols())};
-  Eigen::VectorXd density = Eigen::VectorXd::Zero(solid.cells());
-  for (Eigen::Index first = 0; first < fields.cols(); first += at_a_time) {
-    const Eigen::Index width = std::min<Eigen::Index>(at_a_time, fields.cols() - first);
-    Fields some = Fields::Zero(fields.rows(), at_a_time);
-    some.leftCols(width) = fields.middleCols(first, width);
-    Fields error = Fields::Zero(solid.cells(), at_a_time), energy = error;
-    estimate.add(some, error, energy);
-    for (Eigen::Index f = 0; f < width; ++f) {
-      const double of_error = error.col(f).sum(), all = energy.col(f).sum() + of_error;
-      if (!(all > 0)) continue;
-      result.relative(first + f) = std::sqrt(of_error / all);
-      density += error.col(f) / all;
-    }
+  Eigen::ArrayXd density = Eigen::ArrayXd::Zero(solid.cells());
+  for (Eigen::Index first = 0; first < fields.cols(); first += most) {
+    const Eigen::Index width = std::min<Eigen::Index>(most, fields.cols() - first);
+    RowArray error = RowArray::Zero(solid.cells(), width), energy = error;
+    estimate.calc(first, error, energy);
+    const Eigen::ArrayXd of_error = error.colwise().sum(), all = energy.colwise().sum().transpose() + of_error;
+    const Eigen::ArrayXd unit = (all > 0).select(all.max(std::numeric_limits<double>::min()).inverse(), 0);
+    result.relative.segment(first, width) = (of_error * unit).sqrt();
+    density += (error.matrix() * unit.matrix()).array();
   }
   Eigen::Index worst = 0;
   for (Eigen::Index e = 0; e < solid.cells(); ++e) {

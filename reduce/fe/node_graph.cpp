@@ -4,7 +4,7 @@
 #include <array>
 #include <stdexcept>
 
-#include "reduce/spectral/few_vectors.hpp"
+#include "reduce/spectral/wide_products.hpp"
 
 namespace bielle::reduce {
 
@@ -96,40 +96,6 @@ std::vector<std::vector<int>> colour_cells(const Eigen::MatrixXi& nodes, Eigen::
   return cells;
 }
 
-namespace {
-
-/// y = m x with `width` consecutive numbers per node, a multiple of `vectors_abreast`.
-void multiply_many(const NodeMatrix& m, const double* x, double* y, int width, int threads) {
-  const NodeGraph& graph = *m.graph;
-  const FewVectors& kernels = FewVectors::fastest();
-#pragma omp parallel for num_threads(threads) schedule(static)
-  for (Eigen::Index a = 0; a < graph.size(); ++a) {
-    const std::int64_t first = graph.starts[a];
-    kernels.weighted_sum(graph.starts[a + 1] - first, m.values.data() + first, graph.neighbours.data() + first, x,
-                         width, y + a * width);
-  }
-}
-
-/// The same for any width; one known to the compiler stays in registers.
-template <int fixed_width>
-void multiply_nodes(const NodeMatrix& m, const double* x, double* y, Eigen::Index width, int threads) {
-  using Numbers = Eigen::Array<double, fixed_width, 1>;
-  const NodeGraph& graph = *m.graph;
-#pragma omp parallel num_threads(threads)
-  {
-    Numbers sum(width);
-#pragma omp for schedule(static)
-    for (Eigen::Index a = 0; a < graph.size(); ++a) {
-      sum.setZero();
-      for (std::int64_t p = graph.starts[a]; p < graph.starts[a + 1]; ++p)
-        sum += m.values[p] * Eigen::Map<const Numbers>(x + graph.neighbours[p] * width, width);
-      Eigen::Map<Numbers>(y + a * width, width) = sum;
-    }
-  }
-}
-
-}  // namespace
-
 RowMatrix NodeMatrix::multiply(const RowMatrix& x, int rows_per_node, int threads) const {
   RowMatrix y(x.rows(), x.cols());
   multiply_into(x, rows_per_node, y, threads);
@@ -138,9 +104,10 @@ RowMatrix NodeMatrix::multiply(const RowMatrix& x, int rows_per_node, int thread
 
 void NodeMatrix::multiply_into(const RowMatrix& x, int rows_per_node, RowMatrix& y, int threads) const {
   const Eigen::Index width = rows_per_node * x.cols();  // numbers that a node owns, consecutive in memory
-  if (width % vectors_abreast == 0) return multiply_many(*this, x.data(), y.data(), static_cast<int>(width), threads);
-  width == 3 ? multiply_nodes<3>(*this, x.data(), y.data(), width, threads)
-             : multiply_nodes<Eigen::Dynamic>(*this, x.data(), y.data(), width, threads);
+#pragma omp parallel for num_threads(threads) schedule(static)
+  for (Eigen::Index a = 0; a < graph->size(); ++a)
+    set_sum_of_rows(values.data() + graph->starts[a], graph->neighbours.data() + graph->starts[a],
+                    graph->starts[a + 1] - graph->starts[a], x.data(), width, y.data() + a * width);
 }
 
 }  // namespace bielle::reduce

@@ -22,6 +22,47 @@ struct NodeGraph {
   std::int64_t place(int a, int b) const;
 };
 
+/// Where the blocks of one cell stand: places in the graph of pairs of its nodes, found by one walk along the
+/// neighbours of each node.
+template <int N>
+class CellPlaces {
+ public:
+  /// @param nodes  (nodes of a cell, cells)
+  CellPlaces(const NodeGraph& graph, const Eigen::MatrixXi& nodes, Eigen::Index cell) : graph_(graph) {
+    for (int a = 0; a < N; ++a) {
+      nodes_[a] = nodes(a, cell);
+      int k = a;
+      for (; k > 0 && nodes_[order_[k - 1]] > nodes_[a]; --k) order_[k] = order_[k - 1];
+      order_[k] = a;
+    }
+  }
+  /// Place of node b, for those at least as high as node a (local numbers), among the neighbours of node a.
+  /// @param own  place of node a itself @param visit  (b, place)
+  template <class Visit>
+  void from(int a, std::int64_t own, const Visit& visit) const {
+    walk(own, nodes_[a], visit);
+  }
+  /// The same for all nodes of the cell.
+  template <class Visit>
+  void all(int a, const Visit& visit) const {
+    walk(graph_.starts[nodes_[a]], -1, visit);
+  }
+
+ private:
+  template <class Visit>
+  void walk(std::int64_t place, int least, const Visit& visit) const {
+    for (int k = 0; k < N; ++k) {
+      const int b = order_[k];
+      if (nodes_[b] < least) continue;
+      while (graph_.neighbours[place] != nodes_[b]) ++place;
+      visit(b, place);
+    }
+  }
+
+  const NodeGraph& graph_;
+  int nodes_[N], order_[N];  // of the cell; local numbers, ascending by node
+};
+
 /// @param nodes  (nodes of a cell, cells)
 NodeGraph node_graph(const Eigen::MatrixXi& nodes, Eigen::Index points, int threads = 1);
 

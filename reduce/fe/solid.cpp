@@ -30,18 +30,50 @@ std::vector<std::string> volume_groups(const Mesh& mesh) {
   return result;
 }
 
-/// Sums over all points of the rules: visit(weight * Jacobian, x, cell).
-template <int N, typename Visitor>
-void integrate(const Solid& solid, CellDegrees degrees, const Visitor& visit) {
+/// Integrals of density times 1, r and r r^T.
+struct Moments {
+  double volume = 0, mass = 0;
+  Eigen::Vector3d first = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+
+  void add(double part, double density, const Eigen::Vector3d& r) {
+    const double weight = density * part;
+    volume += part;
+    mass += weight;
+    first += weight * r;
+    second += weight * r * r.transpose();
+  }
+  void add(const Moments& other) {
+    volume += other.volume;
+    mass += other.mass;
+    first += other.first;
+    second += other.second;
+  }
+};
+
+/// Of the solid, r being taken from `origin`. Cells are summed up in groups, which do not depend on the number of
+/// threads.
+template <int N>
+Moments moments(const Solid& solid, CellDegrees degrees, const Eigen::Vector3d& origin, int threads) {
+  constexpr Eigen::Index together = 512;
   const CellRules<N> rules(degrees);
-  for (Eigen::Index e = 0; e < solid.cells(); ++e) {
-    const CellPoints<N> x = cell_points<N>(solid.mesh.points, solid.nodes, e);
-    const CellRule<N>& rule = rules.of(x);
-    for (std::size_t p = 0; p < rule.size(); ++p) {
-      const Eigen::Matrix3d jacobian = x * rule.local_gradients[p];
-      visit(rule.weights(p) * jacobian.determinant(), Eigen::Vector3d(x * rule.values[p]), e);
+  std::vector<Moments> parts(static_cast<std::size_t>((solid.cells() + together - 1) / together));
+#pragma omp parallel for num_threads(threads) schedule(dynamic)
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const auto begin = static_cast<Eigen::Index>(k) * together;
+    for (Eigen::Index e = begin; e < std::min(begin + together, solid.cells()); ++e) {
+      const CellPoints<N> x = cell_points<N>(solid.mesh.points, solid.nodes, e);
+      const CellRule<N>& rule = rules.of(x);
+      const double density = solid.materials[solid.material_of[e]].density;
+      for (std::size_t p = 0; p < rule.size(); ++p) {
+        const Eigen::Matrix3d jacobian = x * rule.local_gradients[p];
+        parts[k].add(rule.weights(p) * jacobian.determinant(), density, x * rule.values[p] - origin);
+      }
     }
   }
+  Moments result;
+  for (const Moments& part : parts) result.add(part);
+  return result;
 }
 
 }  // namespace
@@ -102,28 +134,17 @@ Solid make_solid(const Mesh& mesh, const std::map<std::string, Material>& materi
   return solid;
 }
 
-MassProperties mass_properties(const Solid& solid) {
-  MassProperties result;
-  Eigen::Vector3d first = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+MassProperties mass_properties(const Solid& solid, int threads) {
   const Eigen::Vector3d origin =
       solid.mesh.points.col(solid.nodes(0, 0));  // near the body: differences keep their digits
-  const auto visit = [&](double volume, const Eigen::Vector3d& x, Eigen::Index cell) {
-    const double mass = solid.materials[solid.material_of[cell]].density * volume;
-    const Eigen::Vector3d r = x - origin;
-    result.volume += volume;
-    result.mass += mass;
-    first += mass * r;
-    second += mass * r * r.transpose();
-  };
   // x x^T has degree 2 per order of the cell, the Jacobian of a curved cell degree 3.
-  if (solid.type == CellType::tet4) {
-    integrate<4>(solid, {2, 2}, visit);
-  } else {
-    integrate<10>(solid, {2, 7}, visit);
-  }
-  const Eigen::Vector3d r = first / result.mass;
-  second -= result.mass * r * r.transpose();
+  const Moments all = solid.type == CellType::tet4 ? moments<4>(solid, {2, 2}, origin, threads)
+                                                   : moments<10>(solid, {2, 7}, origin, threads);
+  const Eigen::Vector3d r = all.first / all.mass;
+  const Eigen::Matrix3d second = all.second - all.mass * r * r.transpose();
+  MassProperties result;
+  result.mass = all.mass;
+  result.volume = all.volume;
   result.centre = origin + r;
   result.inertia = second.trace() * Eigen::Matrix3d::Identity() - second;
   return result;

@@ -39,7 +39,7 @@ struct MassProperties {
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the centre, body axes [kg m^2]
 };
 
-MassProperties mass_properties(const Solid& solid);
+MassProperties mass_properties(const Solid& solid, int threads = 1);
 
 /// Points that belong to solid cells, by point.
 std::vector<bool> points_of_solid(const Solid& solid);

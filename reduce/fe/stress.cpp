@@ -1,20 +1,18 @@
 #include "reduce/fe/stress.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include <Eigen/LU>
 
+#include "reduce/fe/cell_fields.hpp"
 #include "reduce/fe/cell_geometry.hpp"
-#include "reduce/fe/elasticity.hpp"
 #include "reduce/fe/node_graph.hpp"
 #include "reduce/mesh/faces.hpp"
+#include "reduce/spectral/blas.hpp"
 
 namespace bielle::reduce {
 
 namespace {
-
-using Stress = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Values at the nodes of a cell from those at the four points: (nodes, 4).
 Eigen::MatrixXd extrapolation(CellType type, const Quadrature& rule) {
@@ -64,8 +62,9 @@ NodeShares node_shares(const Solid& solid, const std::vector<double>& volumes) {
 }
 
 template <int N>
-std::vector<double> cell_volumes(const Solid& solid, const CellRule<N>& rule) {
+std::vector<double> cell_volumes(const Solid& solid, const CellRule<N>& rule, int threads) {
   std::vector<double> volumes(solid.cells());
+#pragma omp parallel for num_threads(threads) schedule(static)
   for (Eigen::Index e = 0; e < solid.cells(); ++e) {
     volumes[e] = cell_volume<N>(rule, cell_points<N>(solid.mesh.points, solid.nodes, e));
   }
@@ -80,7 +79,7 @@ Quadrature sampling() {
 
 template <int N>
 NodeShares node_shares(const Solid& solid) {
-  return node_shares(solid, cell_volumes<N>(solid, CellRule<N>(sampling<N>())));
+  return node_shares(solid, cell_volumes<N>(solid, CellRule<N>(sampling<N>()), 1));
 }
 
 template <int N>
@@ -88,47 +87,52 @@ RowMatrix stress_at(const Solid& solid, const RowMatrix& fields, const std::vect
   const Quadrature quadrature = sampling<N>();
   const CellRule<N> rule(quadrature);
   const Eigen::MatrixXd to_nodes = extrapolation(CellRule<N>::type, quadrature);
-  const std::vector<double> volumes = cell_volumes<N>(solid, rule);
+  const std::vector<double> volumes = cell_volumes<N>(solid, rule, threads);
   const NodeShares shares = node_shares(solid, volumes);
   std::vector<int> row_of(solid.points(), -1);
   for (std::size_t r = 0; r < nodes.size(); ++r) {
     row_of[nodes[r]] = static_cast<int>(r);
   }
+  const auto wanted = [&](Eigen::Index e, int a) {
+    return row_of[solid.nodes(a, e)] >= 0 && shares.material[solid.nodes(a, e)] == solid.material_of[e];
+  };
+  std::vector<int> cells;  // that have a share in what is wanted
+  for (Eigen::Index e = 0; e < solid.cells(); ++e)
+    for (int a = 0; a < N; ++a)
+      if (wanted(e, a)) {
+        cells.push_back(static_cast<int>(e));
+        break;
+      }
   const Eigen::Index k = fields.cols();
-  RowMatrix result = RowMatrix::Zero(6 * static_cast<Eigen::Index>(nodes.size()), k);
-  for (const std::vector<int>& cells : colour_cells(solid.nodes, solid.points())) {
+  const auto points = static_cast<Eigen::Index>(rule.size());
+  RowMatrix result(6 * static_cast<Eigen::Index>(nodes.size()), k);
+  if (result.size() == 0) return result;
+    // Written, not merely zero as new memory is: pages that are read first are given out twice.
 #pragma omp parallel for num_threads(threads) schedule(static)
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-      const int e = cells[c];
-      const int material = solid.material_of[e];
-      const auto wanted = [&](int a) { return row_of[a] >= 0 && shares.material[a] == material; };
-      const auto cell_nodes = solid.nodes.col(e);
-      if (std::none_of(cell_nodes.begin(), cell_nodes.end(), wanted)) {
-        continue;
-      }
-      const CellPoints<N> x = cell_points<N>(solid.mesh.points, solid.nodes, e);
-      std::array<Stress, 4> at_points;
-      Eigen::Matrix<double, N, 3> gradients;
-      for (std::size_t p = 0; p < rule.size(); ++p) {
-        map_point<N>(rule, p, x, gradients);
-        Stress strain = Stress::Zero(6, k);
+  for (Eigen::Index row = 0; row < result.rows(); ++row) result.row(row).setZero();
+  const BlasThreads one(1);
+  const std::vector<std::vector<int>> colours = colour_cells(solid.nodes(Eigen::all, cells), solid.points());
+#pragma omp parallel num_threads(threads)
+  {
+    CellFields<N> cell(points, k);
+    Eigen::MatrixXd at_points(6 * k, points);
+    Eigen::Matrix<double, N, 3> gradients;
+    for (const std::vector<int>& colour : colours) {
+#pragma omp for schedule(static)
+      for (std::size_t c = 0; c < colour.size(); ++c) {
+        const int e = cells[static_cast<std::size_t>(colour[c])];
+        const CellPoints<N> x = cell_points<N>(solid.mesh.points, solid.nodes, e);
+        for (Eigen::Index p = 0; p < points; ++p) {
+          map_point<N>(rule, static_cast<std::size_t>(p), x, gradients);
+          cell.set_point(p, solid.materials[solid.material_of[e]].elasticity, gradients);
+        }
+        cell.take(fields, solid.nodes, e);
+        cell.evaluate(points, at_points.data());
         for (int a = 0; a < N; ++a) {
-          for (int i = 0; i < 3; ++i) {
-            const auto u = fields.row(3 * cell_nodes(a) + i);
-            for (int j = 0; j < 3; ++j) {
-              strain.row(voigt(i, j)) += gradients(a, j) * u;
-            }
-          }
-        }
-        at_points[p] = solid.materials[material].elasticity * strain;
-      }
-      for (int a = 0; a < N; ++a) {
-        if (!wanted(cell_nodes(a))) {
-          continue;
-        }
-        const double weight = volumes[e] / shares.volume[cell_nodes(a)];
-        for (std::size_t p = 0; p < rule.size(); ++p) {
-          result.middleRows<6>(6 * row_of[cell_nodes(a)]) += weight * to_nodes(a, p) * at_points[p];
+          if (!wanted(e, a)) continue;
+          const int node = solid.nodes(a, e);
+          Eigen::Map<Eigen::VectorXd>(&result(6 * static_cast<Eigen::Index>(row_of[node]), 0), 6 * k).noalias() +=
+              at_points * (volumes[e] / shares.volume[node] * to_nodes.row(a)).transpose();
         }
       }
     }

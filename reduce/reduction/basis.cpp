@@ -9,6 +9,7 @@
 #include "reduce/common/counted.hpp"
 #include "reduce/common/error.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
+#include "reduce/spectral/blas.hpp"
 #include "reduce/spectral/eigenpairs.hpp"
 
 namespace bielle::reduce {
@@ -33,11 +34,15 @@ RowMatrix linear_inertia(const Solid& solid, const BodyMatrices& matrices, const
 
 /// The held body under one displacement after the other of its interfaces, then under the inertia of linear fields: one
 /// block of right-hand sides, since solutions are bound by memory, not by their number.
-/// @param carried  displacements of the tied points (3 points, kept directions)
 Eigen::MatrixXd static_solutions(const BodyMatrices& matrices, const Ties& ties, const HeldBody& held,
-                                 const RowMatrix& carried, const RowMatrix& inertia) {
-  Eigen::MatrixXd loads(held.size(), carried.cols() + inertia.cols());
-  loads << -held.restrict(matrices.stiffness_times(carried)), held.restrict(inertia);
+                                 const RowMatrix& inertia) {
+  const Eigen::Index kept = ties.carry_kept.cols();
+  Eigen::MatrixXd loads(held.size(), kept + inertia.cols());
+  if (ties.carry_kept.nonZeros() > 0)
+    loads.leftCols(kept) = -held.restrict(matrices.stiffness_times(RowMatrix(ties.carry_kept)));
+  else
+    loads.leftCols(kept).setZero();  // average ties carry no points
+  loads.rightCols(inertia.cols()) = held.restrict(inertia);
   Eigen::MatrixXd averages = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(ties.averages.size()), loads.cols());
   for (Eigen::Index k = 0; k < averages.rows(); ++k) {
     averages(k, ties.averages[k]) = 1;
@@ -107,16 +112,30 @@ Eigenpairs fixed_boundary_modes(const BodyMatrices& matrices, const HeldBody& he
 }
 
 /// Psi <- Psi (I - U A) + U_points A
-void put_rigid_motions_in(const Solid& solid, const Ties& ties, const MassProperties& body, Basis& basis) {
+void put_rigid_motions_in(const Solid& solid, const Ties& ties, const MassProperties& body, int threads, Basis& basis) {
   const Eigen::MatrixXd nearest = nearest_rigid_motion(ties.interfaces, body.centre, radius_of_gyration(body));
   const Eigen::MatrixXd rest = Eigen::MatrixXd::Identity(basis.kept(), basis.kept()) -
                                interface_rigid_motions(ties.interfaces, body.centre) * nearest;
   const std::vector<bool> inside = points_of_solid(solid);
-  const RowMatrix motions = rigid_motions(solid.mesh.points, body.centre);
-  for (Eigen::Index a = 0; a < solid.points(); ++a) {
-    if (inside[a]) {
-      auto rows = basis.shapes.block(3 * a, 0, 3, basis.kept());
-      rows = Eigen::MatrixXd(rows * rest + motions.middleRows<3>(3 * a) * nearest);
+  const Eigen::Index kept = basis.kept(), all = basis.shapes.cols();
+  constexpr Eigen::Index at_a_time = 256;  // points: their rows stay in the cache
+  const BlasThreads one(1);
+#pragma omp parallel num_threads(threads)
+  {
+    RowMatrix old;
+#pragma omp for schedule(static)
+    for (Eigen::Index first = 0; first < solid.points(); first += at_a_time) {
+      const Eigen::Index count = std::min(at_a_time, solid.points() - first), rows = 3 * count;
+      const RowMatrix motions = rigid_motions(solid.mesh.points.middleCols(first, count), body.centre);
+      auto panel = basis.shapes.block(3 * first, 0, rows, kept);
+      old = panel;
+      panel.setZero();
+      // A row-major block is its transpose stored by columns.
+      add_dense_product({rest.data(), kept, kept, kept, true}, {old.data(), kept, rows, kept, false}, panel.data(),
+                        all);
+      add_dense_product({nearest.data(), kept, 6, 6, true}, {motions.data(), 6, rows, 6, false}, panel.data(), all);
+      for (Eigen::Index a = 0; a < count; ++a)
+        if (!inside[static_cast<std::size_t>(first + a)]) panel.middleRows<3>(3 * a).setZero();
     }
   }
   for (Eigen::Index c = 0; c < basis.released.rows(); ++c) {
@@ -139,8 +158,7 @@ Basis make_basis(const Solid& solid, const BodyMatrices& matrices, const Ties& t
   const auto kept = static_cast<Eigen::Index>(ties.kept.size());
   const Eigen::Index released = ties.carry_released.cols();
   basis.linear.inertia = linear_inertia(solid, matrices, body.centre);
-  const RowMatrix carried(ties.carry_kept);
-  Eigen::MatrixXd solutions = static_solutions(matrices, ties, held, carried, basis.linear.inertia);
+  Eigen::MatrixXd solutions = static_solutions(matrices, ties, held, basis.linear.inertia);
   basis.linear.held = held.expand(solutions.rightCols(LinearFields::count));
   solutions.conservativeResize(Eigen::NoChange, kept);
 
@@ -151,15 +169,16 @@ Basis make_basis(const Solid& solid, const BodyMatrices& matrices, const Ties& t
   basis.solves = pairs.solves;
   basis.sweeps = pairs.sweeps;
   basis.next = pairs.next;
-  Eigen::MatrixXd inside(held.size(), kept + pairs.values.size());
-  inside.leftCols(kept) = solutions;
-  if (pairs.vectors.cols() > 0) inside.rightCols(pairs.vectors.cols()) = pairs.vectors;
-  solutions.resize(0, 0);  // large, as all that counts points
-  pairs.vectors.resize(0, 0);
-  basis.released = inside.bottomRows(released);
-  basis.shapes = held.expand(inside);
-  basis.shapes.leftCols(kept) += carried;
-  put_rigid_motions_in(solid, ties, body, basis);
+  solutions.conservativeResize(Eigen::NoChange, kept + pairs.values.size());
+  if (pairs.vectors.cols() > 0) solutions.rightCols(pairs.vectors.cols()) = pairs.vectors;
+  pairs.vectors.resize(0, 0);  // large, as all that counts points
+  basis.released = solutions.bottomRows(released);
+  basis.shapes = held.expand(solutions);
+  solutions.resize(0, 0);
+  for (Eigen::Index row = 0; row < ties.carry_kept.rows(); ++row)
+    for (SparseRows::InnerIterator entry(ties.carry_kept, row); entry; ++entry)
+      basis.shapes(row, entry.col()) += entry.value();
+  put_rigid_motions_in(solid, ties, body, threads, basis);
   return basis;
 }
 

@@ -127,14 +127,19 @@ GeometricStiffness geometric_stiffness(const Solid& solid, const BodyMatrices& m
   }
   const Eigen::MatrixXd q = solve_free(reduced_stiffness.topLeftCorner(kept, kept), scale, interface_forces);
   const RowMatrix fields = constraint_modes * q - basis.linear.held * amplitudes;
-  RowMatrix tie_forces = matrices.stiffness_times(fields) + basis.linear.inertia * amplitudes;
+  const bool carries = std::any_of(ties.surfaces.begin(), ties.surfaces.end(),
+                                   [](const TiedSurface& surface) { return surface.tie == Tie::rigid; });
+  RowMatrix tie_forces;  // of rigid ties, who alone read them
+  if (carries) tie_forces = matrices.stiffness_times(fields) + basis.linear.inertia * amplitudes;
 
   const TieSecondOrder second_order(solid, ties, basis);
   GeometricStiffness result;
   constexpr Eigen::Index chunk = 18;  // matrices of the mesh in memory at a time: all of a body with two interfaces
   for (Eigen::Index first = 0; first < count; first += chunk) {
     const Eigen::Index width = std::min(chunk, count - first);
-    std::vector<Eigen::MatrixXd> reduced = matrices.geometric_stiffness(fields.middleCols(first, width), basis.shapes);
+    std::vector<Eigen::MatrixXd> reduced =
+        width == count ? matrices.geometric_stiffness(fields, basis.shapes)
+                       : matrices.geometric_stiffness(fields.middleCols(first, width), basis.shapes);
     for (Eigen::Index f = 0; f < width; ++f) {
       const Eigen::Index field = first + f;
       Eigen::MatrixXd& k = reduced[f];

@@ -93,6 +93,7 @@ void add_recovery(const Solid& solid, const ReductionOptions& options, const Row
   result.mesh = kept_mesh(solid, points, skin);
   if (options.displacement_recovery != RecoveryExtent::none) {
     result.displacement_recovery.resize(3 * static_cast<Eigen::Index>(points.size()), shapes.cols());
+#pragma omp parallel for num_threads(threads) schedule(static)
     for (std::size_t k = 0; k < points.size(); ++k) {
       result.displacement_recovery.middleRows<3>(3 * static_cast<Eigen::Index>(k)) =
           shapes.middleRows<3>(3 * static_cast<Eigen::Index>(points[k]));

@@ -175,7 +175,7 @@ Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Prog
   check_connected(mesh);
   const Solid solid =
       in_section(options, "regions", [&] { return make_solid(mesh, options.materials, options.regions); });
-  const MassProperties properties = mass_properties(solid);
+  const MassProperties properties = mass_properties(solid, threads);
   const Ties ties = make_ties(solid, options.interfaces);
   const std::vector<TiedPoint> points = tie_points(solid, options.points, options.name);
   const std::vector<ResidualRequest> residual = residual_requests(solid, options.loads, points);

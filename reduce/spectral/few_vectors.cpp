@@ -26,9 +26,6 @@ struct KernelsOfLines {
 struct FewVectors::Kernels {
   int width, most_pieces;
   KernelsOfLines one, most;
-  using WeightedSum = void (*)(std::int64_t count, const double* weights, const int* rows, const double* x, int width,
-                               double* y);
-  WeightedSum weighted_sum;
 };
 
 namespace {
@@ -123,11 +120,6 @@ void FewVectors::add_product(const TallColumns& A, const double* x, double* y, c
   for_pieces(kernels_, vectors, [&](const KernelsOfLines& kernels, int first) {
     kernels.tall_product[A.columns - 1](A, x, y, first, vectors.stride);
   });
-}
-
-void FewVectors::weighted_sum(std::int64_t count, const double* weights, const int* rows, const double* x, int width,
-                              double* y) const {
-  kernels_.weighted_sum(count, weights, rows, x, width, y);
 }
 
 }  // namespace bielle

@@ -58,10 +58,6 @@ class FewVectors {
   /// y_i <- y_i + sum over j of a_ij x_j
   void add_product(const TallColumns& A, const double* x, double* y, const Vectors& vectors) const;
 
-  /// y <- sum over k of weights_k times the `width` numbers of row rows_k of x, a multiple of `vectors_abreast`.
-  void weighted_sum(std::int64_t count, const double* weights, const int* rows, const double* x, int width,
-                    double* y) const;
-
   struct Kernels;
   constexpr explicit FewVectors(const Kernels& kernels) : kernels_(kernels) {}
 

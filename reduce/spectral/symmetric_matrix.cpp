@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include "reduce/spectral/wide_products.hpp"
+
 namespace bielle {
 
 namespace {
-
-constexpr Eigen::Index most_abreast = 8;  // columns whose sums stay in registers
 
 /// y += A x for `width` columns, which a row of x and y consists of.
 template <int width>
@@ -25,32 +25,43 @@ void add_product_of(const SymmetricMatrix& a, const double* x, double* y) {
   }
 }
 
-using AddProduct = void (*)(const SymmetricMatrix&, const double*, double*);
-constexpr AddProduct add_product_of_width[most_abreast] = {add_product_of<1>, add_product_of<2>, add_product_of<3>,
-                                                           add_product_of<4>, add_product_of<5>, add_product_of<6>,
-                                                           add_product_of<7>, add_product_of<8>};
+/// Y = A X for a number of columns that can be divided by four. Threads take columns of X rather than of A, so that no
+/// two write the same number and sums keep their order. Each writes into its own: threads that write to the same lines
+/// of the cache wait for each other.
+void multiply_quads(const SymmetricMatrix& a, const RowMatrix& x, RowMatrix& y, int threads) {
+  const Eigen::Index quads = x.cols() / vectors_in_quad, sharing = std::clamp<Eigen::Index>(threads, 1, quads);
+  const Eigen::Index parts = (quads + most_quads * sharing - 1) / (most_quads * sharing) * sharing;
+#pragma omp parallel num_threads(static_cast <int>(sharing))
+  {
+    RowMatrix own;
+#pragma omp for schedule(static, 1)
+    for (Eigen::Index part = 0; part < parts; ++part) {
+      const Eigen::Index first = quads * part / parts, width = quads * (part + 1) / parts - first;
+      if (width == 0) continue;
+      own.setZero(x.rows(), vectors_in_quad * width);
+      add_symmetric_product(a, static_cast<int>(width), x.data() + vectors_in_quad * first, x.cols(), own.data(),
+                            own.cols());
+      y.middleCols(vectors_in_quad * first, own.cols()) = own;
+    }
+  }
+}
 
 }  // namespace
 
 RowMatrix SymmetricMatrix::multiply(const RowMatrix& x, int threads) const {
   RowMatrix y(x.rows(), x.cols());
-  const Eigen::Index columns = x.cols(),
-                     sharing = std::clamp<Eigen::Index>(threads, 1, std::max<Eigen::Index>(columns, 1));
-  const Eigen::Index parts = (columns + most_abreast * sharing - 1) / (most_abreast * sharing) * sharing;
-  // Threads take columns of x rather than of A, so that no two write the same number and sums keep their order. Each
-  // copies its own: threads that write to the same lines of the cache wait for each other.
-#pragma omp parallel num_threads(static_cast <int>(sharing))
-  {
-    RowMatrix own_x, own_y;
-#pragma omp for schedule(static, 1)
-    for (Eigen::Index part = 0; part < parts; ++part) {
-      const Eigen::Index first = columns * part / parts, width = columns * (part + 1) / parts - first;
-      if (width == 0) continue;
-      own_x = x.middleCols(first, width);
-      own_y.setZero(x.rows(), width);
-      add_product_of_width[width - 1](*this, own_x.data(), own_y.data());
-      y.middleCols(first, width) = own_y;
-    }
+  if (x.size() == 0) return y;
+  if (x.cols() % vectors_in_quad == 0) {
+    multiply_quads(*this, x, y, threads);
+  } else if (x.cols() < vectors_in_quad) {
+    y.setZero();
+    (x.cols() == 1   ? add_product_of<1>
+     : x.cols() == 2 ? add_product_of<2>
+                     : add_product_of<3>)(*this, x.data(), y.data());
+  } else {
+    RowMatrix wider = RowMatrix::Zero(x.rows(), (x.cols() / vectors_in_quad + 1) * vectors_in_quad);
+    wider.leftCols(x.cols()) = x;
+    y = multiply(wider, threads).leftCols(x.cols());
   }
   return y;
 }

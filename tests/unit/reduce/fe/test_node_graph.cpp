@@ -39,6 +39,26 @@ TEST_CASE("Cells of one colour share no node, and every cell has a colour") {
   CHECK(static_cast<Eigen::Index>(coloured.size()) == cells.cols());
 }
 
+TEST_CASE("The places of a cell's pairs are those that are looked up one by one") {
+  const Mesh mesh = test::box_mesh({{1, 1, 1}, {2, 3, 2}});
+  const Eigen::MatrixXi& cells = mesh.blocks[0].nodes;
+  const NodeGraph graph = node_graph(cells, mesh.point_count());
+  for (Eigen::Index e = 0; e < cells.cols(); ++e) {
+    const CellPlaces<10> places(graph, cells, e);
+    for (int a = 0; a < 10; ++a) {
+      const int low = cells(a, e);
+      int all = 0, higher = 0, expected = 0;
+      for (int b = 0; b < 10; ++b) expected += cells(b, e) >= low;
+      places.all(a, [&](int b, std::int64_t place) { all += place == graph.place(low, cells(b, e)); });
+      places.from(a, graph.place(low, low), [&](int b, std::int64_t place) {
+        higher += cells(b, e) >= low && place == graph.place(low, cells(b, e));
+      });
+      CHECK(all == 10);
+      CHECK(higher == expected);
+    }
+  }
+}
+
 TEST_CASE("A node matrix acts on each component of the nodes alike") {
   Eigen::MatrixXi cells(4, 1);
   cells << 0, 1, 2, 3;
@@ -50,10 +70,12 @@ TEST_CASE("A node matrix acts on each component of the nodes alike") {
       dense(a, b) = m.values[graph.place(a, b)] = 1 + a * b + a + b;
     }
   }
-  const RowMatrix x = RowMatrix::Random(12, 3);
-  const RowMatrix y = m.multiply(x, 3, 2);
-  for (int i = 0; i < 3; ++i) {
-    const auto component = Eigen::seqN(i, 4, 3);
-    CHECK((y(component, Eigen::all) - dense * x(component, Eigen::all)).norm() < 1e-13);
+  for (const int columns : {1, 2, 3, 4, 7, 16, 19}) {  // strips of every width
+    const RowMatrix x = RowMatrix::Random(12, columns);
+    const RowMatrix y = m.multiply(x, 3, 2);
+    for (int i = 0; i < 3; ++i) {
+      const auto component = Eigen::seqN(i, 4, 3);
+      CHECK((y(component, Eigen::all) - dense * x(component, Eigen::all)).norm() < 1e-12);
+    }
   }
 }

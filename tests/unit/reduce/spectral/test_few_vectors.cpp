@@ -98,20 +98,3 @@ TEST_CASE("few vectors: products with tall matrices", "[spectral]") {
           CHECK((found_y - expected_y).cwiseAbs().sum() <= rounding_of(columns) * static_cast<double>(y.size() + 1));
         }
 }
-
-TEST_CASE("few vectors: weighted sums of rows", "[spectral]") {
-  const std::vector<int> rows{5, 0, 11, 5, 7};
-  for (const FewVectors* kernels : FewVectors::all())
-    for (const int width : {8, 16, 24, 40, 48, 56, 72, 96}) {
-      CAPTURE(width);
-      const RowMatrix x = RowMatrix::Random(12, width);
-      const Eigen::RowVectorXd weights = Eigen::RowVectorXd::Random(5);
-      Eigen::RowVectorXd found = Eigen::RowVectorXd::Random(width + 1);
-      const double behind = found(width);
-      kernels->weighted_sum(5, weights.data(), rows.data(), x.data(), width, found.data());
-      CHECK((found.head(width) - weights * x(rows, Eigen::all)).cwiseAbs().maxCoeff() <= rounding_of(5));
-      CHECK(found(width) == behind);
-      kernels->weighted_sum(0, nullptr, nullptr, x.data(), width, found.data());
-      CHECK(found.head(width).isZero(0));
-    }
-}

@@ -39,6 +39,23 @@ TEST_CASE("A sparse symmetric matrix multiplies blocks as the dense one does, wi
   CHECK(sparse.diagonal() == a.diagonal());
 }
 
+TEST_CASE("Blocks of three rows and columns, whole or with a number missing, multiply as the dense matrix does") {
+  Eigen::MatrixXd blocks = Eigen::MatrixXd::Zero(24, 24);
+  const Eigen::MatrixXd pattern = random_sparse(8), numbers = Eigen::MatrixXd::Random(24, 24);
+  for (int i = 0; i < 8; ++i)
+    for (int j = 0; j < 8; ++j)
+      if (pattern(i, j) != 0) blocks.block<3, 3>(3 * i, 3 * j).setConstant(1);
+  for (const auto& [row, column] : {std::pair{0, 0}, {1, 0}, {2, 1}, {22, 21}, {23, 20}, {23, 22}}) {
+    Eigen::MatrixXd a = blocks.cwiseProduct(numbers + numbers.transpose());
+    if (row != column) a(row, column) = a(column, row) = 0;
+    for (const int columns : {4, 8, 12, 16, 20, 33}) {
+      const RowMatrix x = RowMatrix::Random(24, columns);
+      CHECK((sparse_lower(a).multiply(x, 2) - a * x).norm() < 1e-13);
+      CHECK(sparse_lower(a).multiply(x, 3) == sparse_lower(a).multiply(x));
+    }
+  }
+}
+
 TEST_CASE("Parts of a sparse matrix and dense borders come out as with dense matrices") {
   const Eigen::MatrixXd a = random_sparse(9);
   const SymmetricMatrix sparse = sparse_lower(a);

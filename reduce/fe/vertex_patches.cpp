@@ -1,0 +1,42 @@
+#include "reduce/fe/vertex_patches.hpp"
+
+#include <algorithm>
+
+namespace bielle::reduce {
+
+Surroundings surroundings(const Solid& solid, int material) {
+  Surroundings result;
+  result.number.assign(solid.points(), -1);
+  for (Eigen::Index e = 0; e < solid.cells(); ++e) {
+    if (solid.material_of[e] != material) continue;
+    for (int v = 0; v < 4; ++v) {
+      int& number = result.number[solid.nodes(v, e)];
+      if (number < 0) {
+        number = static_cast<int>(result.vertices.size());
+        result.vertices.push_back(solid.nodes(v, e));
+        result.cells.emplace_back();
+      }
+      result.cells[number].push_back(static_cast<int>(e));
+    }
+  }
+  return result;
+}
+
+std::vector<int> patch_of(const Solid& solid, const Surroundings& around, std::size_t vertex, std::size_t least) {
+  std::vector<int> patch = around.cells[vertex];
+  for (std::size_t before = 0; patch.size() < least && patch.size() > before;) {
+    before = patch.size();
+    std::vector<int> wider;
+    for (const int cell : patch)
+      for (int v = 0; v < 4; ++v) {
+        const std::vector<int>& more = around.cells[around.number[solid.nodes(v, cell)]];
+        wider.insert(wider.end(), more.begin(), more.end());
+      }
+    std::sort(wider.begin(), wider.end());
+    wider.erase(std::unique(wider.begin(), wider.end()), wider.end());
+    patch = std::move(wider);
+  }
+  return patch;
+}
+
+}  // namespace bielle::reduce
