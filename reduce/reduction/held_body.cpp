@@ -1,118 +1,63 @@
 #include "reduce/reduction/held_body.hpp"
 
 #include <algorithm>
-#include <numeric>
+#include <cmath>
+#include <limits>
 #include <optional>
+#include <utility>
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "reduce/common/dense_solves.hpp"
 #include "reduce/common/error.hpp"
-#include "reduce/common/orthogonal_factors.hpp"
-#include "reduce/reduction/rigid_motions.hpp"
 #include "reduce/spectral/dense_products.hpp"
 #include "reduce/spectral/tall_products.hpp"
 
 namespace bielle::reduce {
-
-namespace {
-
-/// Singular values below this, relative to the largest, belong to motions that nothing resists. Geometry decides here,
-/// not stiffness: a hold that is 1e-8 of the body's size wide holds nothing.
-constexpr double free_motion = 1e-8;
-
-std::string words(const Eigen::Vector3d& x) { return fmt::format("({:.4g}, {:.4g}, {:.4g})", x.x(), x.y(), x.z()); }
-
-/// "turn about the axis (0, 0, 1) through (0.1, 0, 0) m" for a velocity v of `centre` and an angular velocity omega.
-std::string describe_motion(Eigen::Vector3d v, Eigen::Vector3d omega, const Eigen::Vector3d& centre, double length) {
-  if (omega.norm() * length < 1e-6 * v.norm()) {
-    return fmt::format("move along {}", words(v.normalized()));
-  }
-  const Eigen::Vector3d through = centre + omega.cross(v) / omega.squaredNorm();
-  const auto cleaned = [&](const Eigen::Vector3d& x, double scale) {
-    return Eigen::Vector3d((x.array().abs() < 1e-9 * scale).select(0.0, x.array()));
-  };
-  return fmt::format("turn about the axis {} through {} m", words(cleaned(omega.normalized(), 1)),
-                     words(cleaned(through, length)));
-}
-
-/// Basis of the vectors x with A x = 0, columns of A being of comparable size.
-Eigen::MatrixXd null_space(const Eigen::MatrixXd& a) {
-  if (a.rows() == 0) {
-    return Eigen::MatrixXd::Identity(a.cols(), a.cols());
-  }
-  const RightSingularVectors svd = right_singular_vectors(a);
-  const double scale = std::sqrt(static_cast<double>(a.rows()));  // a column of ones has this norm
-  const Eigen::Index rank = (svd.values.array() > free_motion * scale).count();
-  return svd.vectors.rightCols(a.cols() - rank);
-}
-
-}  // namespace
 
 HeldBody::~HeldBody() = default;
 
 const FactorStatistics& HeldBody::statistics() const { return factor_ ? factor_->statistics() : no_statistics_; }
 
 HeldBody::HeldBody(const Solid& solid, const BodyMatrices& matrices, const Ties& ties, int threads)
+    : HeldBody(HeldFreedoms(solid, ties), solid, matrices, ties, threads) {}
+
+HeldBody::HeldBody(HeldFreedoms freedoms, const Solid& solid, const BodyMatrices& matrices, const Ties& ties,
+                   int threads)
     : HeldBody(
-          solid, ties,
-          [&](const std::vector<std::int64_t>& kept, const SparseRows& carried) {
-            return matrices.factorise(kept, carried);
-          },
+          std::move(freedoms), solid, ties, [&](const InsideUnknowns& inside) { return matrices.factorise(inside); },
           threads) {}
 
 HeldBody::HeldBody(const Solid& solid, const SymmetricMatrix& stiffness, const Ties& ties, int threads)
     : HeldBody(
-          solid, ties,
-          [&](const std::vector<std::int64_t>& kept, const SparseRows& carried) {
-            return factorise_inside(stiffness, kept, carried, threads);
-          },
+          HeldFreedoms(solid, ties), solid, ties,
+          [&](const InsideUnknowns& inside) { return factorise_inside(stiffness, inside, nullptr, threads); },
           threads) {}
 
-HeldBody::HeldBody(const Solid& solid, const Ties& ties, const Factorisation& factorisation, int threads)
-    : threads_(threads), points_(solid.mesh.points), carry_released_(ties.carry_released) {
-  const std::vector<bool> inside = points_of_solid(solid);
-  for (std::int64_t a = 0; a < solid.points(); ++a) {
-    if (inside[a] && !ties.tied[a]) {
-      free_.insert(free_.end(), {3 * a, 3 * a + 1, 3 * a + 2});
-    }
-  }
-  size_ = static_cast<Eigen::Index>(free_.size()) + carry_released_.cols();
-  conditions_ = restrict(RowMatrix(ties.spread));
-  find_rigid_motions(solid, ties);
-  choose_supports();
-  factorise(factorisation);
+HeldBody::HeldBody(HeldFreedoms freedoms, const Solid& solid, const Ties& ties, const Factorisation& factorisation,
+                   int threads)
+    : threads_(threads), freedoms_(std::move(freedoms)) {
+  factorise(factorisation, solid);
   close_conditions(ties);
 }
 
 RowMatrix HeldBody::expand(const Eigen::MatrixXd& z) const {
-  RowMatrix u = RowMatrix::Zero(carry_released_.rows(), z.cols());
-  expand_into(z, u);
+  RowMatrix u = RowMatrix::Zero(freedoms_.carry_released.rows(), z.cols());
+  freedoms_.expand_into(z, u);
   return u;
 }
 
 Eigen::MatrixXd HeldBody::restrict(const RowMatrix& forces) const {
-  Eigen::MatrixXd f(size_, forces.cols());
-  restrict_into(forces, f);
+  Eigen::MatrixXd f(freedoms_.size, forces.cols());
+  freedoms_.restrict_into(forces, f);
   return f;
-}
-
-void HeldBody::expand_into(const Eigen::Ref<const Eigen::MatrixXd>& z, RowMatrix& u) const {
-  if (carry_released_.cols() > 0) u = carry_released_ * z.bottomRows(carry_released_.cols());
-  for (std::size_t k = 0; k < free_.size(); ++k) u.row(free_[k]) = z.row(static_cast<Eigen::Index>(k));
-}
-
-void HeldBody::restrict_into(const RowMatrix& forces, Eigen::Ref<Eigen::MatrixXd> f) const {
-  for (std::size_t k = 0; k < free_.size(); ++k) f.row(static_cast<Eigen::Index>(k)) = forces.row(free_[k]);
-  f.bottomRows(carry_released_.cols()) = carry_released_.transpose() * forces;
 }
 
 Eigen::MatrixXd HeldBody::inertia(const NodeMatrix& mass, const Eigen::MatrixXd& z, int threads) const {
   constexpr Eigen::Index few = 4;
   const Eigen::Index groups = (z.cols() + few - 1) / few;
   if (groups < threads) return restrict(mass.multiply(expand(z), 3, threads));
-  Eigen::MatrixXd forces(size_, z.cols());
+  Eigen::MatrixXd forces(freedoms_.size, z.cols());
 #pragma omp parallel num_threads(threads)
   {
     RowMatrix u, of_points;
@@ -120,12 +65,12 @@ Eigen::MatrixXd HeldBody::inertia(const NodeMatrix& mass, const Eigen::MatrixXd&
     for (Eigen::Index group = 0; group < groups; ++group) {
       const Eigen::Index first = few * group, width = std::min(few, z.cols() - first);
       if (u.cols() != width) {
-        u.setZero(carry_released_.rows(), width);
+        u.setZero(freedoms_.carry_released.rows(), width);
         of_points.resize(u.rows(), width);
       }
-      expand_into(z.middleCols(first, width), u);
+      freedoms_.expand_into(z.middleCols(first, width), u);
       mass.multiply_into(u, 3, of_points);
-      restrict_into(of_points, forces.middleCols(first, width));
+      freedoms_.restrict_into(of_points, forces.middleCols(first, width));
     }
   }
   return forces;
@@ -136,116 +81,48 @@ Eigen::MatrixXd HeldBody::inertia(const BodyMatrices& matrices, const Eigen::Mat
   return restrict(matrices.mass_times(expand(z)));
 }
 
-void HeldBody::find_rigid_motions(const Solid& solid, const Ties& ties) {
-  const std::vector<bool> inside = points_of_solid(solid);
-  Eigen::AlignedBox3d box;
-  for (Eigen::Index a = 0; a < solid.points(); ++a) {
-    if (inside[a]) {
-      box.extend(Eigen::Vector3d(points_.col(a)));
-    }
-  }
-  // Unknowns: six amplitudes of the body, rotations by displacements at its size, and the released directions likewise.
-  // A motion is free when every tied point moves with the body and as its interface says.
-  const double length = box.diagonal().norm() / 2;
-  const Eigen::Index released = carry_released_.cols();
-  Eigen::VectorXd scale = Eigen::VectorXd::Ones(6 + released);
-  scale.segment<3>(3).setConstant(1 / length);
-  for (Eigen::Index c = 0; c < released; ++c) {
-    scale(6 + c) = ties.released[c].axis < 3 ? 1 : 1 / length;
-  }
-  const RowMatrix motions = rigid_motions(points_, box.center());
-  std::vector<Eigen::Index> tied_rows;
-  for (Eigen::Index a = 0; a < solid.points(); ++a) {
-    if (ties.tied[a]) {
-      tied_rows.insert(tied_rows.end(), {3 * a, 3 * a + 1, 3 * a + 2});
-    }
-  }
-  Eigen::MatrixXd mismatch(tied_rows.size(), 6 + released);
-  mismatch << motions(tied_rows, Eigen::all), -RowMatrix(carry_released_)(tied_rows, Eigen::all);
-  const Eigen::MatrixXd amplitudes = scale.asDiagonal() * null_space(mismatch * scale.asDiagonal());
-
-  rigid_.resize(size_, amplitudes.cols());
-  for (std::size_t k = 0; k < free_.size(); ++k) {
-    rigid_.row(static_cast<Eigen::Index>(k)) = motions.row(free_[k]) * amplitudes.topRows<6>();
-  }
-  rigid_.bottomRows(released) = amplitudes.bottomRows(released);
-  if (rigid_.cols() == 0) {
-    return;
-  }
-  // Do the averages hold what the missing freedoms do not?
-  Eigen::MatrixXd held = transposed_product(conditions_, rigid_);
-  for (Eigen::Index k = 0; k < held.rows(); ++k) {
-    held.row(k) *= ties.kept[ties.averages[k]].axis < 3 ? 1 : length;
-  }
-  if (const Eigen::MatrixXd loose = null_space(held); loose.cols() > 0) {
-    const Eigen::VectorXd motion = amplitudes * loose.col(0);
-    throw InputError(fmt::format(
-        "{}: with every kept direction of the interfaces held, the body can still {}; keep more directions or add an "
-        "interface that holds it",
-        ties.surfaces.front().located, describe_motion(motion.head<3>(), motion.segment<3>(3), box.center(), length)));
-  }
-}
-
-void HeldBody::choose_supports() {
-  const Eigen::Index r = rigid_.cols();
-  if (r > 0) {
-    // Pivoted columns of N^T: freedoms of points far apart, in which the motions differ most.
-    const Eigen::Index count = static_cast<Eigen::Index>(free_.size());
-    supports_ = pivoted_columns(rigid_.topRows(count).transpose());
-    supports_.resize(static_cast<std::size_t>(r));
-    std::sort(supports_.begin(), supports_.end());
-  }
-  std::vector<Eigen::Index> all(size_);
-  std::iota(all.begin(), all.end(), 0);
-  std::set_difference(all.begin(), all.end(), supports_.begin(), supports_.end(), std::back_inserter(not_supports_));
-}
-
-void HeldBody::factorise(const Factorisation& factorisation) {
-  const auto count = static_cast<Eigen::Index>(free_.size());
-  std::vector<std::int64_t> kept;
-  for (const Eigen::Index k : not_supports_) {
-    if (k >= count) break;
-    kept.push_back(free_[k]);
-  }
+void HeldBody::factorise(const Factorisation& factorisation, const Solid& solid) {
+  const InsideUnknowns inside = freedoms_.inside();
   try {
-    factor_ = factorisation(kept, carry_released_);
+    factor_ = factorisation(inside);
   } catch (const NotPositiveDefinite& error) {
-    if (error.unknown() < static_cast<std::int64_t>(kept.size())) {
-      throw ComputationError(
-          fmt::format("the stiffness of the body is singular at the point {} m: a part of the mesh hangs on there by a "
-                      "point or an edge only, or its cells are degenerate",
-                      words(points_.col(kept[error.unknown()] / 3))));
+    if (error.unknown() < static_cast<std::int64_t>(inside.kept.size())) {
+      const Eigen::Vector3d x = solid.mesh.points.col(inside.kept[error.unknown()] / 3);
+      throw ComputationError(fmt::format(
+          "the stiffness of the body is singular at the point ({:.4g}, {:.4g}, {:.4g}) m: a part of the mesh "
+          "hangs on there by a point or an edge only, or its cells are degenerate",
+          x.x(), x.y(), x.z()));
     }
     throw ComputationError("the stiffness of the body is singular in a released direction of an interface");
   }
 }
 
 Eigen::MatrixXd HeldBody::pseudo_solve(const Eigen::MatrixXd& f) const {
-  if (!factor_) return Eigen::MatrixXd::Zero(size_, f.cols());
-  if (supports_.empty()) return factor_->solve(f);
-  Eigen::MatrixXd z(static_cast<Eigen::Index>(not_supports_.size()), f.cols());
+  if (!factor_) return Eigen::MatrixXd::Zero(freedoms_.size, f.cols());
+  if (freedoms_.supports.empty()) return factor_->solve(f);
+  Eigen::MatrixXd z(static_cast<Eigen::Index>(freedoms_.not_supports.size()), f.cols());
 #pragma omp parallel for num_threads(threads_)
-  for (Eigen::Index c = 0; c < f.cols(); ++c) z.col(c) = f.col(c)(not_supports_);
+  for (Eigen::Index c = 0; c < f.cols(); ++c) z.col(c) = f.col(c)(freedoms_.not_supports);
   const Eigen::MatrixXd inside = factor_->solve(z);
-  z.resize(size_, f.cols());
+  z.resize(freedoms_.size, f.cols());
 #pragma omp parallel for num_threads(threads_)
   for (Eigen::Index c = 0; c < f.cols(); ++c) {
-    z.col(c)(not_supports_) = inside.col(c);
-    z.col(c)(supports_).setZero();
+    z.col(c)(freedoms_.not_supports) = inside.col(c);
+    z.col(c)(freedoms_.supports).setZero();
   }
   return z;
 }
 
 void HeldBody::close_conditions(const Ties& ties) {
-  const Eigen::Index a = conditions_.cols(), r = rigid_.cols();
+  const Eigen::Index a = freedoms_.conditions.cols(), r = freedoms_.rigid.cols();
   if (a == 0) {
     return;
   }
-  flexibility_ = pseudo_solve(conditions_);
+  flexibility_ = pseudo_solve(freedoms_.conditions);
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(a + r, a + r);
-  matrix.topLeftCorner(a, a) = transposed_product(conditions_, flexibility_);
-  matrix.topRightCorner(a, r) = -transposed_product(conditions_, rigid_);
-  matrix.bottomLeftCorner(r, a) = transposed_product(rigid_, conditions_);
+  matrix.topLeftCorner(a, a) = transposed_product(freedoms_.conditions, flexibility_);
+  matrix.topRightCorner(a, r) = -transposed_product(freedoms_.conditions, freedoms_.rigid);
+  matrix.bottomLeftCorner(r, a) = transposed_product(freedoms_.rigid, freedoms_.conditions);
   // Scaled to comparable entries before it is inverted: multipliers are forces and moments.
   Eigen::VectorXd scale = Eigen::VectorXd::Ones(a + r);
   for (Eigen::Index k = 0; k < a; ++k) {
@@ -264,19 +141,19 @@ void HeldBody::close_conditions(const Ties& ties) {
 
 Eigen::MatrixXd HeldBody::solve(const Eigen::MatrixXd& f, const Eigen::MatrixXd& averages) const {
   Eigen::MatrixXd z = pseudo_solve(f);
-  const Eigen::Index a = conditions_.cols(), r = rigid_.cols();
+  const Eigen::Index a = freedoms_.conditions.cols(), r = freedoms_.rigid.cols();
   if (a == 0) {
     return z;
   }
   Eigen::MatrixXd right(a + r, f.cols());
-  right.topRows(a) = tall_inner_products(conditions_, z, threads_);
+  right.topRows(a) = tall_inner_products(freedoms_.conditions, z, threads_);
   if (averages.size() > 0) {
     right.topRows(a) -= averages;
   }
-  right.bottomRows(r) = tall_inner_products(rigid_, f, threads_);
+  right.bottomRows(r) = tall_inner_products(freedoms_.rigid, f, threads_);
   const Eigen::MatrixXd unknowns = product(small_, right);
   add_tall_product(z, flexibility_, unknowns.topRows(a), -1, threads_);
-  add_tall_product(z, rigid_, unknowns.bottomRows(r), 1, threads_);
+  add_tall_product(z, freedoms_.rigid, unknowns.bottomRows(r), 1, threads_);
   return z;
 }
 

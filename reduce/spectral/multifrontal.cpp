@@ -102,30 +102,55 @@ std::vector<std::int64_t> places_in_order(const SupernodalFactor& structure) {
 }
 
 /// The entries of A where those of L will be, zero elsewhere.
-void spread_entries(const SupernodalFactor& structure, const SymmetricMatrix& a, double* values, int threads) {
-  const std::vector<std::int64_t> places = places_in_order(structure);
-  std::vector<std::int64_t> owner(static_cast<std::size_t>(structure.size));
-  for (std::int64_t s = 0; s < structure.supernodes; ++s)
-    std::fill(owner.begin() + structure.columns[s], owner.begin() + structure.columns[s + 1], s);
-#pragma omp parallel num_threads(threads)
-  {
-#pragma omp for schedule(dynamic, 16)
+class SpreadEntries {
+ public:
+  SpreadEntries(const SupernodalFactor& structure, double* values)
+      : structure_(structure), values_(values), owner_(static_cast<std::size_t>(structure.size)) {
     for (std::int64_t s = 0; s < structure.supernodes; ++s)
-      std::fill(values + structure.value_starts[s], values + structure.value_starts[s + 1], 0.0);
-    RowFinder finder(structure);
+      std::fill(owner_.begin() + structure.columns[s], owner_.begin() + structure.columns[s + 1], s);
+  }
+  void spread(const BorderedPart& a, int threads) const {
+    const std::vector<std::int64_t> places = places_in_order(structure_);
+    std::vector<std::int64_t> places_of_whole(static_cast<std::size_t>(a.whole.size), -1);
+    for (std::size_t k = 0; k < a.kept.size(); ++k) places_of_whole[static_cast<std::size_t>(a.kept[k])] = places[k];
+#pragma omp parallel num_threads(threads)
+    {
+#pragma omp for schedule(dynamic, 16)
+      for (std::int64_t s = 0; s < structure_.supernodes; ++s)
+        std::fill(values_ + structure_.value_starts[s], values_ + structure_.value_starts[s + 1], 0.0);
+      RowFinder finder(structure_);
 #pragma omp for schedule(dynamic, 1024)
-    for (std::int64_t j = 0; j < a.size; ++j) {
-      const std::int64_t place = places[static_cast<std::size_t>(j)];
-      for (std::int64_t p = a.starts[j]; p < a.starts[j + 1]; ++p) {
-        const std::int64_t other = places[static_cast<std::size_t>(a.rows[p])];
-        const std::int64_t column = std::min(place, other), row = std::max(place, other);
-        const std::int64_t s = owner[static_cast<std::size_t>(column)];
-        const std::int64_t rows = structure.row_starts[s + 1] - structure.row_starts[s];
-        values[structure.value_starts[s] + (column - structure.columns[s]) * rows + finder.find(s, row)] = a.values[p];
+      for (std::size_t k = 0; k < a.kept.size(); ++k) {
+        const auto j = static_cast<std::size_t>(a.kept[k]);
+        for (std::int64_t p = a.whole.starts[j]; p < a.whole.starts[j + 1]; ++p) {
+          const std::int64_t other = places_of_whole[static_cast<std::size_t>(a.whole.rows[p])];
+          if (other >= 0) set(finder, places[k], other, a.whole.values[p]);
+        }
       }
     }
+    RowFinder finder(structure_);
+    const auto kept = static_cast<Eigen::Index>(a.kept.size());
+    for (Eigen::Index c = 0; c < a.corner.cols(); ++c) {
+      const std::int64_t place = places[static_cast<std::size_t>(kept + c)];
+      for (Eigen::Index k = 0; k < kept; ++k)
+        if (a.border(k, c) != 0) set(finder, places[static_cast<std::size_t>(k)], place, a.border(k, c));
+      for (Eigen::Index k = c; k < a.corner.rows(); ++k)
+        set(finder, places[static_cast<std::size_t>(kept + k)], place, a.corner(k, c));
+    }
   }
-}
+
+ private:
+  void set(RowFinder& finder, std::int64_t place, std::int64_t other, double value) const {
+    const std::int64_t column = std::min(place, other), row = std::max(place, other);
+    const std::int64_t s = owner_[static_cast<std::size_t>(column)];
+    const std::int64_t rows = structure_.row_starts[s + 1] - structure_.row_starts[s];
+    values_[structure_.value_starts[s] + (column - structure_.columns[s]) * rows + finder.find(s, row)] = value;
+  }
+
+  const SupernodalFactor& structure_;
+  double* values_;
+  std::vector<std::int64_t> owner_;  // supernode of each column
+};
 
 /// The elimination of all supernodes. `Columns` gives a supernode its columns and takes them when it is eliminated:
 ///   Front begin(std::int64_t s, Team&)          columns of A; no update matrix yet
@@ -340,9 +365,9 @@ int Multifrontal::workers() const {
   return static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(threads_), plan_.subtrees()));
 }
 
-std::optional<std::int64_t> Multifrontal::factorise(const SymmetricMatrix& a, double* values) const {
+std::optional<std::int64_t> Multifrontal::factorise(const BorderedPart& a, double* values) const {
   const BlasThreads one(1);
-  spread_entries(structure_, a, values, threads_);
+  SpreadEntries(structure_, values).spread(a, threads_);
   std::vector<KeptColumns> columns(static_cast<std::size_t>(workers()), KeptColumns(structure_, values));
   const std::int64_t failed = Elimination<KeptColumns>(structure_, plan_, columns).run();
   if (failed < 0) return std::nullopt;
