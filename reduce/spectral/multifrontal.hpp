@@ -34,6 +34,7 @@ class Multifrontal {
 
   /// L of A = L L^T, where the structure says.
   /// @param a  with the pattern that the structure was made for, or part of it
+  /// @param values  zero so far
   /// @returns  the column of L where a pivot was not positive; nothing when all were
   /// @throws std::bad_alloc
   std::optional<std::int64_t> factorise(const BorderedPart& a, double* values) const;

@@ -48,8 +48,8 @@ Forest fundamental_supernodes(const BlockElimination& blocks) {
 
 /// Whether a supernode of so many columns may hold such a share of zeros.
 bool is_worth_merging(std::int64_t width, double zeros) {
-  constexpr std::int64_t tiny = 8, small = 32, medium = 96;
-  return width <= tiny || (width <= small && zeros < 0.8) || (width <= medium && zeros < 0.1) || zeros < 0.05;
+  constexpr std::int64_t tiny = 8, small = 24, medium = 96;
+  return width <= tiny || (width <= small && zeros < 0.3) || (width <= medium && zeros < 0.1) || zeros < 0.02;
 }
 
 /// Children that go with their parent, in which zeros are then stored. @returns  for each the supernode that it is in

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <limits>
 #include <new>
 #include <numeric>
@@ -71,13 +70,9 @@ NotPositiveDefinite::NotPositiveDefinite(std::int64_t unknown)
     : ComputationError(fmt::format("the matrix is not positive definite at unknown {}", unknown)), unknown_(unknown) {}
 
 struct SymmetricFactor::Implementation {
-  struct Freed {
-    void operator()(double* memory) const { std::free(memory); }
-  };
-
   std::shared_ptr<const FactorStructure> structure;
   SupernodalFactor factor;
-  std::unique_ptr<double, Freed> values;
+  ZeroNumbers values;
   FactorStatistics statistics;
   std::optional<SupernodalSolver> solver;
   int threads = 1;
@@ -107,9 +102,7 @@ struct SymmetricFactor::Implementation {
     const auto start = std::chrono::steady_clock::now();
     std::optional<std::int64_t> failed;
     try {
-      values.reset(
-          static_cast<double*>(allocate_in_huge_pages(sizeof(double) * static_cast<std::size_t>(structure->values()))));
-      if (!values) throw std::bad_alloc();
+      values = ZeroNumbers(static_cast<std::size_t>(structure->values()));
       failed = elimination.factorise(a, values.get());
     } catch (const std::bad_alloc&) {
       throw ComputationError(
