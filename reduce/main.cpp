@@ -67,7 +67,7 @@ class Workplace {
   int threads(int available) const { return std::max(1, available / static_cast<int>(greeting_.ranks_here)); }
   MatrixMaker matrices() const {
     if (!ranks_) return assembled_matrices;
-    return [this](const Solid& solid, int threads) {
+    return [this](const Solid& solid, const InsideUnknowns&, int threads) {
       return distributed_matrices(*ranks_, static_cast<int>(greeting_.ranks), solid, threads);
     };
   }

@@ -125,8 +125,7 @@ class DistributedMatrices : public BodyMatrices {
     return result;
   }
 
-  std::unique_ptr<InsideFactor> factorise(const std::vector<std::int64_t>& kept,
-                                          const SparseRows& carried) const override;
+  std::unique_ptr<InsideFactor> factorise(const InsideUnknowns& inside) const override;
 
   EigenIteration eigen_iteration() const override {
     return [this](const ShiftInvertProblem& problem, int count, const EigenpairOptions& options) {
@@ -184,8 +183,9 @@ InsideShare DistributedMatrices::inside_of(const std::vector<int>& points, const
   return share;
 }
 
-std::unique_ptr<InsideFactor> DistributedMatrices::factorise(const std::vector<std::int64_t>& kept,
-                                                             const SparseRows& carried) const {
+std::unique_ptr<InsideFactor> DistributedMatrices::factorise(const InsideUnknowns& inside) const {
+  const std::vector<std::int64_t>& kept = inside.kept;
+  const SparseRows& carried = inside.carried;
   const std::size_t size = kept.size() + static_cast<std::size_t>(carried.cols());
   if (size == 0) return nullptr;
   if (size > static_cast<std::size_t>(std::numeric_limits<int>::max()))

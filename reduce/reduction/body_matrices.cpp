@@ -1,5 +1,11 @@
 #include "reduce/reduction/body_matrices.hpp"
 
+#include <algorithm>
+#include <chrono>
+#include <future>
+#include <utility>
+
+#include "reduce/common/error.hpp"
 #include "reduce/fe/assembly.hpp"
 #include "reduce/fe/geometric_stiffness.hpp"
 
@@ -9,8 +15,8 @@ namespace {
 
 class FactorHere : public InsideFactor {
  public:
-  FactorHere(const SymmetricMatrix& matrix, const std::vector<std::int64_t>& block_starts, int threads)
-      : factor_(matrix, block_starts, threads) {}
+  FactorHere(const BorderedPart& matrix, std::shared_ptr<const FactorStructure> structure, int threads)
+      : factor_(matrix, std::move(structure), threads) {}
   const FactorStatistics& statistics() const override { return factor_.statistics(); }
   Eigen::MatrixXd solve(const Eigen::MatrixXd& f) const override { return factor_.solve(f); }
   std::optional<PivotSigns> count_signs(SymmetricMatrix matrix, const std::vector<double>& scale) const override {
@@ -21,14 +27,35 @@ class FactorHere : public InsideFactor {
   SymmetricFactor factor_;
 };
 
+/// Nothing where no unknown is left.
+std::shared_ptr<const FactorStructure> structure_of(const BlockGraph& points, const InsideUnknowns& inside) {
+  const BlockGraph graph = inside_graph(points, inside);
+  return graph.unknowns() == 0 ? nullptr : std::make_shared<const FactorStructure>(graph);
+}
+
 class MatricesHere : public BodyMatrices {
  public:
-  MatricesHere(const Solid& solid, int threads)
+  MatricesHere(const Solid& solid, const InsideUnknowns& inside, int threads)
       : solid_(solid),
         threads_(threads),
         graph_(node_graph(solid.nodes, solid.points(), threads)),
-        stiffness_(assemble_stiffness(solid, graph_, threads)),
-        mass_(assemble_mass(solid, graph_, threads)) {}
+        prepared_for_(inside) {
+    const int others = std::max(1, threads - 1);
+    // The stiffness goes to another thread, where there is one to be had, since METIS catches signals of its own.
+    std::future<void> assembly =
+        std::async(threads > 1 ? std::launch::async | std::launch::deferred : std::launch::deferred,
+                   [&] { stiffness_ = assemble_stiffness(solid, graph_, others); });
+    structure_ = structure_of(point_graph(graph_), inside);
+    const bool is_busy = assembly.wait_for(std::chrono::seconds(0)) == std::future_status::timeout;
+    if (!is_busy) assembly.get();
+    try {
+      mass_ = assemble_mass(solid, graph_, is_busy ? 1 : threads);
+    } catch (const ComputationError&) {
+      if (is_busy) assembly.get();  // what is wrong with the stiffness comes first, whoever finds it first
+      throw;
+    }
+    if (is_busy) assembly.get();
+  }
   MatricesHere(const MatricesHere&) = delete;
   MatricesHere& operator=(const MatricesHere&) = delete;
 
@@ -42,9 +69,8 @@ class MatricesHere : public BodyMatrices {
   std::vector<Eigen::MatrixXd> geometric_stiffness(const RowMatrix& fields, const RowMatrix& shapes) const override {
     return reduced_geometric_stiffness(solid_, graph_, fields, shapes, threads_);
   }
-  std::unique_ptr<InsideFactor> factorise(const std::vector<std::int64_t>& kept,
-                                          const SparseRows& carried) const override {
-    return factorise_inside(stiffness_, kept, carried, threads_);
+  std::unique_ptr<InsideFactor> factorise(const InsideUnknowns& inside) const override {
+    return factorise_inside(stiffness_, inside, inside.is_like(prepared_for_) ? structure_ : nullptr, threads_);
   }
 
  private:
@@ -53,38 +79,27 @@ class MatricesHere : public BodyMatrices {
   NodeGraph graph_;
   SymmetricMatrix stiffness_;
   NodeMatrix mass_;
+  InsideUnknowns prepared_for_;
+  std::shared_ptr<const FactorStructure> structure_;
 };
 
 }  // namespace
 
-std::unique_ptr<BodyMatrices> assembled_matrices(const Solid& solid, int threads) {
-  return std::make_unique<MatricesHere>(solid, threads);
+std::unique_ptr<BodyMatrices> assembled_matrices(const Solid& solid, const InsideUnknowns& inside, int threads) {
+  return std::make_unique<MatricesHere>(solid, inside, threads);
 }
 
-std::unique_ptr<InsideFactor> factorise_inside(const SymmetricMatrix& stiffness, const std::vector<std::int64_t>& kept,
-                                               const SparseRows& carried, int threads) {
-  std::vector<std::int64_t> block_starts;
-  std::int64_t last_point = -1;
-  for (std::size_t k = 0; k < kept.size(); ++k) {
-    if (kept[k] / 3 == last_point) continue;
-    last_point = kept[k] / 3;
-    block_starts.push_back(static_cast<std::int64_t>(k));
+std::unique_ptr<InsideFactor> factorise_inside(const SymmetricMatrix& stiffness, const InsideUnknowns& inside,
+                                               std::shared_ptr<const FactorStructure> structure, int threads) {
+  if (!structure) structure = structure_of(point_graph(stiffness), inside);
+  if (!structure) return nullptr;
+  BorderedPart matrix{stiffness, inside.kept, {}, {}};
+  if (inside.carried.cols() > 0) {
+    const RowMatrix forces = stiffness.multiply(RowMatrix(inside.carried), threads);
+    matrix.border = forces(inside.kept, Eigen::all);
+    matrix.corner = inside.carried.transpose() * forces;
   }
-  SymmetricMatrix matrix = principal_submatrix(stiffness, kept);
-  if (const Eigen::Index released = carried.cols(); released > 0) {
-    const RowMatrix forces = stiffness.multiply(RowMatrix(carried), threads);
-    Eigen::MatrixXd border(matrix.size, released);
-    for (std::int64_t k = 0; k < matrix.size; ++k) {
-      border.row(k) = forces.row(kept[k]);
-    }
-    matrix = bordered(matrix, border, Eigen::MatrixXd(carried.transpose() * forces));
-    for (Eigen::Index c = 0; c < released; ++c) {
-      block_starts.push_back(static_cast<std::int64_t>(kept.size()) + c);
-    }
-  }
-  block_starts.push_back(matrix.size);
-  if (matrix.size == 0) return nullptr;
-  return std::make_unique<FactorHere>(matrix, block_starts, threads);
+  return std::make_unique<FactorHere>(matrix, std::move(structure), threads);
 }
 
 }  // namespace bielle::reduce

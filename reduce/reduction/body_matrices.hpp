@@ -10,7 +10,7 @@
 
 #include "reduce/fe/node_graph.hpp"
 #include "reduce/fe/solid.hpp"
-#include "reduce/reduction/ties.hpp"
+#include "reduce/reduction/inside_graph.hpp"
 #include "reduce/spectral/eigenpairs.hpp"
 #include "reduce/spectral/symmetric_factor.hpp"
 
@@ -45,26 +45,27 @@ class BodyMatrices {
   /// As fe/geometric_stiffness.hpp.
   virtual std::vector<Eigen::MatrixXd> geometric_stiffness(const RowMatrix& fields, const RowMatrix& shapes) const = 0;
 
-  /// P^T K P, P = [unit vectors of the unknowns `kept`, carried].
-  /// @param kept     ascending
-  /// @param carried  (3 points, c)
+  /// P^T K P.
   /// @returns nothing where no unknown is left
   /// @throws NotPositiveDefinite; ComputationError when memory does not suffice
-  virtual std::unique_ptr<InsideFactor> factorise(const std::vector<std::int64_t>& kept,
-                                                  const SparseRows& carried) const = 0;
+  virtual std::unique_ptr<InsideFactor> factorise(const InsideUnknowns& inside) const = 0;
   /// How eigenpairs are found where `shift_invert_eigenpairs` would iterate; none: as it does.
   virtual EigenIteration eigen_iteration() const { return {}; }
 };
 
-/// Makes the matrices of a solid, which they may refer to. @param threads  >= 1
-using MatrixMaker = std::function<std::unique_ptr<BodyMatrices>(const Solid& solid, int threads)>;
+/// Makes the matrices of a solid, which they may refer to.
+/// @param inside   what will be factorised: it can be prepared meanwhile. Something else may be
+/// @param threads  >= 1
+using MatrixMaker =
+    std::function<std::unique_ptr<BodyMatrices>(const Solid& solid, const InsideUnknowns& inside, int threads)>;
 
-/// All in this process.
-/// @throws ComputationError as assemble_stiffness
-std::unique_ptr<BodyMatrices> assembled_matrices(const Solid& solid, int threads);
+/// All in this process. While one thread finds the structure of the factor, the others assemble.
+/// @throws ComputationError as assemble_stiffness, and when memory does not suffice
+std::unique_ptr<BodyMatrices> assembled_matrices(const Solid& solid, const InsideUnknowns& inside, int threads);
 
 /// As BodyMatrices::factorise, of a stiffness that is here.
-std::unique_ptr<InsideFactor> factorise_inside(const SymmetricMatrix& stiffness, const std::vector<std::int64_t>& kept,
-                                               const SparseRows& carried, int threads);
+/// @param structure  made for the inside; none: it is found now
+std::unique_ptr<InsideFactor> factorise_inside(const SymmetricMatrix& stiffness, const InsideUnknowns& inside,
+                                               std::shared_ptr<const FactorStructure> structure, int threads);
 
 }  // namespace bielle::reduce

@@ -17,6 +17,7 @@
 #include <optional>
 
 #include "reduce/reduction/body_matrices.hpp"
+#include "reduce/reduction/held_freedoms.hpp"
 
 namespace bielle::reduce {
 
@@ -28,13 +29,15 @@ class HeldBody {
   /// of
   ///         the mesh hangs on by a point or an edge only: where
   HeldBody(const Solid& solid, const BodyMatrices& matrices, const Ties& ties, int threads = 1);
+  /// The same with freedoms that are known: those of this solid with these ties.
+  HeldBody(HeldFreedoms freedoms, const Solid& solid, const BodyMatrices& matrices, const Ties& ties, int threads);
   /// The same with a stiffness of all points that is here, unknowns x y z of point 0, 1, ...
   HeldBody(const Solid& solid, const SymmetricMatrix& stiffness, const Ties& ties, int threads);
   ~HeldBody();
 
-  Eigen::Index size() const { return size_; }  ///< of z
+  Eigen::Index size() const { return freedoms_.size; }  ///< of z
   const FactorStatistics& statistics() const;
-  Eigen::Index supports() const { return rigid_.cols(); }  ///< r
+  Eigen::Index supports() const { return freedoms_.rigid.cols(); }  ///< r
 
   /// Displacements (3 points, k) of all points: tied points follow the released directions, points outside are at rest.
   RowMatrix expand(const Eigen::MatrixXd& z) const;
@@ -54,34 +57,17 @@ class HeldBody {
   std::optional<PivotSigns> count_below(const BodyMatrices& matrices, double eigenvalue, int threads) const;
 
  private:
-  /// @param u  (3 points, at least k): the columns of z, then zeros
-  void expand_into(const Eigen::Ref<const Eigen::MatrixXd>& z, RowMatrix& u) const;
-  /// @param f  (size, k): of the first k columns of the forces
-  void restrict_into(const RowMatrix& forces, Eigen::Ref<Eigen::MatrixXd> f) const;
-  /// Columns without the rows of the supports, and with zeros there.
-  void leave_supports_out(const Eigen::MatrixXd& f, Eigen::MatrixXd& inside) const;
-  void put_supports_in(const Eigen::MatrixXd& inside, Eigen::MatrixXd& z) const;
-  void find_rigid_motions(const Solid& solid, const Ties& ties);
-  void choose_supports();
-  using Factorisation =
-      std::function<std::unique_ptr<InsideFactor>(const std::vector<std::int64_t>& kept, const SparseRows& carried)>;
-  HeldBody(const Solid& solid, const Ties& ties, const Factorisation& factorisation, int threads);
-  void factorise(const Factorisation& factorisation);
+  using Factorisation = std::function<std::unique_ptr<InsideFactor>(const InsideUnknowns& inside)>;
+  HeldBody(HeldFreedoms freedoms, const Solid& solid, const Ties& ties, const Factorisation& factorisation,
+           int threads);
+  void factorise(const Factorisation& factorisation, const Solid& solid);
   void close_conditions(const Ties& ties);
   Eigen::MatrixXd pseudo_solve(const Eigen::MatrixXd& f) const;  // K+ f
 
   int threads_ = 1;
-  Eigen::Matrix3Xd points_;
-  Eigen::Index size_ = 0;
-  std::vector<std::int64_t> free_;      // unknowns x y z of the points that are neither tied nor outside, ascending
-  std::vector<std::int64_t> not_free_;  // the others
-  SparseRows carry_released_;
-  std::vector<Eigen::Index> supports_;      // held freedoms, numbers in z, ascending
-  std::vector<Eigen::Index> not_supports_;  // the other numbers in z
-  std::unique_ptr<InsideFactor> factor_;    // of K_ii without the supports; none when nothing is left
+  HeldFreedoms freedoms_;
+  std::unique_ptr<InsideFactor> factor_;  // of K_ii without the supports; none when nothing is left
   FactorStatistics no_statistics_;
-  Eigen::MatrixXd rigid_;        // N (size, r)
-  Eigen::MatrixXd conditions_;   // C^T (size, averages)
   Eigen::MatrixXd corrections_;  // K+ C^T, then -N: what lambda and alpha take away
   Eigen::MatrixXd small_;        // inverse of the matrix of lambda and alpha
 };

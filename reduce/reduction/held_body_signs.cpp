@@ -30,17 +30,18 @@ std::optional<PivotSigns> HeldBody::count_below(const BodyMatrices& matrices, do
   if (matrices.stiffness_here() == nullptr || matrices.mass_here() == nullptr) return std::nullopt;
   const SymmetricMatrix& stiffness = *matrices.stiffness_here();
   const NodeMatrix& mass = *matrices.mass_here();
-  const auto points_unknowns = static_cast<Eigen::Index>(free_.size());
-  const Eigen::Index released = carry_released_.cols(), supports = rigid_.cols(), averages = conditions_.cols();
+  const auto points_unknowns = static_cast<Eigen::Index>(freedoms_.free.size());
+  const Eigen::Index released = freedoms_.carry_released.cols(), supports = freedoms_.rigid.cols(),
+                     averages = freedoms_.conditions.cols();
   std::vector<std::int64_t> kept;
   std::vector<Eigen::Index> inner, outer;  // numbers in z: of points in the factor; released, then supports
-  for (const Eigen::Index k : not_supports_) {
+  for (const Eigen::Index k : freedoms_.not_supports) {
     if (k >= points_unknowns) break;
     inner.push_back(k);
-    kept.push_back(free_[static_cast<std::size_t>(k)]);
+    kept.push_back(freedoms_.free[static_cast<std::size_t>(k)]);
   }
   for (Eigen::Index c = 0; c < released; ++c) outer.push_back(points_unknowns + c);
-  outer.insert(outer.end(), supports_.begin(), supports_.end());
+  outer.insert(outer.end(), freedoms_.supports.begin(), freedoms_.supports.end());
 
   SymmetricMatrix matrix = principal_submatrix(stiffness, kept);
   const Eigen::VectorXd diagonal = matrix.diagonal();
@@ -48,14 +49,14 @@ std::optional<PivotSigns> HeldBody::count_below(const BodyMatrices& matrices, do
   subtract_inertia(matrix, kept, mass, eigenvalue, threads);
   if (released + supports + averages > 0) {
     const Eigen::Index first_average = released + supports;
-    Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(size_, first_average);
+    Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(freedoms_.size, first_average);
     for (Eigen::Index c = 0; c < first_average; ++c) unit(outer[static_cast<std::size_t>(c)], c) = 1;
     const Eigen::MatrixXd forces = restrict(stiffness.multiply(expand(unit), threads));
     const Eigen::MatrixXd images = forces - eigenvalue * inertia(mass, unit, threads);
     // A condition has no size of its own: it gets one by which its multiplier's pivot is about 1.
-    Eigen::MatrixXd conditions = conditions_;
+    Eigen::MatrixXd conditions = freedoms_.conditions;
     for (Eigen::Index c = 0; c < averages; ++c)
-      conditions.col(c) /= std::sqrt(conditions_.col(c).dot(corrections_.col(c)));
+      conditions.col(c) /= std::sqrt(freedoms_.conditions.col(c).dot(corrections_.col(c)));
     Eigen::MatrixXd border(kept.size(), first_average + averages);
     border << images(inner, Eigen::all), conditions(inner, Eigen::all);
     Eigen::MatrixXd corner = Eigen::MatrixXd::Zero(border.cols(), border.cols());

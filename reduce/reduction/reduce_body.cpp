@@ -181,14 +181,16 @@ Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Prog
   const std::vector<ResidualRequest> residual = residual_requests(solid, options.loads, points);
   warn_about_rigid_ties(ties, progress);
   warn_about_size(static_cast<Eigen::Index>(ties.kept.size()) + options.mode_count.value_or(0), progress);
-  const std::unique_ptr<BodyMatrices> kept_matrices = make(solid, threads);
+  HeldFreedoms freedoms(solid, ties);
+  const std::unique_ptr<BodyMatrices> kept_matrices = make(solid, freedoms.inside(), threads);
   const BodyMatrices& matrices = *kept_matrices;
 
   if (options.modes_proven && matrices.stiffness_here() == nullptr)
-    in_section(options, "modes", [] { throw InputError("proof: modes are counted by bielle-reduce alone, not on ranks"); });
+    in_section(options, "modes",
+               [] { throw InputError("proof: modes are counted by bielle-reduce alone, not on ranks"); });
 
   progress.start("factorisation");
-  const HeldBody held(solid, matrices, ties, threads);
+  const HeldBody held(std::move(freedoms), solid, matrices, ties, threads);
   Basis basis = in_section(options, "modes", [&] {
     return make_basis(solid, matrices, ties, held, properties, {options.mode_count, options.modes_below}, progress,
                       threads);

@@ -11,7 +11,8 @@ namespace bielle {
 
 namespace {
 
-constexpr std::int64_t panel_width = 128;
+constexpr std::int64_t narrow = 64, narrow_of_team = 128;  // columns that LAPACK eliminates while others wait
+constexpr std::int64_t product_strip = 256;  // columns of a product, of which the rows above the diagonal are left out
 
 int integer(std::int64_t k) { return static_cast<int>(k); }
 
@@ -52,70 +53,83 @@ RowShare own_share(std::int64_t first, std::int64_t end, const Team& team) {
   return {from, (team.rank() + 1 == team.size() ? end : bound(team.rank() + 1)) - from};
 }
 
-/// Columns first .. first + width of L, of which the rows below the panel are shared out.
-class Panel {
+/// The elimination of columns first .. first + width of a front; the rows are shared out.
+class ColumnElimination {
  public:
-  Panel(const Front& front, std::int64_t first)
-      : front_(front), first_(first), width_(std::min(panel_width, front.width - first)) {}
+  ColumnElimination(const Front& front, double* pivots, Team& team) : front_(front), pivots_(pivots), team_(team) {}
 
-  /// What the columns to the left take from it.
-  void subtract_left(const Team& team) const {
-    if (first_ == 0) return;
-    const auto [row, count] = own_share(first_, front_.rows, team);
-    const double* const left = front_.scaled != nullptr ? front_.scaled : front_.columns;
-    subtract_product(count, width_, first_, front_.columns + row, left + first_, front_.rows, 1, at(row), front_.rows);
-  }
+  /// One half, then the other less what it takes from the first, so that most is done by large products. What columns
+  /// further left take is gone already.
   /// @returns the column of a pivot that is not positive, or -1
-  std::int64_t factorise_diagonal(double* pivots) const {
-    if (pivots == nullptr) {
+  std::int64_t eliminate(std::int64_t first, std::int64_t width) {
+    if (width <= (team_.size() == 1 ? narrow : narrow_of_team)) return eliminate_narrow(first, width);
+    constexpr std::int64_t of_vector = 16;
+    const std::int64_t half = (width / 2 + of_vector - 1) / of_vector * of_vector;
+    if (const std::int64_t failed = eliminate(first, half); failed >= 0) return failed;
+    for (std::int64_t done = half; done < width; done += product_strip)
+      subtract(first, half, first + done, std::min(product_strip, width - done));
+    team_.wait();
+    return eliminate(first + half, width - half);
+  }
+
+ private:
+  double* at(std::int64_t row, std::int64_t column) const { return front_.columns + row + column * front_.rows; }
+
+  /// What `width` columns from `to` on take from `depth` columns from `from` on.
+  void subtract(std::int64_t from, std::int64_t depth, std::int64_t to, std::int64_t width) const {
+    const auto [row, count] = own_share(to, front_.rows, team_);
+    const double* const left = front_.scaled != nullptr ? front_.scaled : front_.columns;
+    subtract_product(count, width, depth, at(row, from), left + to + from * front_.rows, front_.rows, 1, at(row, to),
+                     front_.rows);
+  }
+  std::int64_t eliminate_narrow(std::int64_t first, std::int64_t width) {
+    std::int64_t& failed = team_.common();
+    team_.once([&] { failed = factorise_diagonal(first, width); });
+    if (failed >= 0) return failed;
+    solve_below(first, width);
+    team_.wait();
+    return -1;
+  }
+  std::int64_t factorise_diagonal(std::int64_t first, std::int64_t width) const {
+    double* const diagonal = at(first, first);
+    if (pivots_ == nullptr) {
       int info = 0;
-      const int n = integer(width_), stride = integer(front_.rows);
-      dpotrf_("L", &n, at(first_), &stride, &info);
-      return info > 0 ? first_ + info - 1 : -1;
+      const int n = integer(width), stride = integer(front_.rows);
+      dpotrf_("L", &n, diagonal, &stride, &info);
+      return info > 0 ? first + info - 1 : -1;
     }
-    factorise_indefinite(width_, at(first_), front_.rows);
-    for (std::int64_t k = 0; k < width_; ++k) {
-      const double* const column = at(first_) + k * front_.rows;
-      pivots[first_ + k] = column[k];
-      std::copy(column + k, column + width_, front_.scaled + first_ + k + (first_ + k) * front_.rows);
+    factorise_indefinite(width, diagonal, front_.rows);
+    for (std::int64_t k = 0; k < width; ++k) {
+      const double* const column = diagonal + k * front_.rows;
+      pivots_[first + k] = column[k];
+      std::copy(column + k, column + width, front_.scaled + first + k + (first + k) * front_.rows);
     }
     return -1;
   }
-  void solve_below(const double* pivots, const Team& team) const {
-    const auto [row, count] = own_share(first_ + width_, front_.rows, team);
+  void solve_below(std::int64_t first, std::int64_t width) const {
+    const auto [row, count] = own_share(first + width, front_.rows, team_);
     if (count <= 0) return;
-    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, pivots != nullptr ? CblasUnit : CblasNonUnit,
-                integer(count), integer(width_), 1, at(first_), integer(front_.rows), at(row), integer(front_.rows));
-    if (pivots == nullptr) return;
-    for (std::int64_t k = 0; k < width_; ++k) {
-      const double inverse = 1 / pivots[first_ + k];
-      const double* const from = at(row) + k * front_.rows;
-      double* const to = front_.scaled + row + (first_ + k) * front_.rows;
+    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, pivots_ != nullptr ? CblasUnit : CblasNonUnit,
+                integer(count), integer(width), 1, at(first, first), integer(front_.rows), at(row, first),
+                integer(front_.rows));
+    if (pivots_ == nullptr) return;
+    for (std::int64_t k = 0; k < width; ++k) {
+      const double inverse = 1 / pivots_[first + k];
+      const double* const from = at(row, first + k);
+      double* const to = front_.scaled + row + (first + k) * front_.rows;
       for (std::int64_t i = 0; i < count; ++i) to[i] = inverse * from[i];
     }
   }
 
- private:
-  double* at(std::int64_t row) const { return front_.columns + row + first_ * front_.rows; }
-
   const Front& front_;
-  std::int64_t first_, width_;
+  double* pivots_;
+  Team& team_;
 };
 
 }  // namespace
 
 std::int64_t eliminate_columns(const Front& front, double* pivots, Team& team) {
-  for (std::int64_t first = 0; first < front.width; first += panel_width) {
-    const Panel panel(front, first);
-    panel.subtract_left(team);
-    team.wait();
-    std::int64_t& failed = team.common();
-    team.once([&] { failed = panel.factorise_diagonal(pivots); });
-    if (failed >= 0) return failed;
-    panel.solve_below(pivots, team);
-    team.wait();
-  }
-  return -1;
+  return ColumnElimination(front, pivots, team).eliminate(0, front.width);
 }
 
 void add_to_update(const Front& front, bool is_empty, Team& team) {

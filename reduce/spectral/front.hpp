@@ -1,6 +1,7 @@
 // Elimination of the columns of one supernode, dense, by the threads of a team together.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -18,6 +19,19 @@ struct Front {
 
   std::int64_t below() const { return rows - width; }
   UpdatePanels panels() const { return {below()}; }
+  /// Where row 0 of a column would be: in the supernode's own columns, or in the update matrix, which has the rows from
+  /// the diagonal on.
+  double* column(std::int64_t k) const {
+    if (k < width) return columns + k * rows;
+    const UpdatePanels all = panels();
+    const std::int64_t panel = (k - width) / all.width(), above = panel * all.width();
+    return update + all.offset(panel) + (k - width - above) * all.rows(panel) - above - width;
+  }
+  /// Sets column k >= width of the update matrix to zero.
+  void clear_update(std::int64_t k) const {
+    const std::int64_t first = k - (k - width) % panels().width();
+    std::fill_n(column(k) + first, rows - first, 0.0);
+  }
 };
 
 /// A -> L, the columns up to the diagonal apart. With `pivots` (width) A -> L D L^T.

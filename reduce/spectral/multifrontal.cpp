@@ -45,26 +45,52 @@ std::vector<std::int64_t> places_in_parent(const Shape& child, const Shape& pare
   return places;
 }
 
-/// Adds the update matrix of a child; each thread of the team the columns of the parent that are its.
-void add_child(const double* update, const Shape& child, const Front& to, const Shape& parent, const Team& team) {
-  constexpr std::int64_t strip = 32;  // columns in a row by one thread
-  const std::vector<std::int64_t> places = places_in_parent(child, parent);
-  const UpdatePanels from{child.below()}, panels = to.panels();
-  for (std::int64_t k = 0; k < child.below(); ++k) {
-    const std::int64_t column = places[static_cast<std::size_t>(k)];
-    if (column / strip % team.size() != team.rank()) continue;
-    const std::int64_t own_panel = k / from.width();
-    const std::int64_t first = own_panel * from.width();
-    const double* const source = update + from.offset(own_panel) + (k - first) * from.rows(own_panel) - first;
-    double* target = to.columns + column * to.rows;  // of row 0 of the parent
-    if (column >= to.width) {
-      const std::int64_t in_update = column - to.width, panel = in_update / panels.width();
-      target = to.update + panels.offset(panel) + (in_update - panel * panels.width()) * panels.rows(panel) -
-               panel * panels.width() - to.width;
-    }
-    for (std::int64_t i = k; i < child.below(); ++i) target[places[static_cast<std::size_t>(i)]] += source[i];
+/// Rows of a child that follow each other in its parent as well.
+struct Run {
+  std::int64_t begin, end;  // rows below the child
+  std::int64_t shift;       // of the place in the parent
+};
+
+std::vector<Run> runs_of(const std::vector<std::int64_t>& places) {
+  std::vector<Run> runs;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const auto row = static_cast<std::int64_t>(k);
+    if (runs.empty() || places[k] - row != runs.back().shift) runs.push_back({row, row, places[k] - row});
+    runs.back().end = row + 1;
   }
+  return runs;
 }
+
+/// The update matrix of a child, and where its rows stand in the parent.
+class ChildUpdate {
+ public:
+  ChildUpdate(const double* update, const Shape& child, const Shape& parent)
+      : update_(update), panels_{child.below()}, places_(places_in_parent(child, parent)), runs_(runs_of(places_)) {}
+
+  /// Adds what belongs to columns first .. end of the parent.
+  void add_to(const Front& to, std::int64_t first, std::int64_t end) const {
+    const auto place = std::lower_bound(places_.begin(), places_.end(), first);
+    auto own = std::upper_bound(runs_.begin(), runs_.end(), place - places_.begin(),
+                                [](std::int64_t k, const Run& run) { return k < run.end; });
+    for (auto k = place - places_.begin(); k < panels_.below && places_[static_cast<std::size_t>(k)] < end; ++k) {
+      if (k == own->end) ++own;
+      const std::int64_t panel = k / panels_.width(), above = panel * panels_.width();
+      const double* const source = update_ + panels_.offset(panel) + (k - above) * panels_.rows(panel) - above;
+      double* const target = to.column(k + own->shift);
+      for (std::int64_t i = k; i < own->end; ++i) target[i + own->shift] += source[i];
+      for (auto run = own + 1; run != runs_.end(); ++run) {
+        double* const shifted = target + run->shift;
+        for (std::int64_t i = run->begin; i < run->end; ++i) shifted[i] += source[i];
+      }
+    }
+  }
+
+ private:
+  const double* update_;
+  UpdatePanels panels_;
+  std::vector<std::int64_t> places_;
+  std::vector<Run> runs_;
+};
 
 /// The position of a row in a supernode; entries come in runs of rows that follow each other.
 class RowFinder {
@@ -101,31 +127,60 @@ std::vector<std::int64_t> places_in_order(const SupernodalFactor& structure) {
   return places;
 }
 
-/// The entries of A where those of L will be, zero elsewhere.
-void spread_entries(const SupernodalFactor& structure, const SymmetricMatrix& a, double* values, int threads) {
-  const std::vector<std::int64_t> places = places_in_order(structure);
-  std::vector<std::int64_t> owner(static_cast<std::size_t>(structure.size));
-  for (std::int64_t s = 0; s < structure.supernodes; ++s)
-    std::fill(owner.begin() + structure.columns[s], owner.begin() + structure.columns[s + 1], s);
-#pragma omp parallel num_threads(threads)
-  {
-#pragma omp for schedule(dynamic, 16)
-    for (std::int64_t s = 0; s < structure.supernodes; ++s)
-      std::fill(values + structure.value_starts[s], values + structure.value_starts[s + 1], 0.0);
-    RowFinder finder(structure);
-#pragma omp for schedule(dynamic, 1024)
-    for (std::int64_t j = 0; j < a.size; ++j) {
-      const std::int64_t place = places[static_cast<std::size_t>(j)];
-      for (std::int64_t p = a.starts[j]; p < a.starts[j + 1]; ++p) {
-        const std::int64_t other = places[static_cast<std::size_t>(a.rows[p])];
-        const std::int64_t column = std::min(place, other), row = std::max(place, other);
-        const std::int64_t s = owner[static_cast<std::size_t>(column)];
-        const std::int64_t rows = structure.row_starts[s + 1] - structure.row_starts[s];
-        values[structure.value_starts[s] + (column - structure.columns[s]) * rows + finder.find(s, row)] = a.values[p];
+/// The entries of A where those of L will be.
+class SpreadEntries {
+ public:
+  /// @param values  of L, zero
+  SpreadEntries(const SupernodalFactor& structure, double* values)
+      : structure_(structure),
+        owner_(static_cast<std::size_t>(structure.size)),
+        above_(static_cast<std::size_t>(structure.size)) {
+    for (std::int64_t s = 0; s < structure.supernodes; ++s) {
+      const std::int64_t rows = structure.row_starts[s + 1] - structure.row_starts[s];
+      for (std::int64_t column = structure.columns[s]; column < structure.columns[s + 1]; ++column) {
+        owner_[static_cast<std::size_t>(column)] = static_cast<std::int32_t>(s);
+        above_[static_cast<std::size_t>(column)] =
+            values + structure.value_starts[s] + (column - structure.columns[s]) * rows;
       }
     }
   }
-}
+  void spread(const BorderedPart& a, int threads) const {
+    const std::vector<std::int64_t> places = places_in_order(structure_);
+    std::vector<std::int64_t> places_of_whole(static_cast<std::size_t>(a.whole.size), -1);
+    for (std::size_t k = 0; k < a.kept.size(); ++k) places_of_whole[static_cast<std::size_t>(a.kept[k])] = places[k];
+#pragma omp parallel num_threads(threads)
+    {
+      RowFinder finder(structure_);
+#pragma omp for schedule(dynamic, 1024)
+      for (std::size_t k = 0; k < a.kept.size(); ++k) {
+        const auto j = static_cast<std::size_t>(a.kept[k]);
+        for (std::int64_t p = a.whole.starts[j]; p < a.whole.starts[j + 1]; ++p) {
+          const std::int64_t other = places_of_whole[static_cast<std::size_t>(a.whole.rows[p])];
+          if (other >= 0) set(finder, places[k], other, a.whole.values[p]);
+        }
+      }
+    }
+    RowFinder finder(structure_);
+    const auto kept = static_cast<Eigen::Index>(a.kept.size());
+    for (Eigen::Index c = 0; c < a.corner.cols(); ++c) {
+      const std::int64_t place = places[static_cast<std::size_t>(kept + c)];
+      for (Eigen::Index k = 0; k < kept; ++k)
+        if (a.border(k, c) != 0) set(finder, places[static_cast<std::size_t>(k)], place, a.border(k, c));
+      for (Eigen::Index k = c; k < a.corner.rows(); ++k)
+        set(finder, places[static_cast<std::size_t>(kept + k)], place, a.corner(k, c));
+    }
+  }
+
+ private:
+  void set(RowFinder& finder, std::int64_t place, std::int64_t other, double value) const {
+    const auto column = static_cast<std::size_t>(std::min(place, other));
+    above_[column][finder.find(owner_[column], std::max(place, other))] = value;
+  }
+
+  const SupernodalFactor& structure_;
+  std::vector<std::int32_t> owner_;  // supernode of each column
+  std::vector<double*> above_;       // the first number of each column
+};
 
 /// The elimination of all supernodes. `Columns` gives a supernode its columns and takes them when it is eliminated:
 ///   Front begin(std::int64_t s, Team&)          columns of A; no update matrix yet
@@ -189,13 +244,19 @@ class Elimination {
     const std::vector<std::int64_t>& children = plan_.children(s);
     if (children.empty()) return team.wait();
     const Shape shape(structure_, s);
-    const UpdatePanels panels = front.panels();
-    team.share(panels.count(), [&](std::int64_t k) {
-      std::fill_n(front.update + panels.offset(k), panels.rows(k) * panels.columns(k), 0.0);
-    });
+    std::vector<ChildUpdate> updates;
     for (const std::int64_t child : children)
-      add_child(memory_.of(child, worker), {structure_, child}, front, shape, team);
-    team.wait();
+      updates.emplace_back(memory_.of(child, worker), Shape(structure_, child), shape);
+    // A few columns at a time, which stay in the cache while all that belongs to them is added.
+    constexpr std::int64_t few = 32;
+    const auto groups = [](std::int64_t columns) { return (columns + few - 1) / few; };
+    const std::int64_t of_own = groups(front.width);
+    team.share(of_own + groups(front.below()), [&](std::int64_t k) {
+      const std::int64_t first = k < of_own ? k * few : front.width + (k - of_own) * few;
+      const std::int64_t end = std::min(first + few, k < of_own ? front.width : front.rows);
+      for (std::int64_t column = std::max(first, front.width); column < end; ++column) front.clear_update(column);
+      for (const ChildUpdate& update : updates) update.add_to(front, first, end);
+    });
     team.once([&] {
       for (const std::int64_t child : children) memory_.free(child);
     });
@@ -340,9 +401,9 @@ int Multifrontal::workers() const {
   return static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(threads_), plan_.subtrees()));
 }
 
-std::optional<std::int64_t> Multifrontal::factorise(const SymmetricMatrix& a, double* values) const {
+std::optional<std::int64_t> Multifrontal::factorise(const BorderedPart& a, double* values) const {
   const BlasThreads one(1);
-  spread_entries(structure_, a, values, threads_);
+  SpreadEntries(structure_, values).spread(a, threads_);
   std::vector<KeptColumns> columns(static_cast<std::size_t>(workers()), KeptColumns(structure_, values));
   const std::int64_t failed = Elimination<KeptColumns>(structure_, plan_, columns).run();
   if (failed < 0) return std::nullopt;

@@ -15,6 +15,7 @@
 #include <optional>
 #include <vector>
 
+#include "reduce/spectral/bordered_part.hpp"
 #include "reduce/spectral/elimination_tree.hpp"
 #include "reduce/spectral/supernodal_solver.hpp"
 #include "reduce/spectral/symmetric_factor.hpp"
@@ -32,10 +33,11 @@ class Multifrontal {
   double working_bytes() const;
 
   /// L of A = L L^T, where the structure says.
-  /// @param a  with the pattern that the structure was made for
+  /// @param a  with the pattern that the structure was made for, or part of it
+  /// @param values  zero so far
   /// @returns  the column of L where a pivot was not positive; nothing when all were
   /// @throws std::bad_alloc
-  std::optional<std::int64_t> factorise(const SymmetricMatrix& a, double* values) const;
+  std::optional<std::int64_t> factorise(const BorderedPart& a, double* values) const;
 
   /// Signs of the pivots of A = L D L^T; neither L nor A is kept.
   /// @param scale  positive, of each unknown

@@ -1,8 +1,5 @@
-// Cholesky factorisation of large sparse symmetric positive definite matrices, L L^T in supernodes: CHOLMOD finds their
-// structure, multifrontal.hpp the numbers.
-//
-// The fill-reducing order is found on the graph of blocks (the nodes of a mesh, whose unknowns have the same
-// neighbours) and expanded to unknowns: METIS nested dissection, or minimum degree (AMD) for small graphs.
+// Cholesky factorisation of large sparse symmetric positive definite matrices, L L^T in supernodes:
+// factor_structure.hpp finds their structure, multifrontal.hpp the numbers.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +10,8 @@
 #include <Eigen/Core>
 
 #include "reduce/common/error.hpp"
+#include "reduce/spectral/bordered_part.hpp"
+#include "reduce/spectral/factor_structure.hpp"
 #include "reduce/spectral/symmetric_matrix.hpp"
 
 namespace bielle {
@@ -59,6 +58,9 @@ class SymmetricFactor {
   ///         working precision; ComputationError when memory does not suffice, as far as the
   ///         symbolic factorisation tells before the numerical one starts
   explicit SymmetricFactor(const SymmetricMatrix& a, std::span<const std::int64_t> block_starts = {}, int threads = 1);
+  /// @param a          positive definite
+  /// @param structure  made for its pattern, or one that holds it
+  SymmetricFactor(const BorderedPart& a, std::shared_ptr<const FactorStructure> structure, int threads);
   SymmetricFactor(SymmetricFactor&&) noexcept;
   SymmetricFactor& operator=(SymmetricFactor&&) noexcept;
   ~SymmetricFactor();

@@ -14,16 +14,16 @@ namespace {
 struct HeldModel {
   Mesh mesh;
   Solid solid;
-  std::unique_ptr<BodyMatrices> matrices;
   Ties ties;
+  std::unique_ptr<BodyMatrices> matrices;
   HeldBody held;
   Basis basis;
 
   HeldModel(Mesh m, const std::vector<InterfaceRequest>& requests, int modes)
       : mesh(std::move(m)),
         solid(make_solid(mesh, {{"steel", test::steel()}}, {{"all", "steel"}})),
-        matrices(assembled_matrices(solid, 2)),
         ties(make_ties(solid, requests)),
+        matrices(assembled_matrices(solid, HeldFreedoms(solid, ties).inside(), 2)),
         held(solid, *matrices, ties) {
     Progress quiet(true);
     basis = make_basis(solid, *matrices, ties, held, mass_properties(solid), {modes, std::nullopt}, quiet, 2);

@@ -1,0 +1,105 @@
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "reduce/common/error.hpp"
+#include "reduce/fe/assembly.hpp"
+#include "reduce/reduction/held_body.hpp"
+#include "tests/unit/reduce/reduction/bodies.hpp"
+
+using namespace bielle;
+using namespace bielle::reduce;
+
+namespace {
+
+std::vector<InterfaceRequest> ends_held(int variant) {
+  std::vector<InterfaceRequest> requests{test::interface("a", "x0", variant == 1 ? Tie::average : Tie::rigid),
+                                         test::interface("b", "x1", variant == 0 ? Tie::rigid : Tie::average)};
+  if (variant == 0) requests[1].kept = {true, true, true, false, true, false};  // two released directions
+  if (variant == 2) requests[0].kept = {true, true, true, false, false, false};
+  return requests;
+}
+
+struct Held {
+  Mesh mesh = test::twisted_block();
+  Solid solid = make_solid(mesh, {{"steel", test::steel()}}, {{"all", "steel"}});
+  Ties ties;
+  HeldFreedoms freedoms;
+  explicit Held(int variant) : ties(make_ties(solid, ends_held(variant))), freedoms(solid, ties) {}
+  Held(const Held&) = delete;
+};
+
+}  // namespace
+
+TEST_CASE("The graph of points is that of the stiffness", "[reduction]") {
+  const Held model(0);
+  const NodeGraph nodes = node_graph(model.solid.nodes, model.solid.points());
+  const BlockGraph from_mesh = point_graph(nodes), from_matrix = point_graph(assemble_stiffness(model.solid, nodes));
+  CHECK(from_mesh.first == from_matrix.first);
+  CHECK(from_mesh.starts == from_matrix.starts);
+  CHECK(from_mesh.rows == from_matrix.rows);
+}
+
+TEST_CASE("The graph of the inside, from the mesh alone, holds every number that is factorised", "[reduction]") {
+  const int variant = GENERATE(0, 1, 2, 3);
+  const Held model(variant);
+  const NodeGraph nodes = node_graph(model.solid.nodes, model.solid.points());
+  const SymmetricMatrix stiffness = assemble_stiffness(model.solid, nodes);
+  const InsideUnknowns inside = model.freedoms.inside();
+  const BlockGraph graph = inside_graph(point_graph(nodes), inside);
+  const RowMatrix forces = stiffness.multiply(RowMatrix(inside.carried));
+  const SymmetricMatrix matrix =
+      bordered(principal_submatrix(stiffness, inside.kept), Eigen::MatrixXd(forces(inside.kept, Eigen::all)),
+               Eigen::MatrixXd(inside.carried.transpose() * forces));
+  const BlockGraph exact = block_graph(matrix, graph.first);
+  REQUIRE(graph.size() == exact.size());
+  for (int b = 0; b < graph.size(); ++b) {
+    const auto rows = [b](const BlockGraph& of) {
+      return std::vector<int>(of.rows.begin() + of.starts[b], of.rows.begin() + of.starts[b + 1]);
+    };
+    const std::vector<int> ours = rows(graph), needed = rows(exact);
+    REQUIRE(std::is_sorted(ours.begin(), ours.end()));
+    REQUIRE(std::includes(ours.begin(), ours.end(), needed.begin(), needed.end()));
+    if (inside.carried.cols() == 0) REQUIRE(ours == needed);
+  }
+}
+
+TEST_CASE("A structure that was prepared while matrices were assembled gives the factor that one found later gives",
+          "[reduction]") {
+  const int variant = GENERATE(0, 1, 2, 3);
+  const Held model(variant);
+  for (const int threads : {1, 2, 3}) {
+    CAPTURE(variant, threads);
+    const auto prepared = assembled_matrices(model.solid, model.freedoms.inside(), threads);
+    const auto nothing_known = assembled_matrices(model.solid, {}, threads);
+    const auto another_known = assembled_matrices(model.solid, Held((variant + 1) % 4).freedoms.inside(), threads);
+    CHECK(prepared->stiffness_here()->values == nothing_known->stiffness_here()->values);
+    CHECK(prepared->mass_here()->values == nothing_known->mass_here()->values);
+    const HeldBody held(model.solid, *prepared, model.ties, threads);
+    const Eigen::MatrixXd f = Eigen::MatrixXd::Random(held.size(), 2);
+    CHECK(held.solve(f) == HeldBody(model.solid, *nothing_known, model.ties, threads).solve(f));
+    CHECK(held.solve(f) == HeldBody(model.solid, *another_known, model.ties, threads).solve(f));
+    CHECK(held.solve(f) == HeldBody(model.solid, *prepared->stiffness_here(), model.ties, threads).solve(f));
+  }
+}
+
+TEST_CASE("A cell that is inside out is told, whichever thread meets it", "[reduction]") {
+  Held model(1);
+  CellBlock& cells = *std::find_if(model.mesh.blocks.begin(), model.mesh.blocks.end(),
+                                   [&](const CellBlock& block) { return &block == &model.mesh.solids(); });
+  Eigen::MatrixXi& nodes = cells.nodes;
+  std::swap(nodes(0, 3), nodes(1, 3));
+  std::vector<std::string> said;
+  for (const int threads : {1, 2, 2, 5}) {
+    try {
+      assembled_matrices(model.solid, model.freedoms.inside(), threads);
+      FAIL("accepted");
+    } catch (const ComputationError& error) {
+      said.push_back(error.what());
+    }
+  }
+  CHECK_THAT(said.front(), Catch::Contains("cell 3") && Catch::Contains("inside out"));
+  CHECK(said == std::vector<std::string>(said.size(), said.front()));
+}
