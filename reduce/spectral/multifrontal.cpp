@@ -11,181 +11,20 @@
 #include <omp.h>
 
 #include "reduce/spectral/blas.hpp"
+#include "reduce/spectral/child_update.hpp"
 #include "reduce/spectral/front.hpp"
 #include "reduce/spectral/huge_pages.hpp"
+#include "reduce/spectral/spread_entries.hpp"
 #include "reduce/spectral/team.hpp"
 
 namespace bielle {
 
 namespace {
 
-/// Supernode s of a structure.
-struct Shape {
-  std::int64_t first, width, rows;
-  const std::int64_t* row_numbers;
-
-  Shape(const SupernodalFactor& structure, std::int64_t s)
-      : first(structure.columns[s]),
-        width(structure.columns[s + 1] - first),
-        rows(structure.row_starts[s + 1] - structure.row_starts[s]),
-        row_numbers(structure.rows + structure.row_starts[s]) {}
-  std::int64_t below() const { return rows - width; }
-};
-
-/// Where the rows below a child stand among those of its parent.
-std::vector<std::int64_t> places_in_parent(const Shape& child, const Shape& parent) {
-  std::vector<std::int64_t> places(static_cast<std::size_t>(child.below()));
-  std::int64_t at = 0;
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    const std::int64_t row = child.row_numbers[child.width + static_cast<std::int64_t>(k)];
-    if (row < parent.first + parent.width) at = row - parent.first;
-    while (parent.row_numbers[at] != row) ++at;
-    places[k] = at;
-  }
-  return places;
-}
-
-/// Rows of a child that follow each other in its parent as well.
-struct Run {
-  std::int64_t begin, end;  // rows below the child
-  std::int64_t shift;       // of the place in the parent
-};
-
-std::vector<Run> runs_of(const std::vector<std::int64_t>& places) {
-  std::vector<Run> runs;
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    const auto row = static_cast<std::int64_t>(k);
-    if (runs.empty() || places[k] - row != runs.back().shift) runs.push_back({row, row, places[k] - row});
-    runs.back().end = row + 1;
-  }
-  return runs;
-}
-
-/// The update matrix of a child, and where its rows stand in the parent.
-class ChildUpdate {
- public:
-  ChildUpdate(const double* update, const Shape& child, const Shape& parent)
-      : update_(update), panels_{child.below()}, places_(places_in_parent(child, parent)), runs_(runs_of(places_)) {}
-
-  /// Adds what belongs to columns first .. end of the parent.
-  void add_to(const Front& to, std::int64_t first, std::int64_t end) const {
-    const auto place = std::lower_bound(places_.begin(), places_.end(), first);
-    auto own = std::upper_bound(runs_.begin(), runs_.end(), place - places_.begin(),
-                                [](std::int64_t k, const Run& run) { return k < run.end; });
-    for (auto k = place - places_.begin(); k < panels_.below && places_[static_cast<std::size_t>(k)] < end; ++k) {
-      if (k == own->end) ++own;
-      const std::int64_t panel = k / panels_.width(), above = panel * panels_.width();
-      const double* const source = update_ + panels_.offset(panel) + (k - above) * panels_.rows(panel) - above;
-      double* const target = to.column(k + own->shift);
-      for (std::int64_t i = k; i < own->end; ++i) target[i + own->shift] += source[i];
-      for (auto run = own + 1; run != runs_.end(); ++run) {
-        double* const shifted = target + run->shift;
-        for (std::int64_t i = run->begin; i < run->end; ++i) shifted[i] += source[i];
-      }
-    }
-  }
-
- private:
-  const double* update_;
-  UpdatePanels panels_;
-  std::vector<std::int64_t> places_;
-  std::vector<Run> runs_;
-};
-
-/// The position of a row in a supernode; entries come in runs of rows that follow each other.
-class RowFinder {
- public:
-  explicit RowFinder(const SupernodalFactor& structure) : structure_(structure) {}
-  std::int64_t find(std::int64_t s, std::int64_t row) {
-    if (s == last_) {
-      const std::int64_t* const rows = structure_.rows + structure_.row_starts[s];
-      if (rows[at_] == row) return at_;
-      if (at_ + 1 < structure_.row_starts[s + 1] - structure_.row_starts[s] && rows[at_ + 1] == row) return ++at_;
-    }
-    last_ = s;
-    const std::int64_t first = structure_.columns[s], width = structure_.columns[s + 1] - first;
-    if (row < first + width) return at_ = row - first;
-    const std::int64_t* const begin = structure_.rows + structure_.row_starts[s];
-    const std::int64_t* const end = structure_.rows + structure_.row_starts[s + 1];
-    const std::int64_t* const place = std::lower_bound(begin + width, end, row);
-    is_outside_ = is_outside_ || place == end || *place != row;
-    return at_ = std::min(place, end - 1) - begin;
-  }
-
-  /// Whether a row was asked for that its supernode has not.
-  bool is_outside() const { return is_outside_; }
-
- private:
-  const SupernodalFactor& structure_;
-  std::int64_t last_ = -1, at_ = 0;
-  bool is_outside_ = false;
-};
-
-std::vector<std::int64_t> places_in_order(const SupernodalFactor& structure) {
-  std::vector<std::int64_t> places(static_cast<std::size_t>(structure.size));
-  for (std::int64_t k = 0; k < structure.size; ++k) places[static_cast<std::size_t>(structure.order[k])] = k;
-  return places;
-}
-
-/// The entries of A where those of L will be.
-class SpreadEntries {
- public:
-  /// @param values  of L, zero
-  SpreadEntries(const SupernodalFactor& structure, double* values)
-      : structure_(structure),
-        owner_(static_cast<std::size_t>(structure.size)),
-        above_(static_cast<std::size_t>(structure.size)) {
-    for (std::int64_t s = 0; s < structure.supernodes; ++s) {
-      const std::int64_t rows = structure.row_starts[s + 1] - structure.row_starts[s];
-      for (std::int64_t column = structure.columns[s]; column < structure.columns[s + 1]; ++column) {
-        owner_[static_cast<std::size_t>(column)] = static_cast<std::int32_t>(s);
-        above_[static_cast<std::size_t>(column)] =
-            values + structure.value_starts[s] + (column - structure.columns[s]) * rows;
-      }
-    }
-  }
-  void spread(const BorderedPart& a, int threads) const {
-    const std::vector<std::int64_t> places = places_in_order(structure_);
-    std::vector<std::int64_t> places_of_whole(static_cast<std::size_t>(a.whole.size), -1);
-    for (std::size_t k = 0; k < a.kept.size(); ++k) places_of_whole[static_cast<std::size_t>(a.kept[k])] = places[k];
-#pragma omp parallel num_threads(threads)
-    {
-      RowFinder finder(structure_);
-#pragma omp for schedule(dynamic, 1024)
-      for (std::size_t k = 0; k < a.kept.size(); ++k) {
-        const auto j = static_cast<std::size_t>(a.kept[k]);
-        for (std::int64_t p = a.whole.starts[j]; p < a.whole.starts[j + 1]; ++p) {
-          const std::int64_t other = places_of_whole[static_cast<std::size_t>(a.whole.rows[p])];
-          if (other >= 0) set(finder, places[k], other, a.whole.values[p]);
-        }
-      }
-    }
-    RowFinder finder(structure_);
-    const auto kept = static_cast<Eigen::Index>(a.kept.size());
-    for (Eigen::Index c = 0; c < a.corner.cols(); ++c) {
-      const std::int64_t place = places[static_cast<std::size_t>(kept + c)];
-      for (Eigen::Index k = 0; k < kept; ++k)
-        if (a.border(k, c) != 0) set(finder, places[static_cast<std::size_t>(k)], place, a.border(k, c));
-      for (Eigen::Index k = c; k < a.corner.rows(); ++k)
-        set(finder, places[static_cast<std::size_t>(kept + k)], place, a.corner(k, c));
-    }
-  }
-
- private:
-  void set(RowFinder& finder, std::int64_t place, std::int64_t other, double value) const {
-    const auto column = static_cast<std::size_t>(std::min(place, other));
-    above_[column][finder.find(owner_[column], std::max(place, other))] = value;
-  }
-
-  const SupernodalFactor& structure_;
-  std::vector<std::int32_t> owner_;  // supernode of each column
-  std::vector<double*> above_;       // the first number of each column
-};
-
 /// The elimination of all supernodes. `Columns` gives a supernode its columns and takes them when it is eliminated:
 ///   Front begin(std::int64_t s, Team&)          columns of A; no update matrix yet
 ///   double* pivots()                            for D; none: L L^T
-///   void end(const Shape&, const Front&, Team&)
+///   void end(const SupernodeShape&, const Front&, Team&)
 /// Each thread has one; that of the first serves all threads together.
 template <class Columns>
 class Elimination {
@@ -228,7 +67,7 @@ class Elimination {
   std::int64_t eliminate(const std::vector<std::int64_t>& supernodes, int worker, Team& team) {
     Columns& columns = columns_[static_cast<std::size_t>(worker)];
     for (const std::int64_t s : supernodes) {
-      const Shape shape(structure_, s);
+      const SupernodeShape shape(structure_, s);
       Front front = columns.begin(s, team);
       front.update = memory_.of(s, worker);
       take_up_children(s, front, worker, team);
@@ -243,10 +82,10 @@ class Elimination {
   void take_up_children(std::int64_t s, const Front& front, int worker, Team& team) {
     const std::vector<std::int64_t>& children = plan_.children(s);
     if (children.empty()) return team.wait();
-    const Shape shape(structure_, s);
+    const SupernodeShape shape(structure_, s);
     std::vector<ChildUpdate> updates;
     for (const std::int64_t child : children)
-      updates.emplace_back(memory_.of(child, worker), Shape(structure_, child), shape);
+      updates.emplace_back(memory_.of(child, worker), SupernodeShape(structure_, child), shape);
     // A few columns at a time, which stay in the cache while all that belongs to them is added.
     constexpr std::int64_t few = 32;
     const auto groups = [](std::int64_t columns) { return (columns + few - 1) / few; };
@@ -275,11 +114,11 @@ class KeptColumns {
  public:
   KeptColumns(const SupernodalFactor& structure, double* values) : structure_(&structure), values_(values) {}
   Front begin(std::int64_t s, Team&) {
-    const Shape shape(*structure_, s);
+    const SupernodeShape shape(*structure_, s);
     return {shape.rows, shape.width, values_ + structure_->value_starts[s]};
   }
   double* pivots() { return nullptr; }
-  void end(const Shape&, const Front&, Team&) {}
+  void end(const SupernodeShape&, const Front&, Team&) {}
 
  private:
   const SupernodalFactor* structure_;
@@ -324,7 +163,7 @@ class CountedColumns {
       : structure_(&structure), entries_(&entries), inverse_scale_(&inverse_scale) {
     std::int64_t widest = 0, largest = 0;
     for (std::int64_t s = 0; s < structure.supernodes; ++s) {
-      const Shape shape(structure, s);
+      const SupernodeShape shape(structure, s);
       widest = std::max(widest, shape.width);
       largest = std::max(largest, shape.width * shape.rows);
     }
@@ -336,7 +175,7 @@ class CountedColumns {
   }
 
   Front begin(std::int64_t s, Team& team) {
-    const Shape shape(*structure_, s);
+    const SupernodeShape shape(*structure_, s);
     Front front{shape.rows, shape.width, columns_.get(), columns_.get() + largest_};
     RowFinder finder(*structure_);
     team.share(shape.width, [&](std::int64_t k) {
@@ -354,7 +193,7 @@ class CountedColumns {
     return front;
   }
   double* pivots() { return pivots_.data(); }
-  void end(const Shape& shape, const Front& front, Team& team) {
+  void end(const SupernodeShape& shape, const Front& front, Team& team) {
     team.once([&] {
       for (std::int64_t k = 0; k < shape.width; ++k) {
         const double pivot = pivots_[static_cast<std::size_t>(k)];
@@ -373,7 +212,7 @@ class CountedColumns {
  private:
   static constexpr double infinite = std::numeric_limits<double>::infinity();
 
-  double relative(const Shape& shape, std::int64_t i) const {
+  double relative(const SupernodeShape& shape, std::int64_t i) const {
     return (*inverse_scale_)[static_cast<std::size_t>(shape.row_numbers[i])];
   }
 
