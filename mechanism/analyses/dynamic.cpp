@@ -125,25 +125,26 @@ std::string explain_gap(const Gap& gap, const Scheme& scheme) {
                        : "lost by errors of the steps; this scheme does not dissipate";
 }
 
-std::string judge_gap(const Gap& gap) {
+/// @param tolerance  of adaptive steps; 0: they are fixed
+std::string judge_gap(const Gap& gap, double tolerance) {
+  const char* const advice = tolerance > 0 ? "give a smaller `tolerance`" : "take smaller steps, or give a `tolerance`";
   std::string text;
   if (std::abs(gap.errors()) > doubtful)
     text = "  DOUBTFUL: so large errors in the balance mean steps too long for the motion, or a motion that jumps\n";
   else if (gap.whole > gained)
-    text = "  energy grows: take smaller steps, or give a `tolerance`\n";
+    text = fmt::format("  energy grows: {}\n", advice);
   else if (gap.errors() > gained)
-    text =
-        "  errors of the steps add energy, which the scheme's dissipation hides: take smaller steps, or give a "
-        "`tolerance`\n";
+    text = fmt::format("  errors of the steps add energy, which the scheme's dissipation hides: {}\n", advice);
   if (gap.scheme < -doubtful)
     text += fmt::format(
-        "  DOUBTFUL: the scheme's own dissipation took {:.0f} % of the largest energy: unless what it damps does not matter, "
+        "  DOUBTFUL: the scheme's own dissipation took {:.0f} % of the largest energy: unless what it damps does not "
+        "matter, "
         "take smaller steps, or a scheme that dissipates less (`rho` closer to 1)\n",
         -100 * gap.scheme);
   return text;
 }
 
-std::string format_energy(const Session& session, const Motion& motion, const Scheme& scheme) {
+std::string format_energy(const Session& session, const Motion& motion, const DynamicsOptions& options) {
   const Energy& energy = motion.energy();
   const double balance = motion.balance(), largest = motion.books().largest();
   const std::string text = format_energies(energy);
@@ -151,8 +152,8 @@ std::string format_energy(const Session& session, const Motion& motion, const Sc
   const Gap gap{balance / largest, -motion.scheme_loss() / largest};
   return text +
          fmt::format("  balance {:.3g} J, {:.2g} of the largest energy ({})\n", balance, gap.whole,
-                     explain_gap(gap, scheme)) +
-         judge_gap(gap);
+                     explain_gap(gap, options.scheme)) +
+         judge_gap(gap, options.stepping.tolerance);
 }
 
 }  // namespace
@@ -213,7 +214,7 @@ void DynamicAnalysis::finish(Session& session, Motion& motion, const std::string
   if (log.steps > 0)
     summary.text += format_steps(log.steps, log.iterations, summary.records) +
                     fmt::format(", until t = {:.6g} s\n", motion.time()) + format_march(log, session.system()) +
-                    format_events(motion) + format_energy(session, motion, options_.scheme);
+                    format_events(motion) + format_energy(session, motion, options_);
 }
 
 }  // namespace bielle::mechanism

@@ -116,6 +116,8 @@ class SelfJudgement(CommandTest):
         self.assertIn("\n  energy grows: take smaller steps, or give a `tolerance`\n", text)
         text = self.summary(PENDULUM.format(duration=0.4, step=0.1, rho=1))
         self.assertIn("DOUBTFUL", text)
+        text = self.summary(PENDULUM.format(duration=0.4, step=0.05, rho=1).replace("step: 0.05", "step: 0.05, tolerance: 0.006"))
+        self.assertIn("\n  energy grows: give a smaller `tolerance`\n", text)
         falling = PENDULUM.replace("position: [0, 0, -1], velocity: [-6, 0, 0], angular_velocity: [0, 6, 0]",
                                    "position: [1, 0, 0]")
         self.assertIn("(lost by errors of the steps; this scheme does not dissipate)",
