@@ -1,7 +1,7 @@
-// Large arrays of the program come from pages of 2 MB: the system has fewer of them to clear and to find than of 4 kB,
-// which is a tenth of the time of a reduction. The linker puts these functions in the place of malloc and operator new
-// where our own code calls them (its option --wrap), and nowhere else: other libraries keep theirs. What comes from
-// here is freed as usual.
+// Large arrays of the program come from pages of 2 MB, of which the system has fewer to find than of 4 kB. Smaller ones
+// stay with malloc, which uses their memory again without having it cleared. The linker puts these functions in the
+// place of malloc and operator new where our own code calls them (its option --wrap), and nowhere else: other libraries
+// keep theirs. What comes from here is freed as usual.
 #include <cstddef>
 #include <new>
 

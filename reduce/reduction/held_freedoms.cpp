@@ -106,30 +106,33 @@ void HeldFreedoms::restrict_into(const RowMatrix& forces, Eigen::Ref<Eigen::Matr
       f.row(count + carried.col()) += carried.value() * forces.row(row).head(columns);
 }
 
+/// Calls work(in z, without the supports, count) for the stretches of z between supports.
+template <class Work>
+void HeldFreedoms::for_stretches(const Work& work) const {
+  Eigen::Index begin = 0, done = 0;
+  for (const Eigen::Index support : supports) {
+    work(begin, done, support - begin);
+    done += support - begin;
+    begin = support + 1;
+  }
+  work(begin, done, size - begin);
+}
+
 void HeldFreedoms::leave_supports_out(const Eigen::MatrixXd& f, Eigen::MatrixXd& inside, int threads) const {
 #pragma omp parallel for num_threads(threads)
-  for (Eigen::Index c = 0; c < f.cols(); ++c) {
-    Eigen::Index begin = 0, done = 0;
-    for (const Eigen::Index support : supports) {
-      inside.col(c).segment(done, support - begin) = f.col(c).segment(begin, support - begin);
-      done += support - begin;
-      begin = support + 1;
-    }
-    inside.col(c).tail(size - begin) = f.col(c).tail(size - begin);
-  }
+  for (Eigen::Index c = 0; c < f.cols(); ++c)
+    for_stretches([&](Eigen::Index whole, Eigen::Index own, Eigen::Index count) {
+      inside.col(c).segment(own, count) = f.col(c).segment(whole, count);
+    });
 }
 
 void HeldFreedoms::put_supports_in(const Eigen::MatrixXd& inside, Eigen::MatrixXd& z, int threads) const {
 #pragma omp parallel for num_threads(threads)
   for (Eigen::Index c = 0; c < z.cols(); ++c) {
-    Eigen::Index begin = 0, done = 0;
-    for (const Eigen::Index support : supports) {
-      z.col(c).segment(begin, support - begin) = inside.col(c).segment(done, support - begin);
-      done += support - begin;
-      begin = support + 1;
-      z(support, c) = 0;
-    }
-    z.col(c).tail(size - begin) = inside.col(c).tail(size - begin);
+    for_stretches([&](Eigen::Index whole, Eigen::Index own, Eigen::Index count) {
+      z.col(c).segment(whole, count) = inside.col(c).segment(own, count);
+    });
+    for (const Eigen::Index support : supports) z(support, c) = 0;
   }
 }
 

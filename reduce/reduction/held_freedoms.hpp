@@ -37,6 +37,8 @@ struct HeldFreedoms {
   void put_supports_in(const Eigen::MatrixXd& inside, Eigen::MatrixXd& z, int threads) const;
 
  private:
+  template <class Work>
+  void for_stretches(const Work& work) const;
   void find_rigid_motions(const Solid& solid, const Ties& ties, const std::vector<bool>& inside);
   void choose_supports();
 };

@@ -9,6 +9,7 @@
 
 #include <omp.h>
 
+#include "reduce/spectral/elimination_tree.hpp"
 #include "reduce/spectral/huge_pages.hpp"
 #include "reduce/spectral/supernode.hpp"
 
@@ -236,15 +237,6 @@ class SupernodalSolver::Sweep {
 
 SupernodalSolver::SupernodalSolver(const SupernodalFactor& factor, double* values, int threads) : factor_(factor) {
   factor_.values = values;
-  std::vector<std::int64_t> owner(static_cast<std::size_t>(factor.size));
-  for (std::int64_t s = 0; s < factor.supernodes; ++s)
-    std::fill(owner.begin() + factor.columns[s], owner.begin() + factor.columns[s + 1], s);
-  parents_.resize(static_cast<std::size_t>(factor.supernodes), -1);
-  for (std::int64_t s = 0; s < factor.supernodes; ++s) {
-    const std::int64_t below = factor.row_starts[s] + factor.columns[s + 1] - factor.columns[s];
-    if (below < factor.row_starts[s + 1])
-      parents_[static_cast<std::size_t>(s)] = owner[static_cast<std::size_t>(factor.rows[below])];
-  }
   places_.resize(static_cast<std::size_t>(factor.size));
   for (std::int64_t k = 0; k < factor.size; ++k) places_[static_cast<std::size_t>(factor.order[k])] = k;
   share_out(threads);
@@ -275,8 +267,9 @@ SupernodalSolver::~SupernodalSolver() = default;
 /// that has least.
 void SupernodalSolver::share_out(int threads) {
   const auto count = static_cast<std::size_t>(factor_.supernodes);
+  const EliminationTree tree(factor_);
+  const std::vector<std::int64_t>& parents = tree.parents;
   std::vector<std::int64_t> work(count);
-  std::vector<std::vector<std::int64_t>> children(count);
   using Subtree = std::pair<std::int64_t, std::int64_t>;  // work, root
   std::priority_queue<Subtree> subtrees;
   std::int64_t all = 0;
@@ -285,12 +278,11 @@ void SupernodalSolver::share_out(int threads) {
         (factor_.columns[s + 1] - factor_.columns[s]) * (factor_.row_starts[s + 1] - factor_.row_starts[s]);
     work[s] += own;
     all += own;
-    if (parents_[s] < 0) {
+    if (parents[s] < 0) {
       subtrees.emplace(work[s], s);
     } else {
-      const auto parent = static_cast<std::size_t>(parents_[s]);
+      const auto parent = static_cast<std::size_t>(parents[s]);
       work[parent] += work[s];
-      children[parent].push_back(static_cast<std::int64_t>(s));
     }
   }
   const std::int64_t useful = std::clamp<std::int64_t>(all / entries_of_a_thread, 1, std::max(1, threads));
@@ -302,7 +294,8 @@ void SupernodalSolver::share_out(int threads) {
       const auto root = static_cast<std::size_t>(subtrees.top().second);
       subtrees.pop();
       above_.push_back(static_cast<std::int64_t>(root));
-      for (const std::int64_t child : children[root]) subtrees.emplace(work[static_cast<std::size_t>(child)], child);
+      for (const std::int64_t child : tree.children[root])
+        subtrees.emplace(work[static_cast<std::size_t>(child)], child);
     }
     std::sort(above_.begin(), above_.end());
   }
@@ -314,8 +307,8 @@ void SupernodalSolver::share_out(int threads) {
     thread_of[static_cast<std::size_t>(root)] = least;
   }
   for (std::size_t s = count; s-- > 0;)  // parents come after their children
-    if (parents_[s] >= 0 && thread_of[s] < 0 && !std::binary_search(above_.begin(), above_.end(), s))
-      thread_of[s] = thread_of[static_cast<std::size_t>(parents_[s])];
+    if (parents[s] >= 0 && thread_of[s] < 0 && !std::binary_search(above_.begin(), above_.end(), s))
+      thread_of[s] = thread_of[static_cast<std::size_t>(parents[s])];
   for (std::size_t s = 0; s < count; ++s)
     if (thread_of[s] >= 0) of_threads_[static_cast<std::size_t>(thread_of[s])].push_back(static_cast<std::int64_t>(s));
   place_above_.assign(static_cast<std::size_t>(factor_.size), -1);
@@ -348,7 +341,7 @@ std::unique_ptr<SupernodalSolver::Room> SupernodalSolver::take_room(int columns)
 }
 
 void SupernodalSolver::keep(std::unique_ptr<Room> room) const {
-  constexpr int most_kept = 16;  // columns: little beside the factor
+  constexpr int most_kept = 16;  // columns: little next to the factor
   if (room->columns > most_kept) return;
   const std::lock_guard lock(guard_);
   kept_ = std::move(room);

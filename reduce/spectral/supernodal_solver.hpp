@@ -49,7 +49,6 @@ class SupernodalSolver {
 
   SupernodalFactor factor_;
   std::vector<std::int64_t> places_;                   // the row of L of each unknown
-  std::vector<std::int64_t> parents_;                  // of each supernode; -1: none
   std::vector<std::vector<std::int64_t>> of_threads_;  // supernodes of the subtrees of each thread, ascending
   std::vector<std::int64_t> above_;                    // the others, ascending
   std::vector<std::int64_t> place_above_;              // of each row of L in the rows of `above_`; -1: in a subtree
