@@ -11,6 +11,7 @@
 #include "reduce/common/symmetric_eigenpairs.hpp"
 #include "reduce/spectral/arpack_eigenpairs.hpp"
 #include "reduce/spectral/block_lanczos.hpp"
+#include "reduce/spectral/davidson.hpp"
 #include "reduce/spectral/tall_products.hpp"
 
 namespace bielle {
@@ -124,9 +125,11 @@ Eigenpairs shift_invert_eigenpairs(const ShiftInvertProblem& problem, int count,
   const bool dense = n <= small || (n <= large && 2 * static_cast<Eigen::Index>(count) + 20 > n);
   Eigenpairs pairs = dense                                   ? dense_eigenpairs(problem, count)
                      : options.iteration                     ? options.iteration(problem, count, options)
+                     : problem.precondition                  ? davidson_eigenpairs(problem, count, options)
                      : options.method == EigenMethod::arpack ? arpack_eigenpairs(problem, count, options)
                                                              : block_lanczos_eigenpairs(problem, count, options);
-  polish(problem, options.iteration ? 8 : 64, options.threads, pairs);  // who iterates elsewhere has little memory here
+  if (pairs.residuals.size() == 0)  // who iterates elsewhere has little memory here
+    polish(problem, options.iteration ? 8 : 64, options.threads, pairs);
   make_orthonormal(problem, pairs.vectors, options.threads);
   put_in_order(pairs);
   return pairs;

@@ -13,19 +13,20 @@ inline constexpr std::size_t large_allocation = std::size_t{4} << 20;
 void* allocate_in_huge_pages(std::size_t bytes) noexcept;
 
 /// So many numbers, all zero, from pages of 2 MB: the system clears them where they are first written to.
+template <class Number>
 class ZeroNumbers {
  public:
   ZeroNumbers() : numbers_(nullptr, Unmapped{0}) {}
   /// @throws std::bad_alloc
   explicit ZeroNumbers(std::size_t count);
-  double* get() const { return numbers_.get(); }
+  Number* get() const { return numbers_.get(); }
 
  private:
   struct Unmapped {
     std::size_t bytes;
-    void operator()(double* numbers) const;
+    void operator()(Number* numbers) const;
   };
-  std::unique_ptr<double, Unmapped> numbers_;
+  std::unique_ptr<Number, Unmapped> numbers_;
 };
 
 }  // namespace bielle

@@ -23,35 +23,38 @@ constexpr Eigen::Index most_columns = 64;  // at a time: more bring no more spee
 constexpr std::int64_t entries_of_a_thread = 100000;
 
 /// Vectors by rows. Not set to anything: each thread touches first what it will use.
+template <class Number>
 class RowsOfVectors {
  public:
   RowsOfVectors(std::int64_t rows, int vectors)
       : stride_(vectors),
-        numbers_(static_cast<double*>(allocate_in_huge_pages(
-            std::max<std::size_t>(1, static_cast<std::size_t>(rows * vectors)) * sizeof(double)))) {
+        numbers_(static_cast<Number*>(allocate_in_huge_pages(
+            std::max<std::size_t>(1, static_cast<std::size_t>(rows * vectors)) * sizeof(Number)))) {
     if (!numbers_) throw std::bad_alloc();
   }
-  double* row(std::int64_t k) const { return numbers_.get() + k * stride_; }
+  Number* row(std::int64_t k) const { return numbers_.get() + k * stride_; }
 
  private:
   struct Freed {
-    void operator()(double* memory) const { std::free(memory); }
+    void operator()(Number* memory) const { std::free(memory); }
   };
   std::int64_t stride_;
-  std::unique_ptr<double, Freed> numbers_;
+  std::unique_ptr<Number, Freed> numbers_;
 };
 
-void add_row(double* to, const double* from, int columns) {
+template <class Number>
+void add_row(Number* to, const Number* from, int columns) {
   for (int c = 0; c < columns; ++c) to[c] += from[c];
 }
 
 }  // namespace
 
 /// What one solution writes to.
-struct SupernodalSolver::Room {
+template <class Number>
+struct SupernodalSolver<Number>::Room {
   int columns;
-  RowsOfVectors y;
-  std::vector<RowsOfVectors> sums;  // what the subtrees of each thread give to the rows above them
+  RowsOfVectors<Number> y;
+  std::vector<RowsOfVectors<Number>> sums;  // what the subtrees of each thread give to the rows above them
 
   Room(const SupernodalSolver& solver, int count) : columns(count), y(solver.factor_.size, count) {
     for (std::size_t part = 0; part < solver.of_threads_.size(); ++part) sums.emplace_back(solver.rows_above_, count);
@@ -59,7 +62,8 @@ struct SupernodalSolver::Room {
 };
 
 /// One solution with some columns.
-class SupernodalSolver::Sweep {
+template <class Number>
+class SupernodalSolver<Number>::Sweep {
  public:
   /// @param given  columns of b and x from the first on
   Sweep(const SupernodalSolver& solver, Room& room, const Eigen::MatrixXd& b, Eigen::MatrixXd& x, Eigen::Index first,
@@ -85,11 +89,12 @@ class SupernodalSolver::Sweep {
       });
       each_part([&](int part) { add_sums(part); });
       for_above(
-          solver_.above_, [&](const Supernode& node) { forwards_together(node); },
-          [&](const Supernode& node) { forwards(node, 0, true); });
+          solver_.above_, [&](const Supernode<Number>& node) { forwards_together(node); },
+          [&](const Supernode<Number>& node) { forwards(node, 0, true); });
       for_above(
           std::vector<std::int64_t>(solver_.above_.rbegin(), solver_.above_.rend()),
-          [&](const Supernode& node) { backwards_together(node); }, [&](const Supernode& node) { backwards(node); });
+          [&](const Supernode<Number>& node) { backwards_together(node); },
+          [&](const Supernode<Number>& node) { backwards(node); });
       each_part([&](int part) {
         for (auto s = own(part).rbegin(); s != own(part).rend(); ++s) backwards(supernode(*s));
       });
@@ -121,16 +126,16 @@ class SupernodalSolver::Sweep {
 #pragma omp barrier
     }
   }
-  static std::int64_t entries(const Supernode& node) { return node.width * (node.width + node.below); }
+  static std::int64_t entries(const Supernode<Number>& node) { return node.width * (node.width + node.below); }
 
   const std::vector<std::int64_t>& own(int part) const { return solver_.of_threads_[static_cast<std::size_t>(part)]; }
-  Supernode supernode(std::int64_t s) const {
+  Supernode<Number> supernode(std::int64_t s) const {
     const std::int64_t width = factor_.columns[s + 1] - factor_.columns[s];
     const std::int64_t rows = factor_.row_starts[s + 1] - factor_.row_starts[s];
     return {factor_.columns[s], width, rows - width, factor_.rows + factor_.row_starts[s] + width,
-            factor_.values + factor_.value_starts[s]};
+            solver_.values_ + factor_.value_starts[s]};
   }
-  double* row(std::int64_t k) const { return y_.row(k); }
+  Number* row(std::int64_t k) const { return y_.row(k); }
   Vectors all_vectors() const { return {0, columns_, columns_}; }
 
   // Along the columns of the vectors: unknowns that follow each other in the factor are all over the place in them,
@@ -139,38 +144,38 @@ class SupernodalSolver::Sweep {
     const Range unknowns = share_of(factor_.size, part, parts_);
     for (std::int64_t i = unknowns.first; i < unknowns.first + unknowns.count; ++i) {
       const double* const from = &b_(i, first_);
-      double* const to = row(solver_.places_[static_cast<std::size_t>(i)]);
-      for (int c = 0; c < given_; ++c) to[c] = from[c * b_.rows()];
-      std::fill(to + given_, to + columns_, 0.0);
+      Number* const to = row(solver_.places_[static_cast<std::size_t>(i)]);
+      for (int c = 0; c < given_; ++c) to[c] = static_cast<Number>(from[c * b_.rows()]);
+      std::fill(to + given_, to + columns_, Number{0});
     }
-    std::fill_n(sums_[static_cast<std::size_t>(part)].row(0), solver_.rows_above_ * columns_, 0.0);
+    std::fill_n(sums_[static_cast<std::size_t>(part)].row(0), solver_.rows_above_ * columns_, Number{0});
   }
   void copy_out(int part) {
     const Range unknowns = share_of(factor_.size, part, parts_);
     for (std::int64_t i = unknowns.first; i < unknowns.first + unknowns.count; ++i) {
       double* const to = &x_(i, first_);
-      const double* const from = row(solver_.places_[static_cast<std::size_t>(i)]);
+      const Number* const from = row(solver_.places_[static_cast<std::size_t>(i)]);
       for (int c = 0; c < given_; ++c) to[c * x_.rows()] = from[c];
     }
   }
   /// What the subtrees of all threads give to the rows above them.
   void add_sums(int part) {
     const Range rows = share_of(solver_.rows_above_, part, parts_);
-    for (const RowsOfVectors& sums : sums_)
+    for (const RowsOfVectors<Number>& sums : sums_)
       for (std::int64_t k = rows.first; k < rows.first + rows.count; ++k)
         add_row(row(solver_.unknowns_above_[static_cast<std::size_t>(k)]), sums.row(k), columns_);
   }
 
   /// Where the vectors of the rows of a panel below a supernode are.
-  using RowAddresses = std::array<double*, lines_abreast>;
-  RowAddresses rows_of(const Supernode& node, Range rows) const {
+  using RowAddresses = std::array<Number*, lines_abreast>;
+  RowAddresses rows_of(const Supernode<Number>& node, Range rows) const {
     RowAddresses addresses{};
     for (std::int64_t k = 0; k < rows.count; ++k)
       addresses[static_cast<std::size_t>(k)] = row(node.rows_below[rows.first + k]);
     return addresses;
   }
   /// Where a subtree puts what it gives to them: rows above all subtrees have a sum in each of them.
-  RowAddresses sums_of(const Supernode& node, Range rows, int part) const {
+  RowAddresses sums_of(const Supernode<Number>& node, Range rows, int part) const {
     RowAddresses addresses{};
     for (std::int64_t k = 0; k < rows.count; ++k) {
       const std::int64_t to = node.rows_below[rows.first + k];
@@ -181,8 +186,8 @@ class SupernodalSolver::Sweep {
   }
 
   /// @param is_above  what is given to rows above is not kept apart
-  void forwards(const Supernode& node, int part, bool is_above = false) {
-    double* const own = row(node.first);
+  void forwards(const Supernode<Number>& node, int part, bool is_above = false) {
+    Number* const own = row(node.first);
     node.substitute_forwards(own, all_vectors());
     for (std::int64_t panel = 0; panel < node.panels_below(); ++panel) {
       const Range rows = node.rows_of_panel(panel);
@@ -191,15 +196,15 @@ class SupernodalSolver::Sweep {
     }
   }
   /// own <- own - L21^T of the rows below, some of its own columns.
-  void take_from_below(const Supernode& node, Range own_columns) {
-    double* const own = row(node.first + own_columns.first);
+  void take_from_below(const Supernode<Number>& node, Range own_columns) {
+    Number* const own = row(node.first + own_columns.first);
     for (std::int64_t panel = 0; panel < node.panels_below(); ++panel) {
       const Range rows = node.rows_of_panel(panel);
       FewVectors::fastest().subtract_transposed_product(node.panel_below(rows, own_columns), rows_of(node, rows).data(),
                                                         own, all_vectors());
     }
   }
-  void backwards(const Supernode& node) {
+  void backwards(const Supernode<Number>& node) {
     take_from_below(node, {0, node.width});
     node.substitute_backwards(row(node.first), all_vectors());
   }
@@ -209,7 +214,7 @@ class SupernodalSolver::Sweep {
     const Range own = share_of(columns_ / vectors_abreast, part, parts_);
     return {static_cast<int>(own.first) * vectors_abreast, static_cast<int>(own.count) * vectors_abreast, columns_};
   }
-  void forwards_together(const Supernode& node) {
+  void forwards_together(const Supernode<Number>& node) {
     each_part([&](int part) { node.substitute_forwards(row(node.first), own_vectors(part)); });
     each_part([&](int part) {
       const Range panels = share_of(node.panels_below(), part, parts_);
@@ -220,7 +225,7 @@ class SupernodalSolver::Sweep {
       }
     });
   }
-  void backwards_together(const Supernode& node) {
+  void backwards_together(const Supernode<Number>& node) {
     each_part([&](int part) { take_from_below(node, share_of(node.width, part, parts_)); });
     each_part([&](int part) { node.substitute_backwards(row(node.first), own_vectors(part)); });
   }
@@ -231,41 +236,45 @@ class SupernodalSolver::Sweep {
   Eigen::Index first_;
   const Eigen::MatrixXd& b_;
   Eigen::MatrixXd& x_;
-  RowsOfVectors& y_;
-  std::vector<RowsOfVectors>& sums_;
+  RowsOfVectors<Number>& y_;
+  std::vector<RowsOfVectors<Number>>& sums_;
 };
 
-SupernodalSolver::SupernodalSolver(const SupernodalFactor& factor, double* values, int threads) : factor_(factor) {
-  factor_.values = values;
+template <class Number>
+SupernodalSolver<Number>::SupernodalSolver(const SupernodalFactor& factor, Number* values, int threads)
+    : factor_(factor), values_(values) {
   places_.resize(static_cast<std::size_t>(factor.size));
   for (std::int64_t k = 0; k < factor.size; ++k) places_[static_cast<std::size_t>(factor.order[k])] = k;
   share_out(threads);
-  cut_into_panels(values);
+  cut_into_panels();
 }
 
-void SupernodalSolver::cut_into_panels(double* values) const {
+template <class Number>
+void SupernodalSolver<Number>::cut_into_panels() const {
   std::int64_t largest = 0;
   for (std::int64_t s = 0; s < factor_.supernodes; ++s)
     largest = std::max(largest, factor_.value_starts[s + 1] - factor_.value_starts[s]);
-  std::vector<RowsOfVectors> rooms;
+  std::vector<RowsOfVectors<Number>> rooms;
   for (std::size_t part = 0; part < of_threads_.size(); ++part) rooms.emplace_back(largest, 1);
-#pragma omp parallel num_threads(static_cast<int>(rooms.size()))
+#pragma omp parallel num_threads(static_cast <int>(rooms.size()))
   {
-    double* const room = rooms[static_cast<std::size_t>(omp_get_thread_num())].row(0);
+    Number* const room = rooms[static_cast<std::size_t>(omp_get_thread_num())].row(0);
 #pragma omp for schedule(dynamic, 1)
     for (std::int64_t k = 0; k < factor_.supernodes; ++k) {
       const std::int64_t s = factor_.supernodes - 1 - k;  // the largest come last
       bielle::cut_into_panels(factor_.row_starts[s + 1] - factor_.row_starts[s],
-                              factor_.columns[s + 1] - factor_.columns[s], values + factor_.value_starts[s], room);
+                              factor_.columns[s + 1] - factor_.columns[s], values_ + factor_.value_starts[s], room);
     }
   }
 }
 
-SupernodalSolver::~SupernodalSolver() = default;
+template <class Number>
+SupernodalSolver<Number>::~SupernodalSolver() = default;
 
 /// Cuts the largest subtree off its root until there are enough for each thread, and gives each in turn to the thread
 /// that has least.
-void SupernodalSolver::share_out(int threads) {
+template <class Number>
+void SupernodalSolver<Number>::share_out(int threads) {
   const auto count = static_cast<std::size_t>(factor_.supernodes);
   const EliminationTree tree(factor_);
   const std::vector<std::int64_t>& parents = tree.parents;
@@ -321,7 +330,8 @@ void SupernodalSolver::share_out(int threads) {
   rows_above_ = static_cast<std::int64_t>(unknowns_above_.size());
 }
 
-Eigen::MatrixXd SupernodalSolver::solve(const Eigen::MatrixXd& b) const {
+template <class Number>
+Eigen::MatrixXd SupernodalSolver<Number>::solve(const Eigen::MatrixXd& b) const {
   Eigen::MatrixXd x(b.rows(), b.cols());
   for (Eigen::Index first = 0; first < b.cols(); first += most_columns) {
     const auto given = static_cast<int>(std::min(most_columns, b.cols() - first));
@@ -332,7 +342,8 @@ Eigen::MatrixXd SupernodalSolver::solve(const Eigen::MatrixXd& b) const {
   return x;
 }
 
-std::unique_ptr<SupernodalSolver::Room> SupernodalSolver::take_room(int columns) const {
+template <class Number>
+auto SupernodalSolver<Number>::take_room(int columns) const -> std::unique_ptr<Room> {
   {
     const std::lock_guard lock(guard_);
     if (kept_ && kept_->columns == columns) return std::move(kept_);
@@ -340,11 +351,15 @@ std::unique_ptr<SupernodalSolver::Room> SupernodalSolver::take_room(int columns)
   return std::make_unique<Room>(*this, columns);
 }
 
-void SupernodalSolver::keep(std::unique_ptr<Room> room) const {
+template <class Number>
+void SupernodalSolver<Number>::keep(std::unique_ptr<Room> room) const {
   constexpr int most_kept = 16;  // columns: little next to the factor
   if (room->columns > most_kept) return;
   const std::lock_guard lock(guard_);
   kept_ = std::move(room);
 }
+
+template class SupernodalSolver<double>;
+template class SupernodalSolver<float>;
 
 }  // namespace bielle
