@@ -112,40 +112,85 @@ void add_cells(const Solid& solid, const NodeGraph& graph, const RowMatrix& fiel
   }
 }
 
-/// The sum over nodes a, neighbours b and components i of T_ai^T g_ab T_bi: (n, n fields), columns of field f at f, f +
-/// fields, ...
-MatrixXd reduce(const NodeGraph& graph, const FieldMatrices& g, const RowMatrix& shapes, int threads) {
-  const Index n = shapes.cols(), fields = g.fields, nodes = graph.size(), width = 3 * n;
-  constexpr Index batch = 32;  // nodes: what they make stays in the cache
-  std::vector<MatrixXd> sums(threads, MatrixXd::Zero(n, n * fields));
-#pragma omp parallel num_threads(threads)
-  {
-    MatrixXd& sum = sums[omp_get_thread_num()];
-    std::vector<double> around;                        // rows of T of a node's neighbours
-    std::vector<double> made(batch * width * fields);  // of each node: (fields, 3 n)
-#pragma omp for schedule(static)
-    for (Index begin = 0; begin < nodes; begin += batch) {
-      const Index end = std::min(nodes, begin + batch);
-      for (Index a = begin; a < end; ++a) {
-        const Index count = g.first[a + 1] - g.first[a];
-        around.resize(std::max<std::size_t>(around.size(), count * width));
-        for (Index j = 0; j < count; ++j) {
-          std::copy_n(&shapes.coeffRef(3 * graph.neighbours[g.own[a] + j], 0), width, around.data() + j * width);
-        }
-        double* const out = made.data() + (a - begin) * width * fields;
-        std::fill_n(out, width * fields, 0.0);
-        add_dense_product({g.column(g.first[a]), fields, count, fields, false},
-                          {around.data(), count, width, width, true}, out, fields);
-      }
-      for (int i = 0; i < 3; ++i) {
-        add_dense_product({&shapes.coeffRef(3 * begin, 0) + i * n, n, end - begin, width, false},
-                          {made.data() + i * n * fields, end - begin, n * fields, width * fields, true}, sum.data(), n);
-      }
+/// The numbers g_ab of all fields for node a and all its neighbours b: (fields, neighbours), a's own whole.
+void gather(const NodeGraph& graph, const FieldMatrices& g, int a, double* row) {
+  for (std::int64_t place = graph.starts[a]; place < graph.starts[a + 1]; ++place, row += g.fields) {
+    const int b = graph.neighbours[place];
+    const std::int64_t pair = b < a ? g.first[b] + graph.place(b, a) - g.own[b] : g.first[a] + place - g.own[a];
+    const double scale = b == a ? 2 : 1;  // half of the diagonal is kept
+    for (Index f = 0; f < g.fields; ++f) row[f] = scale * g.column(pair)[f];
+  }
+}
+
+/// For one thread: the sum over nodes a, neighbours b and components i of T_ai^T g_ab T_bi, lower triangles.
+class ReducedSum {
+ public:
+  ReducedSum(const NodeGraph& graph, const FieldMatrices& g, const RowMatrix& shapes)
+      : graph_(graph),
+        g_(g),
+        shapes_(shapes),
+        fields_(g.fields),
+        n_(shapes.cols()),
+        width_(3 * n_),
+        made_(at_a_time * width_ * fields_),
+        sum_(MatrixXd::Zero(n_, n_ * fields_)) {}
+
+  static constexpr Index at_a_time = 32;  // nodes: what they make stays in the cache
+
+  void add_nodes(Index begin, Index end) {
+    for (Index a = begin; a < end; ++a) make(static_cast<int>(a), made_.data() + (a - begin) * width_ * fields_);
+    // Rows of T, and of what was made, are each node's x, y and z. Of symmetric matrices, nothing above blocks on the
+    // diagonal is needed.
+    const Index rows = 3 * (end - begin);
+    for (Index j = 0; j < n_; j += block) {
+      const Index columns = fields_ * std::min(block, n_ - j);
+      add_dense_product({&shapes_.coeffRef(3 * begin, j), n_ - j, rows, n_, false},
+                        {made_.data() + j * fields_, rows, columns, n_ * fields_, true}, &sum_(j, j * fields_), n_);
     }
   }
-  for (std::size_t k = 1; k < sums.size(); ++k) {
-    sums[0] += sums[k];
+  /// (n, n fields), columns of field f at f, f + fields, ...; nothing is right above the diagonals.
+  const MatrixXd& sum() const { return sum_; }
+
+ private:
+  static constexpr Index block = 16;  // shapes: all fields of one are next to each other
+
+  /// Rows x, y, z of node a in g T: (fields, 3 n).
+  void make(int a, double* out) {
+    const Index count = graph_.starts[a + 1] - graph_.starts[a];
+    around_.resize(std::max<std::size_t>(around_.size(), count * width_));
+    weights_.resize(std::max<std::size_t>(weights_.size(), count * fields_));
+    gather(graph_, g_, a, weights_.data());
+    for (Index j = 0; j < count; ++j) {
+      const Index b = graph_.neighbours[graph_.starts[a] + j];
+      std::copy_n(&shapes_.coeffRef(3 * b, 0), width_, around_.data() + j * width_);
+    }
+    std::fill_n(out, width_ * fields_, 0.0);
+    add_dense_product({weights_.data(), fields_, count, fields_, false}, {around_.data(), count, width_, width_, true},
+                      out, fields_);
   }
+
+  const NodeGraph& graph_;
+  const FieldMatrices& g_;
+  const RowMatrix& shapes_;
+  Index fields_, n_, width_;
+  std::vector<double> around_, weights_;  // rows of T of a node's neighbours; numbers g_ab
+  std::vector<double> made_;              // of each node: (fields, 3 n)
+  MatrixXd sum_;
+};
+
+/// T^T (g (x) I3) T of all fields: (n, n fields), as ReducedSum has it.
+MatrixXd reduce(const NodeGraph& graph, const FieldMatrices& g, const RowMatrix& shapes, int threads) {
+  std::vector<MatrixXd> sums(static_cast<std::size_t>(threads));
+#pragma omp parallel num_threads(threads)
+  {
+    ReducedSum own(graph, g, shapes);
+#pragma omp for schedule(static)
+    for (Index begin = 0; begin < graph.size(); begin += ReducedSum::at_a_time)
+      own.add_nodes(begin, std::min(graph.size(), begin + ReducedSum::at_a_time));
+    sums[static_cast<std::size_t>(omp_get_thread_num())] = own.sum();
+  }
+  for (std::size_t k = 1; k < sums.size(); ++k)
+    if (sums[k].size() > 0) sums[0] += sums[k];
   return sums[0];
 }
 
@@ -161,8 +206,8 @@ std::vector<MatrixXd> reduced_geometric_stiffness(const Solid& solid, const Node
   const MatrixXd sums = reduce(graph, g, shapes, threads);
   std::vector<MatrixXd> result;
   for (Index f = 0; f < count; ++f) {
-    const MatrixXd half = sums(Eigen::all, Eigen::seqN(f, n, count));
-    result.push_back(half + half.transpose());
+    const MatrixXd lower = sums(Eigen::all, Eigen::seqN(f, n, count));
+    result.push_back(lower.selfadjointView<Eigen::Lower>());
   }
   return result;
 }

@@ -11,8 +11,8 @@ namespace bielle::reduce {
 
 /// Rotations (half the curl, reduce/superelement/point_weights.hpp) at nodes that are spread over the body, each as far
 /// as possible from those before it.
-/// @param modes  shapes (3 points, m) @param body  its name, for messages
+/// @param shapes  (3 points, n), of which the modes are those from `first` on, m @param body  its name, for messages
 /// @returns (3 q, m), body axes; q at most 24
-Eigen::MatrixXd mode_turns(const Solid& solid, const RowMatrix& modes, const std::string& body);
+Eigen::MatrixXd mode_turns(const Solid& solid, const RowMatrix& shapes, Eigen::Index first, const std::string& body);
 
 }  // namespace bielle::reduce

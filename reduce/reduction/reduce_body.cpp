@@ -227,7 +227,7 @@ Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Prog
   progress.start("loads and recovery");
   body.loads = reduce_loads(solid, options.loads, basis.shapes);
   body.points = named_points(points, basis.shapes);
-  body.mode_turns = mode_turns(solid, basis.shapes.rightCols(basis.modes()), options.name);
+  body.mode_turns = mode_turns(solid, basis.shapes, basis.kept(), options.name);
   add_recovery(solid, options, basis.shapes, threads, body);
 
   if (options.judged) {

@@ -83,6 +83,16 @@ class BlockLanczos {
     return true;
   }
 
+  /// When to look again, by how many more had converged since the last time; dense eigenvalues of large bases take
+  /// their time.
+  Index next_test(Index found) {
+    const Index size = basis_.size(), grown = size - tested_size_, more = found - tested_found_;
+    const Index most = size / 12;
+    tested_size_ = size;
+    tested_found_ = found;
+    return size + (grown > 0 && more > 0 ? std::min(most, (count_ - found) * grown / more) : most);
+  }
+
   bool is_full() const { return basis_.room() < std::max(basis_.front(), Index{1}); }
 
   void restart(const RitzPairs& ritz) {
@@ -98,13 +108,14 @@ class BlockLanczos {
 
   /// The first `count`, which are locked; fewer where there are no more.
   void find() {
-    Index test_at = count_;
+    Index test_at = count_ + count_ / 2;
     while (grow()) {
       if (basis_.size() < test_at && !is_full()) continue;
       const RitzPairs ritz = basis_.ritz();
-      if (converged(ritz, count_) == count_) return lock(ritz, count_);
+      const Index found = converged(ritz, count_);
+      if (found == count_) return lock(ritz, count_);
       if (is_full()) restart(ritz);
-      test_at = basis_.size() + basis_.size() / 12;  // dense eigenvalues of large bases take their time
+      test_at = next_test(found);
     }
     if (basis_.size() == 0) return;
     const RitzPairs ritz = basis_.ritz();  // of all there is
@@ -165,7 +176,8 @@ class BlockLanczos {
   const EigenpairOptions& options_;
   Eigenpairs result_;
   Index count_, block_;
-  Index starts_ = 0;  // random vectors that the search has started from
+  Index tested_size_ = 0, tested_found_ = 0;  // of the basis at the last test, and how many had converged
+  Index starts_ = 0;                          // random vectors that the search has started from
   KrylovBasis basis_;
 };
 

@@ -39,9 +39,11 @@ void put_in_order(Eigenpairs& pairs) {
 /// Normalises the vectors, measures what the operator makes of them, and takes that: a step of inverse iteration, which
 /// leaves less of other eigenvectors, and nothing of directions without mass. Eigenvalues are Rayleigh's quotients.
 /// @param most  columns at a time: a few blocks cost as much as one, and need less memory
-void polish(const ShiftInvertProblem& problem, Eigen::Index most, int threads, Eigenpairs& pairs) {
+/// @returns V^T M V of the new vectors V, upper triangle
+Eigen::MatrixXd polish(const ShiftInvertProblem& problem, Eigen::Index most, int threads, Eigenpairs& pairs) {
   const Eigen::Index count = pairs.values.size();
   pairs.residuals.resize(count);
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(count, count);
   for (Eigen::Index first = 0; first < count; first += most) {
     const Eigen::Index width = std::min(most, count - first);
     auto vectors = pairs.vectors.middleCols(first, width);
@@ -62,22 +64,35 @@ void polish(const ShiftInvertProblem& problem, Eigen::Index most, int threads, E
     }
     const Eigen::MatrixXd mass_error = problem.multiply_mass(error);
 #pragma omp parallel for num_threads(threads)
-    for (Eigen::Index k = 0; k < width; ++k)
+    for (Eigen::Index k = 0; k < width; ++k) {
       pairs.residuals(first + k) = std::sqrt(std::max(0.0, error.col(k).dot(mass_error.col(k))));
+      mass_vectors.col(k) -= mass_error.col(k);
+    }
+    gram.block(0, first, first + width, width) =
+        tall_inner_products(pairs.vectors.leftCols(first + width), mass_vectors, threads);
   }
+  return gram;
+}
+
+/// V^T M V, upper triangle.
+Eigen::MatrixXd gram_matrix(const ShiftInvertProblem& problem, const Eigen::MatrixXd& vectors, int threads) {
+  constexpr Eigen::Index most = 16;  // columns at a time
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(vectors.cols(), vectors.cols());
+  for (Eigen::Index first = 0; first < vectors.cols(); first += most) {
+    const Eigen::Index width = std::min(most, vectors.cols() - first);
+    const Eigen::MatrixXd mass_vectors = problem.multiply_mass(vectors.middleCols(first, width));
+    gram.block(0, first, first + width, width) =
+        tall_inner_products(vectors.leftCols(first + width), mass_vectors, threads);
+  }
+  return gram;
 }
 
 /// What rounding in the solutions left of others in each vector is taken out: V <- V (I - (V^T M V - I) / 2).
-void make_orthonormal(const ShiftInvertProblem& problem, Eigen::MatrixXd& vectors, int threads) {
-  constexpr Eigen::Index most = 64;  // columns at a time
-  const Eigen::Index count = vectors.cols();
-  Eigen::MatrixXd gram(count, count);
-  for (Eigen::Index first = 0; first < count; first += most) {
-    const Eigen::MatrixXd columns = vectors.middleCols(first, std::min(most, count - first));
-    gram.middleCols(first, columns.cols()) = tall_inner_products(vectors, problem.multiply_mass(columns), threads);
-  }
-  const Eigen::MatrixXd excess = (gram + gram.transpose()) / 2 - Eigen::MatrixXd::Identity(count, count);
-  combine_columns(vectors, Eigen::MatrixXd::Identity(count, count) - excess / 2, threads);
+/// @param gram  V^T M V, its upper triangle is read
+void make_orthonormal(const Eigen::MatrixXd& gram, Eigen::MatrixXd& vectors, int threads) {
+  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(gram.rows(), gram.cols());
+  const Eigen::MatrixXd whole = gram.selfadjointView<Eigen::Upper>();
+  combine_columns(vectors, identity - (whole - identity) / 2, threads);
 }
 
 /// Small problems, densely: S = (K - shift M)^-1 is symmetric, and S M phi = nu phi with nu = 1 / (lambda - shift)
@@ -128,9 +143,11 @@ Eigenpairs shift_invert_eigenpairs(const ShiftInvertProblem& problem, int count,
                      : problem.precondition                  ? davidson_eigenpairs(problem, count, options)
                      : options.method == EigenMethod::arpack ? arpack_eigenpairs(problem, count, options)
                                                              : block_lanczos_eigenpairs(problem, count, options);
-  if (pairs.residuals.size() == 0)  // who iterates elsewhere has little memory here
-    polish(problem, options.iteration ? 8 : 64, options.threads, pairs);
-  make_orthonormal(problem, pairs.vectors, options.threads);
+  // Who iterates elsewhere has little memory here; a method that gives residuals has taken the last step itself.
+  const Eigen::MatrixXd gram = pairs.residuals.size() == 0
+                                   ? polish(problem, options.iteration ? 8 : 64, options.threads, pairs)
+                                   : gram_matrix(problem, pairs.vectors, options.threads);
+  make_orthonormal(gram, pairs.vectors, options.threads);
   put_in_order(pairs);
   return pairs;
 }

@@ -17,7 +17,7 @@ TEST_CASE("Turns of modes are those of the displacement field at places from end
     fields.block<3, 1>(3 * a, 0) = turn.cross(X);
     fields.block<3, 1>(3 * a, 1) = Eigen::Vector3d(-X.x() * X.z(), 0, X.x() * X.x() / 2);  // bent: turned by -x about y
   }
-  const Eigen::MatrixXd turns = mode_turns(solid, fields, "bar");
+  const Eigen::MatrixXd turns = mode_turns(solid, fields, 0, "bar");
   REQUIRE(turns.rows() % 3 == 0);
   REQUIRE(turns.rows() >= 3 * 8);
   REQUIRE(turns.cols() == 2);
