@@ -3,11 +3,11 @@
 //   reduce_parts BODY.yaml FOLDER
 //
 // Writes into the folder what compare_reduction gives to SLEPc and CalculiX: stiffness and mass of the points inside
-// (lower triangles by columns: starts, rows as int64, values as float64), points [m], cells (their nodes, from 0, as
-// int64) and the numbers of tied points. Rigid ties hold all points of their surfaces; average ties leave them free,
-// and a reduction holds what is then left by a few supports: they are held here too. Prints, as JSON, the speed of a
-// dense product (dgemm), the bandwidth of reading memory, and time and size of the factorisation and of solutions with
-// 1 and 12 columns, all from this run.
+// (lower triangles by columns: starts, rows as int64, values as float64), the first unknown of each point and then
+// their number, points [m], cells (their nodes, from 0, as int64) and the numbers of tied points. Rigid ties hold all
+// points of their surfaces; average ties leave them free, and a reduction holds what is then left by a few supports:
+// they are held here too. Prints, as JSON, the speed of a dense product (dgemm), the bandwidth of reading memory, and
+// time and size of the factorisation and of solutions with 1 and 12 columns, all from this run.
 #include <chrono>
 #include <cstdio>
 #include <exception>
@@ -107,6 +107,7 @@ void run(const std::string& body, const std::string& folder, int threads) {
   const NodeGraph graph = node_graph(solid.nodes, solid.points(), threads);
   const SymmetricMatrix stiffness = principal_submatrix(assemble_stiffness(solid, graph, threads), kept);
   write(folder + "/K", stiffness);
+  write(folder + "/K.blocks", starts);
   write(folder + "/M", principal_submatrix(three_fold(assemble_mass(solid, graph, threads)), kept));
   write(folder + "/points", mesh.points);
   write(folder + "/cells", Eigen::Matrix<std::int64_t, -1, -1>(solid.nodes.cast<std::int64_t>()));
