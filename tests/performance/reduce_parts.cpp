@@ -2,13 +2,15 @@
 //
 //   reduce_parts BODY.yaml FOLDER
 //
-// Writes into the folder what compare_reduction gives to SLEPc and CalculiX: stiffness and mass of the inside, held at
-// all tied points (lower triangles by columns: starts, rows as int64, values as float64), points [m], cells (their
-// nodes, from 0, as int64) and the numbers of tied points. Prints, as JSON, the speed of a dense product (dgemm), the
-// bandwidth of reading memory, and time and size of the factorisation and of solutions with 1 and 12 columns, all from
-// this run.
+// Writes into the folder what compare_reduction gives to SLEPc and CalculiX: stiffness and mass of the points inside
+// (lower triangles by columns: starts, rows as int64, values as float64), the first unknown of each point and then
+// their number, points [m], cells (their nodes, from 0, as int64) and the numbers of tied points. Rigid ties hold all
+// points of their surfaces; average ties leave them free, and a reduction holds what is then left by a few supports:
+// they are held here too. Prints, as JSON, the speed of a dense product (dgemm), the bandwidth of reading memory, and
+// time and size of the factorisation and of solutions with 1 and 12 columns, all from this run.
 #include <chrono>
 #include <cstdio>
+#include <exception>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -20,6 +22,7 @@
 #include "reduce/common/progress.hpp"
 #include "reduce/fe/assembly.hpp"
 #include "reduce/mesh/import.hpp"
+#include "reduce/reduction/held_freedoms.hpp"
 #include "reduce/reduction/ties.hpp"
 #include "reduce/spectral/blas.hpp"
 #include "reduce/spectral/symmetric_factor.hpp"
@@ -94,19 +97,17 @@ void run(const std::string& body, const std::string& folder, int threads) {
   const Mesh mesh = import_mesh(file.mesh, progress);
   const Solid solid = make_solid(mesh, file.options.materials, file.options.regions);
   const Ties ties = make_ties(solid, file.options.interfaces);
-  std::vector<std::int64_t> kept, starts, tied;
-  for (std::int64_t a = 0; a < solid.points(); ++a) {
-    if (ties.tied[a]) {
-      tied.push_back(a);
-      continue;
-    }
-    starts.push_back(static_cast<std::int64_t>(kept.size()));
-    kept.insert(kept.end(), {3 * a, 3 * a + 1, 3 * a + 2});
-  }
+  const std::vector<std::int64_t> kept = HeldFreedoms(solid, ties).inside().kept;
+  std::vector<std::int64_t> starts, tied;
+  for (std::size_t k = 0; k < kept.size(); ++k)
+    if (k == 0 || kept[k] / 3 != kept[k - 1] / 3) starts.push_back(static_cast<std::int64_t>(k));
   starts.push_back(static_cast<std::int64_t>(kept.size()));
+  for (std::int64_t a = 0; a < solid.points(); ++a)
+    if (ties.tied[a]) tied.push_back(a);
   const NodeGraph graph = node_graph(solid.nodes, solid.points(), threads);
   const SymmetricMatrix stiffness = principal_submatrix(assemble_stiffness(solid, graph, threads), kept);
   write(folder + "/K", stiffness);
+  write(folder + "/K.blocks", starts);
   write(folder + "/M", principal_submatrix(three_fold(assemble_mass(solid, graph, threads)), kept));
   write(folder + "/points", mesh.points);
   write(folder + "/cells", Eigen::Matrix<std::int64_t, -1, -1>(solid.nodes.cast<std::int64_t>()));
@@ -132,5 +133,10 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "reduce_parts BODY.yaml FOLDER\n");
     return 2;
   }
-  run(argv[1], argv[2], available_processors());
+  try {
+    run(argv[1], argv[2], available_processors());
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 1;
+  }
 }
