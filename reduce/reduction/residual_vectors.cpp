@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "reduce/common/error.hpp"
+#include "reduce/common/leading_component.hpp"
 #include "reduce/common/symmetric_eigenpairs.hpp"
 #include "reduce/reduction/load_patterns.hpp"
 #include "reduce/reduction/reduced_matrices.hpp"
@@ -25,6 +26,14 @@ struct HeldFields {
   void combine(const Eigen::MatrixXd& weights) {
     shapes = RowMatrix(shapes * weights);
     released = Eigen::MatrixXd(released * weights);
+  }
+  /// Leading components become positive, whatever the signs of eigenvectors.
+  void choose_signs() {
+    for (Eigen::Index k = 0; k < shapes.cols(); ++k) {
+      if (leading_component(shapes.col(k)) >= 0) continue;
+      shapes.col(k) = -shapes.col(k);
+      released.col(k) = -released.col(k);
+    }
   }
 };
 
@@ -164,6 +173,7 @@ void add_residual_vectors(const std::vector<ResidualRequest>& requests, const Bo
   const Eigen::VectorXd flexibilities = pairs->values.reverse();  // 1 / omega^2
   const Eigen::MatrixXd vectors = pairs->vectors.rowwise().reverse();
   fields.combine(vectors * flexibilities.cwiseSqrt().cwiseInverse().asDiagonal());
+  fields.choose_signs();
   append_to_basis(fields, flexibilities.cwiseInverse(), basis);
 }
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "reduce/common/error.hpp"
+#include "reduce/common/leading_component.hpp"
 #include "reduce/common/symmetric_eigenpairs.hpp"
 #include "reduce/spectral/arpack_eigenpairs.hpp"
 #include "reduce/spectral/block_lanczos.hpp"
@@ -18,7 +19,7 @@ namespace bielle {
 
 namespace {
 
-/// Ascending eigenvalues, vectors with their largest component positive.
+/// Ascending eigenvalues, vectors with their leading component positive.
 void put_in_order(Eigenpairs& pairs) {
   std::vector<Eigen::Index> order(pairs.values.size());
   std::iota(order.begin(), order.end(), 0);
@@ -27,13 +28,8 @@ void put_in_order(Eigenpairs& pairs) {
   pairs.values = Eigen::VectorXd(pairs.values(order));
   pairs.residuals = Eigen::VectorXd(pairs.residuals(order));
   if (!std::is_sorted(order.begin(), order.end())) pairs.vectors = Eigen::MatrixXd(pairs.vectors(Eigen::all, order));
-  for (auto column : pairs.vectors.colwise()) {
-    Eigen::Index largest = 0;
-    column.cwiseAbs().maxCoeff(&largest);
-    if (column(largest) < 0) {
-      column = -column;
-    }
-  }
+  for (auto column : pairs.vectors.colwise())
+    if (leading_component(column) < 0) column = -column;
 }
 
 /// Normalises the vectors, measures what the operator makes of them, and takes that: a step of inverse iteration, which

@@ -53,7 +53,7 @@ struct EigenpairOptions {
 /// Eigenpairs in ascending order of eigenvalue.
 struct Eigenpairs {
   Eigen::VectorXd values;   ///< lambda
-  Eigen::MatrixXd vectors;  ///< columns phi, phi^T M phi = 1, largest component positive
+  Eigen::MatrixXd vectors;  ///< columns phi, phi^T M phi = 1, the first of the largest components positive
   /// |phi - (lambda - shift) (K - shift M)^-1 M phi|_M for each pair: some eigenvalue of the pencil lies within this,
   /// relative to lambda - shift.
   Eigen::VectorXd residuals;
