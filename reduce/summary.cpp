@@ -171,14 +171,10 @@ std::string describe(const ReductionReport& report, const std::vector<PhaseRepor
   std::string result;
   if (report.factor.unknowns > 0) {
     result += fmt::format(
-        "factorisation: {}, {} in the factor ({:.0f} MB{}), {:.3g} GFLOP at {:.3g} GFLOP/s, ordering {:.2f} s, "
+        "factorisation: {}, {} in the factor ({:.0f} MB), {:.3g} GFLOP at {:.3g} GFLOP/s, ordering {:.2f} s, "
         "numbers {:.2f} s; {} for the modes in {}\n",
         counted(report.factor.unknowns, "unknown"), counted(report.factor.nonzeros, "number"),
-        report.factor.memory_MB(),
-        report.factor.is_single
-            ? " in single precision, since memory does not suffice for double; solutions are refined"
-            : "",
-        1e-9 * report.factor.flops, report.factor.speed(), report.factor.ordering_seconds,
+        report.factor.memory_MB(), 1e-9 * report.factor.flops, report.factor.speed(), report.factor.ordering_seconds,
         report.factor.factorisation_seconds, counted(report.solves, "solution"), counted(report.sweeps, "sweep"));
   }
   double total = 0;

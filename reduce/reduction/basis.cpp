@@ -73,12 +73,8 @@ Eigenpairs fixed_boundary_modes(const BodyMatrices& matrices, const HeldBody& he
   if (modes.count == 0 || held.size() == 0) {
     return {};
   }
-  ShiftInvertProblem problem{held.size(), 0, [&](const Eigen::MatrixXd& b) { return held.solve(b); },
-                             [&](const Eigen::MatrixXd& z) { return held.inertia(matrices, z, threads); }};
-  if (held.statistics().is_single) {
-    problem.multiply_stiffness = [&](const Eigen::MatrixXd& z) { return held.stiffness(matrices, z); };
-    problem.precondition = [&](const Eigen::MatrixXd& f) { return held.precondition(f); };
-  }
+  const ShiftInvertProblem problem{held.size(), 0, [&](const Eigen::MatrixXd& b) { return held.solve(b); },
+                                   [&](const Eigen::MatrixXd& z) { return held.inertia(matrices, z, threads); }};
   EigenpairOptions options;
   const double expected = 2.0 * modes.count.value_or(20) + 150;
   options.threads = threads;

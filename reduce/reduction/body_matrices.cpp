@@ -15,12 +15,10 @@ namespace {
 
 class FactorHere : public InsideFactor {
  public:
-  FactorHere(const BorderedPart& matrix, std::shared_ptr<const FactorStructure> structure, int threads,
-             FactorPrecision precision)
-      : factor_(matrix, std::move(structure), threads, precision) {}
+  FactorHere(const BorderedPart& matrix, std::shared_ptr<const FactorStructure> structure, int threads)
+      : factor_(matrix, std::move(structure), threads) {}
   const FactorStatistics& statistics() const override { return factor_.statistics(); }
   Eigen::MatrixXd solve(const Eigen::MatrixXd& f) const override { return factor_.solve(f); }
-  Eigen::MatrixXd precondition(const Eigen::MatrixXd& f) const override { return factor_.precondition(f); }
   std::optional<PivotSigns> count_signs(SymmetricMatrix matrix, const std::vector<double>& scale) const override {
     return factor_.count_signs(std::move(matrix), scale);
   }
@@ -37,10 +35,9 @@ std::shared_ptr<const FactorStructure> structure_of(const BlockGraph& points, co
 
 class MatricesHere : public BodyMatrices {
  public:
-  MatricesHere(const Solid& solid, const InsideUnknowns& inside, int threads, FactorPrecision precision)
+  MatricesHere(const Solid& solid, const InsideUnknowns& inside, int threads)
       : solid_(solid),
         threads_(threads),
-        precision_(precision),
         graph_(node_graph(solid.nodes, solid.points(), threads)),
         prepared_for_(inside) {
     const int others = std::max(1, threads - 1);
@@ -73,14 +70,12 @@ class MatricesHere : public BodyMatrices {
     return reduced_geometric_stiffness(solid_, graph_, fields, shapes, threads_);
   }
   std::unique_ptr<InsideFactor> factorise(const InsideUnknowns& inside) const override {
-    return factorise_inside(stiffness_, inside, inside.is_like(prepared_for_) ? structure_ : nullptr, threads_,
-                            precision_);
+    return factorise_inside(stiffness_, inside, inside.is_like(prepared_for_) ? structure_ : nullptr, threads_);
   }
 
  private:
   const Solid& solid_;
   int threads_;
-  FactorPrecision precision_;
   NodeGraph graph_;
   SymmetricMatrix stiffness_;
   NodeMatrix mass_;
@@ -91,18 +86,11 @@ class MatricesHere : public BodyMatrices {
 }  // namespace
 
 std::unique_ptr<BodyMatrices> assembled_matrices(const Solid& solid, const InsideUnknowns& inside, int threads) {
-  return std::make_unique<MatricesHere>(solid, inside, threads, FactorPrecision::automatic);
-}
-
-MatrixMaker assembled_matrices_with(FactorPrecision precision) {
-  return [precision](const Solid& solid, const InsideUnknowns& inside, int threads) -> std::unique_ptr<BodyMatrices> {
-    return std::make_unique<MatricesHere>(solid, inside, threads, precision);
-  };
+  return std::make_unique<MatricesHere>(solid, inside, threads);
 }
 
 std::unique_ptr<InsideFactor> factorise_inside(const SymmetricMatrix& stiffness, const InsideUnknowns& inside,
-                                               std::shared_ptr<const FactorStructure> structure, int threads,
-                                               FactorPrecision precision) {
+                                               std::shared_ptr<const FactorStructure> structure, int threads) {
   if (!structure) structure = structure_of(point_graph(stiffness), inside);
   if (!structure) return nullptr;
   BorderedPart matrix{stiffness, inside.kept, {}, {}};
@@ -111,7 +99,7 @@ std::unique_ptr<InsideFactor> factorise_inside(const SymmetricMatrix& stiffness,
     matrix.border = forces(inside.kept, Eigen::all);
     matrix.corner = inside.carried.transpose() * forces;
   }
-  return std::make_unique<FactorHere>(matrix, std::move(structure), threads, precision);
+  return std::make_unique<FactorHere>(matrix, std::move(structure), threads);
 }
 
 }  // namespace bielle::reduce

@@ -23,8 +23,6 @@ class InsideFactor {
   virtual const FactorStatistics& statistics() const = 0;
   /// K^-1 f for a block of right-hand sides (size,k).
   virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& f) const = 0;
-  /// As SymmetricFactor::precondition.
-  virtual Eigen::MatrixXd precondition(const Eigen::MatrixXd& f) const { return solve(f); }
   /// As SymmetricFactor::count_signs; nothing where that cannot be done.
   virtual std::optional<PivotSigns> count_signs(SymmetricMatrix /*matrix*/,
                                                 const std::vector<double>& /*scale*/) const {
@@ -64,14 +62,10 @@ using MatrixMaker =
 /// All in this process. While one thread finds the structure of the factor, the others assemble.
 /// @throws ComputationError as assemble_stiffness, and when memory does not suffice
 std::unique_ptr<BodyMatrices> assembled_matrices(const Solid& solid, const InsideUnknowns& inside, int threads);
-/// The same with factors of that precision, where these are in single precision when double does not fit in memory.
-MatrixMaker assembled_matrices_with(FactorPrecision precision);
 
 /// As BodyMatrices::factorise, of a stiffness that is here.
 /// @param structure  made for the inside; none: it is found now
-/// @param precision  unless full, the stiffness outlives the factor
 std::unique_ptr<InsideFactor> factorise_inside(const SymmetricMatrix& stiffness, const InsideUnknowns& inside,
-                                               std::shared_ptr<const FactorStructure> structure, int threads,
-                                               FactorPrecision precision = FactorPrecision::full);
+                                               std::shared_ptr<const FactorStructure> structure, int threads);
 
 }  // namespace bielle::reduce

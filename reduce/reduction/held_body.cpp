@@ -92,16 +92,13 @@ void HeldBody::factorise(const Factorisation& factorisation, const Solid& solid)
   }
 }
 
-Eigen::MatrixXd HeldBody::pseudo_solve(const Eigen::MatrixXd& f, Solution solution) const {
+Eigen::MatrixXd HeldBody::pseudo_solve(const Eigen::MatrixXd& f) const {
   if (!factor_) return Eigen::MatrixXd::Zero(freedoms_.size, f.cols());
-  const auto solve = [&](const Eigen::MatrixXd& forces) {
-    return solution == Solution::exact ? factor_->solve(forces) : factor_->precondition(forces);
-  };
-  if (freedoms_.supports.empty()) return solve(f);
+  if (freedoms_.supports.empty()) return factor_->solve(f);
   Eigen::MatrixXd inside(static_cast<Eigen::Index>(freedoms_.not_supports.size()), f.cols()),
       z(freedoms_.size, f.cols());
   freedoms_.leave_supports_out(f, inside, threads_);
-  freedoms_.put_supports_in(solve(inside), z, threads_);
+  freedoms_.put_supports_in(factor_->solve(inside), z, threads_);
   return z;
 }
 
@@ -135,30 +132,9 @@ void HeldBody::close_conditions(const Ties& ties) {
 
 Eigen::MatrixXd HeldBody::solve(const Eigen::MatrixXd& f, const Eigen::MatrixXd& averages) const {
   Eigen::MatrixXd z = pseudo_solve(f);
-  meet_conditions(f, averages, z);
-  return z;
-}
-
-Eigen::MatrixXd HeldBody::precondition(const Eigen::MatrixXd& f) const {
-  const Eigen::Index a = freedoms_.conditions.cols(), r = freedoms_.rigid.cols();
-  if (a == 0) return pseudo_solve(f, Solution::approximate);
-  // What the multipliers carry is taken off first, exactly: of residuals it is by far the most, and the approximate
-  // solution would leave a part of it.
-  Eigen::MatrixXd right(a + r, f.cols());
-  right.topRows(a) = tall_inner_products(corrections_.leftCols(a), f, threads_);
-  right.bottomRows(r) = tall_inner_products(freedoms_.rigid, f, threads_);
-  Eigen::MatrixXd rest = f;
-  add_tall_product(rest, freedoms_.conditions, product(small_, right).topRows(a), -1, threads_);
-  Eigen::MatrixXd z = pseudo_solve(rest, Solution::approximate);
-  meet_conditions(rest, {}, z);
-  return z;
-}
-
-/// z <- z - what multipliers and rigid motions take away.
-void HeldBody::meet_conditions(const Eigen::MatrixXd& f, const Eigen::MatrixXd& averages, Eigen::MatrixXd& z) const {
   const Eigen::Index a = freedoms_.conditions.cols(), r = freedoms_.rigid.cols();
   if (a == 0) {
-    return;
+    return z;
   }
   Eigen::MatrixXd right(a + r, f.cols());
   right.topRows(a) = tall_inner_products(freedoms_.conditions, z, threads_);
@@ -167,19 +143,7 @@ void HeldBody::meet_conditions(const Eigen::MatrixXd& f, const Eigen::MatrixXd& 
   }
   right.bottomRows(r) = tall_inner_products(freedoms_.rigid, f, threads_);
   add_tall_product(z, corrections_, product(small_, right), -1, threads_);
-}
-
-Eigen::MatrixXd HeldBody::stiffness(const BodyMatrices& matrices, const Eigen::MatrixXd& z) const {
-  constexpr Eigen::Index few = 16;
-  Eigen::MatrixXd forces(freedoms_.size, z.cols());
-  for (Eigen::Index first = 0; first < z.cols(); first += few) {
-    const Eigen::Index width = std::min(few, z.cols() - first);
-    // Products with several vectors are fastest for a multiple of so many.
-    RowMatrix u(freedoms_.carry_released.rows(), (width + vectors_abreast - 1) / vectors_abreast * vectors_abreast);
-    freedoms_.expand_into(z.middleCols(first, width), u, threads_);
-    freedoms_.restrict_into(matrices.stiffness_times(u), forces.middleCols(first, width), threads_);
-  }
-  return forces;
+  return z;
 }
 
 }  // namespace bielle::reduce

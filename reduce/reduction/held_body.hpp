@@ -52,11 +52,6 @@ class HeldBody {
   /// z under the loads f (size,k), the averages at q_a (averages,k); none: at zero.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& f, const Eigen::MatrixXd& averages = {}) const;
 
-  /// Forces on z of displacements z, a few columns at a time.
-  Eigen::MatrixXd stiffness(const BodyMatrices& matrices, const Eigen::MatrixXd& z) const;
-  /// About z under the loads f (size,k), the averages at zero, exactly: the factor is read once.
-  Eigen::MatrixXd precondition(const Eigen::MatrixXd& f) const;
-
   /// How many modes lie below an eigenvalue omega^2 [rad^2/s^2], counted by the pivots of K - omega^2 M: what it takes
   /// is another factorisation. @returns nothing where the matrices are not in this process
   std::optional<PivotSigns> count_below(const BodyMatrices& matrices, double eigenvalue, int threads) const;
@@ -67,9 +62,7 @@ class HeldBody {
            int threads);
   void factorise(const Factorisation& factorisation, const Solid& solid);
   void close_conditions(const Ties& ties);
-  enum class Solution { exact, approximate };
-  Eigen::MatrixXd pseudo_solve(const Eigen::MatrixXd& f, Solution solution = Solution::exact) const;  // K+ f
-  void meet_conditions(const Eigen::MatrixXd& f, const Eigen::MatrixXd& averages, Eigen::MatrixXd& z) const;
+  Eigen::MatrixXd pseudo_solve(const Eigen::MatrixXd& f) const;  // K+ f
 
   int threads_ = 1;
   HeldFreedoms freedoms_;

@@ -20,8 +20,6 @@ struct BorderedPart {
 
   std::int64_t size() const { return static_cast<std::int64_t>(kept.size()) + corner.cols(); }
   std::vector<double> diagonal() const;
-  /// The product with a block of vectors (size,k).
-  Eigen::MatrixXd multiply(const Eigen::MatrixXd& x, int threads) const;
 };
 
 }  // namespace bielle

@@ -21,12 +21,10 @@ std::vector<std::int64_t> places_in_parent(const SupernodeShape& child, const Su
 
 }  // namespace
 
-template <class Number>
-ChildUpdate<Number>::ChildUpdate(const Number* update, const SupernodeShape& child, const SupernodeShape& parent)
+ChildUpdate::ChildUpdate(const double* update, const SupernodeShape& child, const SupernodeShape& parent)
     : update_(update), panels_{child.below()}, places_(places_in_parent(child, parent)), runs_(runs_of(places_)) {}
 
-template <class Number>
-auto ChildUpdate<Number>::runs_of(const std::vector<std::int64_t>& places) -> std::vector<Run> {
+std::vector<ChildUpdate::Run> ChildUpdate::runs_of(const std::vector<std::int64_t>& places) {
   std::vector<Run> runs;
   for (std::size_t k = 0; k < places.size(); ++k) {
     const auto row = static_cast<std::int64_t>(k);
@@ -36,25 +34,21 @@ auto ChildUpdate<Number>::runs_of(const std::vector<std::int64_t>& places) -> st
   return runs;
 }
 
-template <class Number>
-void ChildUpdate<Number>::add_to(const Front<Number>& to, std::int64_t first, std::int64_t end) const {
+void ChildUpdate::add_to(const Front& to, std::int64_t first, std::int64_t end) const {
   const auto place = std::lower_bound(places_.begin(), places_.end(), first);
   auto own = std::upper_bound(runs_.begin(), runs_.end(), place - places_.begin(),
                               [](std::int64_t k, const Run& run) { return k < run.end; });
   for (auto k = place - places_.begin(); k < panels_.below && places_[static_cast<std::size_t>(k)] < end; ++k) {
     if (k == own->end) ++own;
     const std::int64_t panel = k / panels_.width(), above = panel * panels_.width();
-    const Number* const source = update_ + panels_.offset(panel) + (k - above) * panels_.rows(panel) - above;
-    Number* const target = to.column(k + own->shift);
+    const double* const source = update_ + panels_.offset(panel) + (k - above) * panels_.rows(panel) - above;
+    double* const target = to.column(k + own->shift);
     for (std::int64_t i = k; i < own->end; ++i) target[i + own->shift] += source[i];
     for (auto run = own + 1; run != runs_.end(); ++run) {
-      Number* const shifted = target + run->shift;
+      double* const shifted = target + run->shift;
       for (std::int64_t i = run->begin; i < run->end; ++i) shifted[i] += source[i];
     }
   }
 }
-
-template class ChildUpdate<double>;
-template class ChildUpdate<float>;
 
 }  // namespace bielle

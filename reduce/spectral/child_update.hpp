@@ -23,13 +23,12 @@ struct SupernodeShape {
 };
 
 /// Where the rows of an update matrix stand in the parent.
-template <class Number>
 class ChildUpdate {
  public:
-  ChildUpdate(const Number* update, const SupernodeShape& child, const SupernodeShape& parent);
+  ChildUpdate(const double* update, const SupernodeShape& child, const SupernodeShape& parent);
 
   /// Adds what belongs to columns first .. end of the parent.
-  void add_to(const Front<Number>& to, std::int64_t first, std::int64_t end) const;
+  void add_to(const Front& to, std::int64_t first, std::int64_t end) const;
 
  private:
   /// Rows of a child that follow each other in its parent as well.
@@ -39,7 +38,7 @@ class ChildUpdate {
   };
   static std::vector<Run> runs_of(const std::vector<std::int64_t>& places);
 
-  const Number* update_;
+  const double* update_;
   UpdatePanels panels_;
   std::vector<std::int64_t> places_;
   std::vector<Run> runs_;

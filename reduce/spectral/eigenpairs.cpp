@@ -12,7 +12,6 @@
 #include "reduce/common/symmetric_eigenpairs.hpp"
 #include "reduce/spectral/arpack_eigenpairs.hpp"
 #include "reduce/spectral/block_lanczos.hpp"
-#include "reduce/spectral/davidson.hpp"
 #include "reduce/spectral/tall_products.hpp"
 
 namespace bielle {
@@ -70,19 +69,6 @@ Eigen::MatrixXd polish(const ShiftInvertProblem& problem, Eigen::Index most, int
   return gram;
 }
 
-/// V^T M V, upper triangle.
-Eigen::MatrixXd gram_matrix(const ShiftInvertProblem& problem, const Eigen::MatrixXd& vectors, int threads) {
-  constexpr Eigen::Index most = 16;  // columns at a time
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(vectors.cols(), vectors.cols());
-  for (Eigen::Index first = 0; first < vectors.cols(); first += most) {
-    const Eigen::Index width = std::min(most, vectors.cols() - first);
-    const Eigen::MatrixXd mass_vectors = problem.multiply_mass(vectors.middleCols(first, width));
-    gram.block(0, first, first + width, width) =
-        tall_inner_products(vectors.leftCols(first + width), mass_vectors, threads);
-  }
-  return gram;
-}
-
 /// What rounding in the solutions left of others in each vector is taken out: V <- V (I - (V^T M V - I) / 2).
 /// @param gram  V^T M V, its upper triangle is read
 void make_orthonormal(const Eigen::MatrixXd& gram, Eigen::MatrixXd& vectors, int threads) {
@@ -136,13 +122,10 @@ Eigenpairs shift_invert_eigenpairs(const ShiftInvertProblem& problem, int count,
   const bool dense = n <= small || (n <= large && 2 * static_cast<Eigen::Index>(count) + 20 > n);
   Eigenpairs pairs = dense                                   ? dense_eigenpairs(problem, count)
                      : options.iteration                     ? options.iteration(problem, count, options)
-                     : problem.precondition                  ? davidson_eigenpairs(problem, count, options)
                      : options.method == EigenMethod::arpack ? arpack_eigenpairs(problem, count, options)
                                                              : block_lanczos_eigenpairs(problem, count, options);
-  // Who iterates elsewhere has little memory here; a method that gives residuals has taken the last step itself.
-  const Eigen::MatrixXd gram = pairs.residuals.size() == 0
-                                   ? polish(problem, options.iteration ? 8 : 64, options.threads, pairs)
-                                   : gram_matrix(problem, pairs.vectors, options.threads);
+  // Who iterates elsewhere has little memory here.
+  const Eigen::MatrixXd gram = polish(problem, options.iteration ? 8 : 64, options.threads, pairs);
   make_orthonormal(gram, pairs.vectors, options.threads);
   put_in_order(pairs);
   return pairs;

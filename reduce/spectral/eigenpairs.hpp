@@ -1,6 +1,5 @@
 // Eigenpairs of K phi = lambda M phi nearest to a shift: by a block Lanczos method of our own (block_lanczos.hpp), by
-// ARPACK with single vectors (arpack_eigenpairs.hpp), by a block Davidson method where there is a preconditioner
-// (davidson.hpp), or densely where the problem is small.
+// ARPACK with single vectors (arpack_eigenpairs.hpp), or densely where the problem is small.
 //
 // The caller gives the solution with K - shift M and the product with M, so that one factorisation serves here and
 // elsewhere, and constraints may be worked into the solution.
@@ -22,10 +21,6 @@ struct ShiftInvertProblem {
   std::function<Eigen::MatrixXd(const Eigen::MatrixXd& b)> solve;
   /// M x for a block of columns
   std::function<Eigen::MatrixXd(const Eigen::MatrixXd& x)> multiply_mass;
-  /// Where `solve` is dear, and something near it is not, both of these; the shift is zero then. K x, and about
-  /// K^-1 b, symmetric and positive definite on the range of `solve`, and in it.
-  std::function<Eigen::MatrixXd(const Eigen::MatrixXd& x)> multiply_stiffness{};
-  std::function<Eigen::MatrixXd(const Eigen::MatrixXd& b)> precondition{};
 };
 
 enum class EigenMethod { block_lanczos, arpack };
@@ -54,8 +49,8 @@ struct EigenpairOptions {
 struct Eigenpairs {
   Eigen::VectorXd values;   ///< lambda
   Eigen::MatrixXd vectors;  ///< columns phi, phi^T M phi = 1, the first of the largest components positive
-  /// |phi - (lambda - shift) (K - shift M)^-1 M phi|_M for each pair: some eigenvalue of the pencil lies within this,
-  /// relative to lambda - shift.
+  /// |phi - (lambda - shift) (K - shift M)^-1 M phi|_M for each pair, before the last step of inverse iteration: some
+  /// eigenvalue of the pencil lies within this, relative to lambda - shift.
   Eigen::VectorXd residuals;
   /// Of a search up to a limit: the least eigenvalue beyond it, where one was found.
   std::optional<double> next;

@@ -25,9 +25,8 @@ FactorStructure::FactorStructure(const BlockGraph& graph) {
   analysis_seconds_ = seconds(Clock::now() - ordered);
 }
 
-double FactorStructure::bytes(std::size_t number) const {
-  return static_cast<double>(number) * static_cast<double>(values()) +
-         8.0 * static_cast<double>(supernodes_.rows.size());
+double FactorStructure::bytes() const {
+  return 8.0 * (static_cast<double>(values()) + static_cast<double>(supernodes_.rows.size()));
 }
 
 }  // namespace bielle

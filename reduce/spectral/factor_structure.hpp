@@ -23,8 +23,8 @@ class FactorStructure {
   std::int64_t values() const { return supernodes_.value_starts.back(); }  ///< of L, padding and all
   std::int64_t nonzeros() const { return supernodes_.nonzeros; }           ///< of L
   double flops() const { return supernodes_.flops; }                       ///< of the factorisation
-  double bytes(std::size_t number) const;  ///< of L and its row numbers, with numbers of so many bytes
-  double ordering_seconds() const { return ordering_seconds_; }  ///< wall time
+  double bytes() const;                                                    ///< of L and its row numbers
+  double ordering_seconds() const { return ordering_seconds_; }            ///< wall time
   double analysis_seconds() const { return analysis_seconds_; }
 
  private:

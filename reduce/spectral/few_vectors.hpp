@@ -21,11 +21,10 @@ struct Vectors {
 };
 
 /// Some rows of a supernode of a factor by columns: the value in row i and column j is a[j * rows + i].
-template <class Number>
 struct FactorPanel {
   int rows;              ///< 1 to `lines_abreast`
   std::int64_t columns;  ///< to the left of its triangle, where it has one
-  const Number* a;
+  const double* a;
 };
 
 /// Some columns of a matrix with many rows: the value in row i and column j is a[j * stride + i].
@@ -43,22 +42,16 @@ class FewVectors {
   /// All that run on this processor, the fastest last.
   static std::vector<const FewVectors*> all();
 
-  // Of panels, in double or in single precision:
   /// y_i <- y_i - sum over j of a_ij x_j. @param y  addresses of its rows, which need not follow each other
-  template <class Number>
-  void subtract_product(const FactorPanel<Number>& panel, const Number* x, Number* const* y,
-                        const Vectors& vectors) const;
+  void subtract_product(const FactorPanel& panel, const double* x, double* const* y, const Vectors& vectors) const;
   /// x_j <- x_j - sum over i of a_ij y_i
-  template <class Number>
-  void subtract_transposed_product(const FactorPanel<Number>& panel, const Number* const* y, Number* x,
+  void subtract_transposed_product(const FactorPanel& panel, const double* const* y, double* x,
                                    const Vectors& vectors) const;
   /// Forward substitution in rows of the supernode's own, whose triangle T follows the columns to its left, with the
   /// inverses of its diagonal: y <- T^-1 (y - A x), where y are the rows of x that follow those of the panel's columns.
-  template <class Number>
-  void substitute_forwards(const FactorPanel<Number>& panel, Number* x, const Vectors& vectors) const;
+  void substitute_forwards(const FactorPanel& panel, double* x, const Vectors& vectors) const;
   /// Backward substitution: y <- T^-T y, then x <- x - A^T y.
-  template <class Number>
-  void substitute_backwards(const FactorPanel<Number>& panel, Number* x, const Vectors& vectors) const;
+  void substitute_backwards(const FactorPanel& panel, double* x, const Vectors& vectors) const;
 
   /// x_j <- x_j + sum over i of a_ij y_i
   void add_inner_products(const TallColumns& A, const double* y, double* x, const Vectors& vectors) const;

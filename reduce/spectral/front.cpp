@@ -5,10 +5,7 @@
 
 #include <cblas.h>
 
-extern "C" {
-void dpotrf_(const char* triangle, const int* n, double* a, const int* stride, int* info);
-void spotrf_(const char* triangle, const int* n, float* a, const int* stride, int* info);
-}
+extern "C" void dpotrf_(const char* triangle, const int* n, double* a, const int* stride, int* info);
 
 namespace bielle {
 
@@ -17,47 +14,27 @@ namespace {
 constexpr std::int64_t narrow = 64, narrow_of_team = 128;  // columns that LAPACK eliminates while others wait
 constexpr std::int64_t product_strip = 256;  // columns of a product, of which the rows above the diagonal are left out
 
-int blas_size(std::int64_t k) { return static_cast<int>(k); }
+int integer(std::int64_t k) { return static_cast<int>(k); }
 
-// BLAS and LAPACK in both precisions.
-template <class Number>
-struct Dense;
-template <>
-struct Dense<double> {
-  static constexpr auto product = cblas_dgemm;
-  static constexpr auto solution = cblas_dtrsm;
-  static constexpr auto symmetric_product = cblas_dsyrk;
-  static constexpr auto cholesky = dpotrf_;
-};
-template <>
-struct Dense<float> {
-  static constexpr auto product = cblas_sgemm;
-  static constexpr auto solution = cblas_strsm;
-  static constexpr auto symmetric_product = cblas_ssyrk;
-  static constexpr auto cholesky = spotrf_;
-};
-
-/// C <- scale C - A B^T, (rows,columns), by columns; `depth` columns of A and B, all with the same stride but C.
-template <class Number>
-void subtract_product(std::int64_t rows, std::int64_t columns, std::int64_t depth, const Number* a, const Number* b,
-                      std::int64_t stride, Number scale, Number* c, std::int64_t c_stride) {
+/// C <- C - A B^T, (rows,columns), by columns; `depth` columns of A and B, all with the same stride but C.
+void subtract_product(std::int64_t rows, std::int64_t columns, std::int64_t depth, const double* a, const double* b,
+                      std::int64_t stride, double scale, double* c, std::int64_t c_stride) {
   if (rows <= 0 || columns <= 0) return;
-  Dense<Number>::product(CblasColMajor, CblasNoTrans, CblasTrans, blas_size(rows), blas_size(columns), blas_size(depth),
-                         -1, a, blas_size(stride), b, blas_size(stride), scale, c, blas_size(c_stride));
+  cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, integer(rows), integer(columns), integer(depth), -1, a,
+              integer(stride), b, integer(stride), scale, c, integer(c_stride));
 }
 
 /// L D L^T of a small matrix (n,n), lower triangle: L below the diagonal, D on it.
-template <class Number>
-void factorise_indefinite(std::int64_t n, Number* a, std::int64_t stride) {
+void factorise_indefinite(std::int64_t n, double* a, std::int64_t stride) {
   for (std::int64_t k = 0; k < n; ++k) {
-    const Number* const pivot_column = a + k * stride;
-    const Number inverse = 1 / pivot_column[k];
+    const double* const pivot_column = a + k * stride;
+    const double inverse = 1 / pivot_column[k];
     for (std::int64_t j = k + 1; j < n; ++j) {
-      const Number factor = pivot_column[j] * inverse;
-      Number* const column = a + j * stride;
+      const double factor = pivot_column[j] * inverse;
+      double* const column = a + j * stride;
       for (std::int64_t i = j; i < n; ++i) column[i] -= factor * pivot_column[i];
     }
-    Number* const own = a + k * stride;
+    double* const own = a + k * stride;
     for (std::int64_t i = k + 1; i < n; ++i) own[i] *= inverse;
   }
 }
@@ -77,11 +54,9 @@ RowShare own_share(std::int64_t first, std::int64_t end, const Team& team) {
 }
 
 /// The elimination of columns first .. first + width of a front; the rows are shared out.
-template <class Number>
 class ColumnElimination {
  public:
-  ColumnElimination(const Front<Number>& front, Number* pivots, Team& team)
-      : front_(front), pivots_(pivots), team_(team) {}
+  ColumnElimination(const Front& front, double* pivots, Team& team) : front_(front), pivots_(pivots), team_(team) {}
 
   /// One half, then the other less what it takes from the first, so that most is done by large products. What columns
   /// further left take is gone already.
@@ -98,14 +73,14 @@ class ColumnElimination {
   }
 
  private:
-  Number* at(std::int64_t row, std::int64_t column) const { return front_.columns + row + column * front_.rows; }
+  double* at(std::int64_t row, std::int64_t column) const { return front_.columns + row + column * front_.rows; }
 
   /// What `width` columns from `to` on take from `depth` columns from `from` on.
   void subtract(std::int64_t from, std::int64_t depth, std::int64_t to, std::int64_t width) const {
     const auto [row, count] = own_share(to, front_.rows, team_);
-    const Number* const left = front_.scaled != nullptr ? front_.scaled : front_.columns;
-    subtract_product(count, width, depth, at(row, from), left + to + from * front_.rows, front_.rows, Number{1},
-                     at(row, to), front_.rows);
+    const double* const left = front_.scaled != nullptr ? front_.scaled : front_.columns;
+    subtract_product(count, width, depth, at(row, from), left + to + from * front_.rows, front_.rows, 1, at(row, to),
+                     front_.rows);
   }
   std::int64_t eliminate_narrow(std::int64_t first, std::int64_t width) {
     std::int64_t& failed = team_.common();
@@ -116,16 +91,16 @@ class ColumnElimination {
     return -1;
   }
   std::int64_t factorise_diagonal(std::int64_t first, std::int64_t width) const {
-    Number* const diagonal = at(first, first);
+    double* const diagonal = at(first, first);
     if (pivots_ == nullptr) {
       int info = 0;
-      const int n = blas_size(width), stride = blas_size(front_.rows);
-      Dense<Number>::cholesky("L", &n, diagonal, &stride, &info);
+      const int n = integer(width), stride = integer(front_.rows);
+      dpotrf_("L", &n, diagonal, &stride, &info);
       return info > 0 ? first + info - 1 : -1;
     }
     factorise_indefinite(width, diagonal, front_.rows);
     for (std::int64_t k = 0; k < width; ++k) {
-      const Number* const column = diagonal + k * front_.rows;
+      const double* const column = diagonal + k * front_.rows;
       pivots_[first + k] = column[k];
       std::copy(column + k, column + width, front_.scaled + first + k + (first + k) * front_.rows);
     }
@@ -134,51 +109,44 @@ class ColumnElimination {
   void solve_below(std::int64_t first, std::int64_t width) const {
     const auto [row, count] = own_share(first + width, front_.rows, team_);
     if (count <= 0) return;
-    Dense<Number>::solution(CblasColMajor, CblasRight, CblasLower, CblasTrans,
-                            pivots_ != nullptr ? CblasUnit : CblasNonUnit, blas_size(count), blas_size(width), 1,
-                            at(first, first), blas_size(front_.rows), at(row, first), blas_size(front_.rows));
+    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, pivots_ != nullptr ? CblasUnit : CblasNonUnit,
+                integer(count), integer(width), 1, at(first, first), integer(front_.rows), at(row, first),
+                integer(front_.rows));
     if (pivots_ == nullptr) return;
     for (std::int64_t k = 0; k < width; ++k) {
-      const Number inverse = 1 / pivots_[first + k];
-      const Number* const from = at(row, first + k);
-      Number* const to = front_.scaled + row + (first + k) * front_.rows;
+      const double inverse = 1 / pivots_[first + k];
+      const double* const from = at(row, first + k);
+      double* const to = front_.scaled + row + (first + k) * front_.rows;
       for (std::int64_t i = 0; i < count; ++i) to[i] = inverse * from[i];
     }
   }
 
-  const Front<Number>& front_;
-  Number* pivots_;
+  const Front& front_;
+  double* pivots_;
   Team& team_;
 };
 
 }  // namespace
 
-template <class Number>
-std::int64_t eliminate_columns(const Front<Number>& front, Number* pivots, Team& team) {
-  return ColumnElimination<Number>(front, pivots, team).eliminate(0, front.width);
+std::int64_t eliminate_columns(const Front& front, double* pivots, Team& team) {
+  return ColumnElimination(front, pivots, team).eliminate(0, front.width);
 }
 
-template <class Number>
-void add_to_update(const Front<Number>& front, bool is_empty, Team& team) {
+void add_to_update(const Front& front, bool is_empty, Team& team) {
   const UpdatePanels panels = front.panels();
-  const Number before = is_empty ? 0 : 1;
-  const Number* const a = front.columns + front.width;
+  const double before = is_empty ? 0 : 1;
+  const double* const a = front.columns + front.width;
   team.share(panels.count(), [&](std::int64_t k) {
     const std::int64_t first = k * panels.width(), width = panels.columns(k), rows = panels.rows(k);
-    Number* const to = front.update + panels.offset(k);
+    double* const to = front.update + panels.offset(k);
     if (front.scaled != nullptr)
       return subtract_product(rows, width, front.width, a + first, front.scaled + front.width + first, front.rows,
                               before, to, rows);
-    Dense<Number>::symmetric_product(CblasColMajor, CblasLower, CblasNoTrans, blas_size(width), blas_size(front.width),
-                                     -1, a + first, blas_size(front.rows), before, to, blas_size(rows));
+    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, integer(width), integer(front.width), -1, a + first,
+                integer(front.rows), before, to, integer(rows));
     subtract_product(rows - width, width, front.width, a + first + width, a + first, front.rows, before, to + width,
                      rows);
   });
 }
-
-template std::int64_t eliminate_columns(const Front<double>&, double*, Team&);
-template std::int64_t eliminate_columns(const Front<float>&, float*, Team&);
-template void add_to_update(const Front<double>&, bool, Team&);
-template void add_to_update(const Front<float>&, bool, Team&);
 
 }  // namespace bielle

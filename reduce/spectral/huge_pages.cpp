@@ -16,22 +16,15 @@ void* allocate_in_huge_pages(std::size_t bytes) noexcept {
   return memory;
 }
 
-template <class Number>
-ZeroNumbers<Number>::ZeroNumbers(std::size_t count) : ZeroNumbers() {
+ZeroNumbers::ZeroNumbers(std::size_t count) : ZeroNumbers() {
   constexpr std::size_t page = std::size_t{2} << 20;
-  const std::size_t bytes = (sizeof(Number) * std::max<std::size_t>(count, 1) + page - 1) / page * page;
+  const std::size_t bytes = (sizeof(double) * std::max<std::size_t>(count, 1) + page - 1) / page * page;
   void* const memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (memory == MAP_FAILED) throw std::bad_alloc();
   madvise(memory, bytes, MADV_HUGEPAGE);  // no more than advice
-  numbers_ = std::unique_ptr<Number, Unmapped>(static_cast<Number*>(memory), Unmapped{bytes});
+  numbers_ = std::unique_ptr<double, Unmapped>(static_cast<double*>(memory), Unmapped{bytes});
 }
 
-template <class Number>
-void ZeroNumbers<Number>::Unmapped::operator()(Number* numbers) const {
-  munmap(numbers, bytes);
-}
-
-template class ZeroNumbers<double>;
-template class ZeroNumbers<float>;
+void ZeroNumbers::Unmapped::operator()(double* numbers) const { munmap(numbers, bytes); }
 
 }  // namespace bielle

@@ -13,20 +13,19 @@ inline constexpr std::size_t large_allocation = std::size_t{4} << 20;
 void* allocate_in_huge_pages(std::size_t bytes) noexcept;
 
 /// So many numbers, all zero, from pages of 2 MB: the system clears them where they are first written to.
-template <class Number>
 class ZeroNumbers {
  public:
   ZeroNumbers() : numbers_(nullptr, Unmapped{0}) {}
   /// @throws std::bad_alloc
   explicit ZeroNumbers(std::size_t count);
-  Number* get() const { return numbers_.get(); }
+  double* get() const { return numbers_.get(); }
 
  private:
   struct Unmapped {
     std::size_t bytes;
-    void operator()(Number* numbers) const;
+    void operator()(double* numbers) const;
   };
-  std::unique_ptr<Number, Unmapped> numbers_;
+  std::unique_ptr<double, Unmapped> numbers_;
 };
 
 }  // namespace bielle

@@ -22,15 +22,12 @@ namespace bielle {
 namespace {
 
 /// The elimination of all supernodes. `Columns` gives a supernode its columns and takes them when it is eliminated:
-///   using Number                                 double or float
-///   Front<Number> begin(std::int64_t s, Team&)   columns of A; no update matrix yet
-///   Number* pivots()                             for D; none: L L^T
-///   void end(const SupernodeShape&, const Front<Number>&, Team&)
+///   Front begin(std::int64_t s, Team&)          columns of A; no update matrix yet
+///   double* pivots()                            for D; none: L L^T
+///   void end(const SupernodeShape&, const Front&, Team&)
 /// Each thread has one; that of the first serves all threads together.
 template <class Columns>
 class Elimination {
-  using Number = typename Columns::Number;
-
  public:
   Elimination(const SupernodalFactor& structure, const UpdatePlan& plan, std::vector<Columns>& columns)
       : structure_(structure),
@@ -71,7 +68,7 @@ class Elimination {
     Columns& columns = columns_[static_cast<std::size_t>(worker)];
     for (const std::int64_t s : supernodes) {
       const SupernodeShape shape(structure_, s);
-      Front<Number> front = columns.begin(s, team);
+      Front front = columns.begin(s, team);
       front.update = memory_.of(s, worker);
       take_up_children(s, front, worker, team);
       const std::int64_t failed = eliminate_columns(front, columns.pivots(), team);
@@ -82,11 +79,11 @@ class Elimination {
     return -1;
   }
 
-  void take_up_children(std::int64_t s, const Front<Number>& front, int worker, Team& team) {
+  void take_up_children(std::int64_t s, const Front& front, int worker, Team& team) {
     const std::vector<std::int64_t>& children = plan_.children(s);
     if (children.empty()) return team.wait();
     const SupernodeShape shape(structure_, s);
-    std::vector<ChildUpdate<Number>> updates;
+    std::vector<ChildUpdate> updates;
     for (const std::int64_t child : children)
       updates.emplace_back(memory_.of(child, worker), SupernodeShape(structure_, child), shape);
     // A few columns at a time, which stay in the cache while all that belongs to them is added.
@@ -97,7 +94,7 @@ class Elimination {
       const std::int64_t first = k < of_own ? k * few : front.width + (k - of_own) * few;
       const std::int64_t end = std::min(first + few, k < of_own ? front.width : front.rows);
       for (std::int64_t column = std::max(first, front.width); column < end; ++column) front.clear_update(column);
-      for (const ChildUpdate<Number>& update : updates) update.add_to(front, first, end);
+      for (const ChildUpdate& update : updates) update.add_to(front, first, end);
     });
     team.once([&] {
       for (const std::int64_t child : children) memory_.free(child);
@@ -107,27 +104,25 @@ class Elimination {
   const SupernodalFactor& structure_;
   const UpdatePlan& plan_;
   int threads_;
-  UpdateMemory<Number> memory_;
+  UpdateMemory memory_;
   std::vector<Columns>& columns_;
   std::vector<std::int64_t> failed_;  // of each subtree, and at last of what is above: the column, or -1
 };
 
 /// L where it is to stay.
-template <class Of>
 class KeptColumns {
  public:
-  using Number = Of;
-  KeptColumns(const SupernodalFactor& structure, Number* values) : structure_(&structure), values_(values) {}
-  Front<Number> begin(std::int64_t s, Team&) {
+  KeptColumns(const SupernodalFactor& structure, double* values) : structure_(&structure), values_(values) {}
+  Front begin(std::int64_t s, Team&) {
     const SupernodeShape shape(*structure_, s);
     return {shape.rows, shape.width, values_ + structure_->value_starts[s]};
   }
-  Number* pivots() { return nullptr; }
-  void end(const SupernodeShape&, const Front<Number>&, Team&) {}
+  double* pivots() { return nullptr; }
+  void end(const SupernodeShape&, const Front&, Team&) {}
 
  private:
   const SupernodalFactor* structure_;
-  Number* values_;
+  double* values_;
 };
 
 /// The lower triangle of P A P^T by columns.
@@ -162,8 +157,6 @@ struct OrderedEntries {
 /// Columns that are dropped when the signs of their pivots are counted.
 class CountedColumns {
  public:
-  using Number = double;
-
   /// @param inverse_scale  of each row of L; outlives this, as do the others
   CountedColumns(const SupernodalFactor& structure, const OrderedEntries& entries,
                  const std::vector<double>& inverse_scale)
@@ -181,9 +174,9 @@ class CountedColumns {
     largest_ = largest;
   }
 
-  Front<double> begin(std::int64_t s, Team& team) {
+  Front begin(std::int64_t s, Team& team) {
     const SupernodeShape shape(*structure_, s);
-    Front<double> front{shape.rows, shape.width, columns_.get(), columns_.get() + largest_};
+    Front front{shape.rows, shape.width, columns_.get(), columns_.get() + largest_};
     RowFinder finder(*structure_);
     team.share(shape.width, [&](std::int64_t k) {
       double* const column = front.columns + k * shape.rows;
@@ -200,7 +193,7 @@ class CountedColumns {
     return front;
   }
   double* pivots() { return pivots_.data(); }
-  void end(const SupernodeShape& shape, const Front<double>& front, Team& team) {
+  void end(const SupernodeShape& shape, const Front& front, Team& team) {
     team.once([&] {
       for (std::int64_t k = 0; k < shape.width; ++k) {
         const double pivot = pivots_[static_cast<std::size_t>(k)];
@@ -241,26 +234,20 @@ class CountedColumns {
 Multifrontal::Multifrontal(const SupernodalFactor& structure, int threads)
     : structure_(structure), threads_(threads), tree_(structure), plan_(structure, tree_, share_out(tree_, threads)) {}
 
+double Multifrontal::working_bytes() const { return 8.0 * static_cast<double>(plan_.numbers(workers())); }
+
 int Multifrontal::workers() const {
   return static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(threads_), plan_.subtrees()));
 }
 
-template <class Number>
-std::optional<std::int64_t> Multifrontal::factorise(const BorderedPart& a, std::span<const double> scale,
-                                                    Number* values) const {
+std::optional<std::int64_t> Multifrontal::factorise(const BorderedPart& a, double* values) const {
   const BlasThreads one(1);
-  SpreadEntries<Number>(structure_, values).spread(a, scale, threads_);
-  std::vector<KeptColumns<Number>> columns(static_cast<std::size_t>(workers()),
-                                           KeptColumns<Number>(structure_, values));
-  const std::int64_t failed = Elimination<KeptColumns<Number>>(structure_, plan_, columns).run();
+  SpreadEntries(structure_, values).spread(a, threads_);
+  std::vector<KeptColumns> columns(static_cast<std::size_t>(workers()), KeptColumns(structure_, values));
+  const std::int64_t failed = Elimination<KeptColumns>(structure_, plan_, columns).run();
   if (failed < 0) return std::nullopt;
   return failed;
 }
-
-template std::optional<std::int64_t> Multifrontal::factorise(const BorderedPart&, std::span<const double>,
-                                                             double*) const;
-template std::optional<std::int64_t> Multifrontal::factorise(const BorderedPart&, std::span<const double>,
-                                                             float*) const;
 
 PivotSigns Multifrontal::count_signs(SymmetricMatrix a, const std::vector<double>& scale) const {
   const BlasThreads one(1);

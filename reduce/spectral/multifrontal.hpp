@@ -13,7 +13,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "reduce/spectral/bordered_part.hpp"
@@ -30,17 +29,15 @@ class Multifrontal {
   /// @param structure  values are not read; it outlives this
   Multifrontal(const SupernodalFactor& structure, int threads);
 
-  /// Of the memory that it takes in addition to L.
-  double working_numbers() const { return static_cast<double>(plan_.numbers(workers())); }
+  /// Of the memory that it takes in addition to L [bytes].
+  double working_bytes() const;
 
-  /// L of A = L L^T, or of S A S, where the structure says, in double or in single precision.
-  /// @param a       with the pattern that the structure was made for, or part of it
-  /// @param scale   the diagonal of S, of each unknown; empty: ones
+  /// L of A = L L^T, where the structure says.
+  /// @param a  with the pattern that the structure was made for, or part of it
   /// @param values  zero so far
   /// @returns  the column of L where a pivot was not positive; nothing when all were
   /// @throws std::bad_alloc
-  template <class Number>
-  std::optional<std::int64_t> factorise(const BorderedPart& a, std::span<const double> scale, Number* values) const;
+  std::optional<std::int64_t> factorise(const BorderedPart& a, double* values) const;
 
   /// Signs of the pivots of A = L D L^T; neither L nor A is kept.
   /// @param scale  positive, of each unknown

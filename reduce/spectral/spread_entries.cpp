@@ -26,8 +26,7 @@ std::vector<std::int64_t> places_in_order(const SupernodalFactor& structure) {
   return places;
 }
 
-template <class Number>
-SpreadEntries<Number>::SpreadEntries(const SupernodalFactor& structure, Number* values)
+SpreadEntries::SpreadEntries(const SupernodalFactor& structure, double* values)
     : structure_(structure),
       owner_(static_cast<std::size_t>(structure.size)),
       above_(static_cast<std::size_t>(structure.size)) {
@@ -41,13 +40,10 @@ SpreadEntries<Number>::SpreadEntries(const SupernodalFactor& structure, Number* 
   }
 }
 
-template <class Number>
-void SpreadEntries<Number>::spread(const BorderedPart& a, std::span<const double> scale, int threads) const {
-  const auto scale_of = [&](std::size_t unknown) { return scale.empty() ? 1.0 : scale[unknown]; };
+void SpreadEntries::spread(const BorderedPart& a, int threads) const {
   const std::vector<std::int64_t> places = places_in_order(structure_);
-  std::vector<std::int64_t> numbers(static_cast<std::size_t>(a.whole.size), -1);
-  for (std::size_t k = 0; k < a.kept.size(); ++k)
-    numbers[static_cast<std::size_t>(a.kept[k])] = static_cast<std::int64_t>(k);
+  std::vector<std::int64_t> places_of_whole(static_cast<std::size_t>(a.whole.size), -1);
+  for (std::size_t k = 0; k < a.kept.size(); ++k) places_of_whole[static_cast<std::size_t>(a.kept[k])] = places[k];
 #pragma omp parallel num_threads(threads)
   {
     RowFinder finder(structure_);
@@ -55,28 +51,20 @@ void SpreadEntries<Number>::spread(const BorderedPart& a, std::span<const double
     for (std::size_t k = 0; k < a.kept.size(); ++k) {
       const auto j = static_cast<std::size_t>(a.kept[k]);
       for (std::int64_t p = a.whole.starts[j]; p < a.whole.starts[j + 1]; ++p) {
-        const std::int64_t number = numbers[static_cast<std::size_t>(a.whole.rows[p])];
-        if (number < 0) continue;
-        const auto other = static_cast<std::size_t>(number);
-        set(finder, places[k], places[other], a.whole.values[p] * scale_of(k) * scale_of(other));
+        const std::int64_t other = places_of_whole[static_cast<std::size_t>(a.whole.rows[p])];
+        if (other >= 0) set(finder, places[k], other, a.whole.values[p]);
       }
     }
   }
   RowFinder finder(structure_);
   const auto kept = static_cast<Eigen::Index>(a.kept.size());
   for (Eigen::Index c = 0; c < a.corner.cols(); ++c) {
-    const auto own = static_cast<std::size_t>(kept + c);
-    const auto set_entry = [&](Eigen::Index unknown, double value) {
-      const auto other = static_cast<std::size_t>(unknown);
-      set(finder, places[other], places[own], value * scale_of(other) * scale_of(own));
-    };
+    const std::int64_t place = places[static_cast<std::size_t>(kept + c)];
     for (Eigen::Index k = 0; k < kept; ++k)
-      if (a.border(k, c) != 0) set_entry(k, a.border(k, c));
-    for (Eigen::Index k = c; k < a.corner.rows(); ++k) set_entry(kept + k, a.corner(k, c));
+      if (a.border(k, c) != 0) set(finder, places[static_cast<std::size_t>(k)], place, a.border(k, c));
+    for (Eigen::Index k = c; k < a.corner.rows(); ++k)
+      set(finder, places[static_cast<std::size_t>(kept + k)], place, a.corner(k, c));
   }
 }
-
-template class SpreadEntries<double>;
-template class SpreadEntries<float>;
 
 }  // namespace bielle

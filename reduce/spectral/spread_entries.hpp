@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "reduce/spectral/bordered_part.hpp"
@@ -28,25 +27,23 @@ class RowFinder {
 /// The row of L of each unknown.
 std::vector<std::int64_t> places_in_order(const SupernodalFactor& structure);
 
-/// The entries of A, or of S A S, where those of L will be.
-template <class Number>
+/// The entries of A where those of L will be.
 class SpreadEntries {
  public:
   /// @param values  of L, zero
-  SpreadEntries(const SupernodalFactor& structure, Number* values);
-  /// @param scale    the diagonal of S, of each unknown; empty: ones
+  SpreadEntries(const SupernodalFactor& structure, double* values);
   /// @param threads  share the entries
-  void spread(const BorderedPart& a, std::span<const double> scale, int threads) const;
+  void spread(const BorderedPart& a, int threads) const;
 
  private:
   void set(RowFinder& finder, std::int64_t place, std::int64_t other, double value) const {
     const auto column = static_cast<std::size_t>(std::min(place, other));
-    above_[column][finder.find(owner_[column], std::max(place, other))] = static_cast<Number>(value);
+    above_[column][finder.find(owner_[column], std::max(place, other))] = value;
   }
 
   const SupernodalFactor& structure_;
   std::vector<std::int32_t> owner_;  // supernode of each column
-  std::vector<Number*> above_;       // the first number of each column
+  std::vector<double*> above_;       // the first number of each column
 };
 
 }  // namespace bielle

@@ -23,38 +23,35 @@ constexpr Eigen::Index most_columns = 64;  // at a time: more bring no more spee
 constexpr std::int64_t entries_of_a_thread = 100000;
 
 /// Vectors by rows. Not set to anything: each thread touches first what it will use.
-template <class Number>
 class RowsOfVectors {
  public:
   RowsOfVectors(std::int64_t rows, int vectors)
       : stride_(vectors),
-        numbers_(static_cast<Number*>(allocate_in_huge_pages(
-            std::max<std::size_t>(1, static_cast<std::size_t>(rows * vectors)) * sizeof(Number)))) {
+        numbers_(static_cast<double*>(allocate_in_huge_pages(
+            std::max<std::size_t>(1, static_cast<std::size_t>(rows * vectors)) * sizeof(double)))) {
     if (!numbers_) throw std::bad_alloc();
   }
-  Number* row(std::int64_t k) const { return numbers_.get() + k * stride_; }
+  double* row(std::int64_t k) const { return numbers_.get() + k * stride_; }
 
  private:
   struct Freed {
-    void operator()(Number* memory) const { std::free(memory); }
+    void operator()(double* memory) const { std::free(memory); }
   };
   std::int64_t stride_;
-  std::unique_ptr<Number, Freed> numbers_;
+  std::unique_ptr<double, Freed> numbers_;
 };
 
-template <class Number>
-void add_row(Number* to, const Number* from, int columns) {
+void add_row(double* to, const double* from, int columns) {
   for (int c = 0; c < columns; ++c) to[c] += from[c];
 }
 
 }  // namespace
 
 /// What one solution writes to.
-template <class Number>
-struct SupernodalSolver<Number>::Room {
+struct SupernodalSolver::Room {
   int columns;
-  RowsOfVectors<Number> y;
-  std::vector<RowsOfVectors<Number>> sums;  // what the subtrees of each thread give to the rows above them
+  RowsOfVectors y;
+  std::vector<RowsOfVectors> sums;  // what the subtrees of each thread give to the rows above them
 
   Room(const SupernodalSolver& solver, int count) : columns(count), y(solver.factor_.size, count) {
     for (std::size_t part = 0; part < solver.of_threads_.size(); ++part) sums.emplace_back(solver.rows_above_, count);
@@ -62,8 +59,7 @@ struct SupernodalSolver<Number>::Room {
 };
 
 /// One solution with some columns.
-template <class Number>
-class SupernodalSolver<Number>::Sweep {
+class SupernodalSolver::Sweep {
  public:
   /// @param given  columns of b and x from the first on
   Sweep(const SupernodalSolver& solver, Room& room, const Eigen::MatrixXd& b, Eigen::MatrixXd& x, Eigen::Index first,
@@ -89,12 +85,11 @@ class SupernodalSolver<Number>::Sweep {
       });
       each_part([&](int part) { add_sums(part); });
       for_above(
-          solver_.above_, [&](const Supernode<Number>& node) { forwards_together(node); },
-          [&](const Supernode<Number>& node) { forwards(node, 0, true); });
+          solver_.above_, [&](const Supernode& node) { forwards_together(node); },
+          [&](const Supernode& node) { forwards(node, 0, true); });
       for_above(
           std::vector<std::int64_t>(solver_.above_.rbegin(), solver_.above_.rend()),
-          [&](const Supernode<Number>& node) { backwards_together(node); },
-          [&](const Supernode<Number>& node) { backwards(node); });
+          [&](const Supernode& node) { backwards_together(node); }, [&](const Supernode& node) { backwards(node); });
       each_part([&](int part) {
         for (auto s = own(part).rbegin(); s != own(part).rend(); ++s) backwards(supernode(*s));
       });
@@ -126,16 +121,16 @@ class SupernodalSolver<Number>::Sweep {
 #pragma omp barrier
     }
   }
-  static std::int64_t entries(const Supernode<Number>& node) { return node.width * (node.width + node.below); }
+  static std::int64_t entries(const Supernode& node) { return node.width * (node.width + node.below); }
 
   const std::vector<std::int64_t>& own(int part) const { return solver_.of_threads_[static_cast<std::size_t>(part)]; }
-  Supernode<Number> supernode(std::int64_t s) const {
+  Supernode supernode(std::int64_t s) const {
     const std::int64_t width = factor_.columns[s + 1] - factor_.columns[s];
     const std::int64_t rows = factor_.row_starts[s + 1] - factor_.row_starts[s];
     return {factor_.columns[s], width, rows - width, factor_.rows + factor_.row_starts[s] + width,
-            solver_.values_ + factor_.value_starts[s]};
+            factor_.values + factor_.value_starts[s]};
   }
-  Number* row(std::int64_t k) const { return y_.row(k); }
+  double* row(std::int64_t k) const { return y_.row(k); }
   Vectors all_vectors() const { return {0, columns_, columns_}; }
 
   // Along the columns of the vectors: unknowns that follow each other in the factor are all over the place in them,
@@ -144,38 +139,38 @@ class SupernodalSolver<Number>::Sweep {
     const Range unknowns = share_of(factor_.size, part, parts_);
     for (std::int64_t i = unknowns.first; i < unknowns.first + unknowns.count; ++i) {
       const double* const from = &b_(i, first_);
-      Number* const to = row(solver_.places_[static_cast<std::size_t>(i)]);
-      for (int c = 0; c < given_; ++c) to[c] = static_cast<Number>(from[c * b_.rows()]);
-      std::fill(to + given_, to + columns_, Number{0});
+      double* const to = row(solver_.places_[static_cast<std::size_t>(i)]);
+      for (int c = 0; c < given_; ++c) to[c] = from[c * b_.rows()];
+      std::fill(to + given_, to + columns_, 0.0);
     }
-    std::fill_n(sums_[static_cast<std::size_t>(part)].row(0), solver_.rows_above_ * columns_, Number{0});
+    std::fill_n(sums_[static_cast<std::size_t>(part)].row(0), solver_.rows_above_ * columns_, 0.0);
   }
   void copy_out(int part) {
     const Range unknowns = share_of(factor_.size, part, parts_);
     for (std::int64_t i = unknowns.first; i < unknowns.first + unknowns.count; ++i) {
       double* const to = &x_(i, first_);
-      const Number* const from = row(solver_.places_[static_cast<std::size_t>(i)]);
+      const double* const from = row(solver_.places_[static_cast<std::size_t>(i)]);
       for (int c = 0; c < given_; ++c) to[c * x_.rows()] = from[c];
     }
   }
   /// What the subtrees of all threads give to the rows above them.
   void add_sums(int part) {
     const Range rows = share_of(solver_.rows_above_, part, parts_);
-    for (const RowsOfVectors<Number>& sums : sums_)
+    for (const RowsOfVectors& sums : sums_)
       for (std::int64_t k = rows.first; k < rows.first + rows.count; ++k)
         add_row(row(solver_.unknowns_above_[static_cast<std::size_t>(k)]), sums.row(k), columns_);
   }
 
   /// Where the vectors of the rows of a panel below a supernode are.
-  using RowAddresses = std::array<Number*, lines_abreast>;
-  RowAddresses rows_of(const Supernode<Number>& node, Range rows) const {
+  using RowAddresses = std::array<double*, lines_abreast>;
+  RowAddresses rows_of(const Supernode& node, Range rows) const {
     RowAddresses addresses{};
     for (std::int64_t k = 0; k < rows.count; ++k)
       addresses[static_cast<std::size_t>(k)] = row(node.rows_below[rows.first + k]);
     return addresses;
   }
   /// Where a subtree puts what it gives to them: rows above all subtrees have a sum in each of them.
-  RowAddresses sums_of(const Supernode<Number>& node, Range rows, int part) const {
+  RowAddresses sums_of(const Supernode& node, Range rows, int part) const {
     RowAddresses addresses{};
     for (std::int64_t k = 0; k < rows.count; ++k) {
       const std::int64_t to = node.rows_below[rows.first + k];
@@ -186,8 +181,8 @@ class SupernodalSolver<Number>::Sweep {
   }
 
   /// @param is_above  what is given to rows above is not kept apart
-  void forwards(const Supernode<Number>& node, int part, bool is_above = false) {
-    Number* const own = row(node.first);
+  void forwards(const Supernode& node, int part, bool is_above = false) {
+    double* const own = row(node.first);
     node.substitute_forwards(own, all_vectors());
     for (std::int64_t panel = 0; panel < node.panels_below(); ++panel) {
       const Range rows = node.rows_of_panel(panel);
@@ -196,15 +191,15 @@ class SupernodalSolver<Number>::Sweep {
     }
   }
   /// own <- own - L21^T of the rows below, some of its own columns.
-  void take_from_below(const Supernode<Number>& node, Range own_columns) {
-    Number* const own = row(node.first + own_columns.first);
+  void take_from_below(const Supernode& node, Range own_columns) {
+    double* const own = row(node.first + own_columns.first);
     for (std::int64_t panel = 0; panel < node.panels_below(); ++panel) {
       const Range rows = node.rows_of_panel(panel);
       FewVectors::fastest().subtract_transposed_product(node.panel_below(rows, own_columns), rows_of(node, rows).data(),
                                                         own, all_vectors());
     }
   }
-  void backwards(const Supernode<Number>& node) {
+  void backwards(const Supernode& node) {
     take_from_below(node, {0, node.width});
     node.substitute_backwards(row(node.first), all_vectors());
   }
@@ -214,7 +209,7 @@ class SupernodalSolver<Number>::Sweep {
     const Range own = share_of(columns_ / vectors_abreast, part, parts_);
     return {static_cast<int>(own.first) * vectors_abreast, static_cast<int>(own.count) * vectors_abreast, columns_};
   }
-  void forwards_together(const Supernode<Number>& node) {
+  void forwards_together(const Supernode& node) {
     each_part([&](int part) { node.substitute_forwards(row(node.first), own_vectors(part)); });
     each_part([&](int part) {
       const Range panels = share_of(node.panels_below(), part, parts_);
@@ -225,7 +220,7 @@ class SupernodalSolver<Number>::Sweep {
       }
     });
   }
-  void backwards_together(const Supernode<Number>& node) {
+  void backwards_together(const Supernode& node) {
     each_part([&](int part) { take_from_below(node, share_of(node.width, part, parts_)); });
     each_part([&](int part) { node.substitute_backwards(row(node.first), own_vectors(part)); });
   }
@@ -236,45 +231,41 @@ class SupernodalSolver<Number>::Sweep {
   Eigen::Index first_;
   const Eigen::MatrixXd& b_;
   Eigen::MatrixXd& x_;
-  RowsOfVectors<Number>& y_;
-  std::vector<RowsOfVectors<Number>>& sums_;
+  RowsOfVectors& y_;
+  std::vector<RowsOfVectors>& sums_;
 };
 
-template <class Number>
-SupernodalSolver<Number>::SupernodalSolver(const SupernodalFactor& factor, Number* values, int threads)
-    : factor_(factor), values_(values) {
+SupernodalSolver::SupernodalSolver(const SupernodalFactor& factor, double* values, int threads) : factor_(factor) {
+  factor_.values = values;
   places_.resize(static_cast<std::size_t>(factor.size));
   for (std::int64_t k = 0; k < factor.size; ++k) places_[static_cast<std::size_t>(factor.order[k])] = k;
   share_out(threads);
-  cut_into_panels();
+  cut_into_panels(values);
 }
 
-template <class Number>
-void SupernodalSolver<Number>::cut_into_panels() const {
+void SupernodalSolver::cut_into_panels(double* values) const {
   std::int64_t largest = 0;
   for (std::int64_t s = 0; s < factor_.supernodes; ++s)
     largest = std::max(largest, factor_.value_starts[s + 1] - factor_.value_starts[s]);
-  std::vector<RowsOfVectors<Number>> rooms;
+  std::vector<RowsOfVectors> rooms;
   for (std::size_t part = 0; part < of_threads_.size(); ++part) rooms.emplace_back(largest, 1);
-#pragma omp parallel num_threads(static_cast <int>(rooms.size()))
+#pragma omp parallel num_threads(static_cast<int>(rooms.size()))
   {
-    Number* const room = rooms[static_cast<std::size_t>(omp_get_thread_num())].row(0);
+    double* const room = rooms[static_cast<std::size_t>(omp_get_thread_num())].row(0);
 #pragma omp for schedule(dynamic, 1)
     for (std::int64_t k = 0; k < factor_.supernodes; ++k) {
       const std::int64_t s = factor_.supernodes - 1 - k;  // the largest come last
       bielle::cut_into_panels(factor_.row_starts[s + 1] - factor_.row_starts[s],
-                              factor_.columns[s + 1] - factor_.columns[s], values_ + factor_.value_starts[s], room);
+                              factor_.columns[s + 1] - factor_.columns[s], values + factor_.value_starts[s], room);
     }
   }
 }
 
-template <class Number>
-SupernodalSolver<Number>::~SupernodalSolver() = default;
+SupernodalSolver::~SupernodalSolver() = default;
 
 /// Cuts the largest subtree off its root until there are enough for each thread, and gives each in turn to the thread
 /// that has least.
-template <class Number>
-void SupernodalSolver<Number>::share_out(int threads) {
+void SupernodalSolver::share_out(int threads) {
   const auto count = static_cast<std::size_t>(factor_.supernodes);
   const EliminationTree tree(factor_);
   const std::vector<std::int64_t>& parents = tree.parents;
@@ -330,8 +321,7 @@ void SupernodalSolver<Number>::share_out(int threads) {
   rows_above_ = static_cast<std::int64_t>(unknowns_above_.size());
 }
 
-template <class Number>
-Eigen::MatrixXd SupernodalSolver<Number>::solve(const Eigen::MatrixXd& b) const {
+Eigen::MatrixXd SupernodalSolver::solve(const Eigen::MatrixXd& b) const {
   Eigen::MatrixXd x(b.rows(), b.cols());
   for (Eigen::Index first = 0; first < b.cols(); first += most_columns) {
     const auto given = static_cast<int>(std::min(most_columns, b.cols() - first));
@@ -342,8 +332,7 @@ Eigen::MatrixXd SupernodalSolver<Number>::solve(const Eigen::MatrixXd& b) const 
   return x;
 }
 
-template <class Number>
-auto SupernodalSolver<Number>::take_room(int columns) const -> std::unique_ptr<Room> {
+std::unique_ptr<SupernodalSolver::Room> SupernodalSolver::take_room(int columns) const {
   {
     const std::lock_guard lock(guard_);
     if (kept_ && kept_->columns == columns) return std::move(kept_);
@@ -351,15 +340,11 @@ auto SupernodalSolver<Number>::take_room(int columns) const -> std::unique_ptr<R
   return std::make_unique<Room>(*this, columns);
 }
 
-template <class Number>
-void SupernodalSolver<Number>::keep(std::unique_ptr<Room> room) const {
+void SupernodalSolver::keep(std::unique_ptr<Room> room) const {
   constexpr int most_kept = 16;  // columns: little next to the factor
   if (room->columns > most_kept) return;
   const std::lock_guard lock(guard_);
   kept_ = std::move(room);
 }
-
-template class SupernodalSolver<double>;
-template class SupernodalSolver<float>;
 
 }  // namespace bielle

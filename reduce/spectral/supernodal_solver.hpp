@@ -16,24 +16,23 @@
 
 namespace bielle {
 
-/// The structure of P A P^T = L L^T as CHOLMOD stores it, owned by somebody else. Supernode s has the columns
-/// `columns[s] .. columns[s+1]` of L and the rows `rows[row_starts[s] .. row_starts[s+1])`, its own first; its numbers
-/// are a dense matrix by columns from number `value_starts[s]` on, the upper triangle of its own columns being of no
+/// P A P^T = L L^T as CHOLMOD stores it, owned by somebody else. Supernode s has the columns
+/// `columns[s] .. columns[s+1]` of L and the rows `rows[row_starts[s] .. row_starts[s+1])`, its own first; its values
+/// are a dense matrix by columns from `values[value_starts[s]]` on, the upper triangle of its own columns being of no
 /// meaning.
 struct SupernodalFactor {
   std::int64_t size = 0, supernodes = 0;
   const std::int64_t *columns = nullptr, *row_starts = nullptr, *value_starts = nullptr, *rows = nullptr;
   const std::int64_t* order = nullptr;  ///< row k of L belongs to unknown order[k]
+  const double* values = nullptr;
 };
 
-/// @tparam Number  of the factor, and of what a solution computes with: double or float
-template <class Number>
 class SupernodalSolver {
  public:
   /// @param factor  outlives this
   /// @param values  of the factor: they are rearranged for solutions, and of no use to anybody else afterwards
   /// @throws std::bad_alloc
-  SupernodalSolver(const SupernodalFactor& factor, Number* values, int threads);
+  SupernodalSolver(const SupernodalFactor& factor, double* values, int threads);
   ~SupernodalSolver();
 
   /// x = A^-1 b, by columns of any number. The same for the same number of threads. @throws std::bad_alloc
@@ -44,12 +43,11 @@ class SupernodalSolver {
   struct Room;
 
   void share_out(int threads);
-  void cut_into_panels() const;
+  void cut_into_panels(double* values) const;
   std::unique_ptr<Room> take_room(int columns) const;
   void keep(std::unique_ptr<Room> room) const;
 
-  const SupernodalFactor& factor_;
-  Number* values_;
+  SupernodalFactor factor_;
   std::vector<std::int64_t> places_;                   // the row of L of each unknown
   std::vector<std::vector<std::int64_t>> of_threads_;  // supernodes of the subtrees of each thread, ascending
   std::vector<std::int64_t> above_;                    // the others, ascending

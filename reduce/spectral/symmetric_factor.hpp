@@ -20,14 +20,13 @@ namespace bielle {
 struct FactorStatistics {
   std::int64_t unknowns = 0;
   std::int64_t nonzeros = 0;  ///< of L
-  bool is_single = false;     ///< L is in single precision
   double flops = 0;
   double estimated_MB = 0;  ///< of memory for the factorisation, known before it starts [1e6 bytes]
   double ordering_seconds = 0, analysis_seconds = 0, factorisation_seconds = 0;  ///< wall time
   double reciprocal_condition = 0;  ///< rough: (smallest / largest diagonal entry of L)^2
 
   double speed() const { return 1e-9 * flops / factorisation_seconds; }  ///< [GFLOP/s]
-  double memory_MB() const { return (is_single ? 4e-6 : 8e-6) * static_cast<double>(nonzeros); }
+  double memory_MB() const { return 8e-6 * static_cast<double>(nonzeros); }
   double seconds() const { return ordering_seconds + analysis_seconds + factorisation_seconds; }
 };
 
@@ -49,13 +48,6 @@ struct PivotSigns {
   double growth = 0;
 };
 
-/// Of the numbers of a factor. Solutions are those of double precision either way.
-enum class FactorPrecision {
-  full,      ///< double
-  single,    ///< half the memory; each solution is iterative, and reads the factor several times (refined_factor.hpp)
-  automatic  ///< single where double does not fit in memory
-};
-
 /// P A P^T = L L^T, and solutions with it.
 class SymmetricFactor {
  public:
@@ -68,9 +60,7 @@ class SymmetricFactor {
   explicit SymmetricFactor(const SymmetricMatrix& a, std::span<const std::int64_t> block_starts = {}, int threads = 1);
   /// @param a          positive definite
   /// @param structure  made for its pattern, or one that holds it
-  /// @param precision  unless full, the `whole` of A outlives this
-  SymmetricFactor(const BorderedPart& a, std::shared_ptr<const FactorStructure> structure, int threads,
-                  FactorPrecision precision = FactorPrecision::full);
+  SymmetricFactor(const BorderedPart& a, std::shared_ptr<const FactorStructure> structure, int threads);
   SymmetricFactor(SymmetricFactor&&) noexcept;
   SymmetricFactor& operator=(SymmetricFactor&&) noexcept;
   ~SymmetricFactor();
@@ -81,8 +71,6 @@ class SymmetricFactor {
   /// A^-1 b for a block of right-hand sides (size,k). Solutions are bound by memory: many columns cost little more than
   /// one, so ask for all at once.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
-  /// About A^-1 b, reading the factor once; A^-1 b where it is in double precision.
-  Eigen::MatrixXd precondition(const Eigen::MatrixXd& b) const;
 
   /// How many eigenvalues of another symmetric matrix, not necessarily definite, are negative: the signs of the pivots
   /// of its L D L^T in the same order. What it takes is another factorisation; its L is not kept.

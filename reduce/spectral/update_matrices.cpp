@@ -103,45 +103,32 @@ std::int64_t UpdatePlan::numbers(int threads) const {
   return apart + std::max(threads * (of_subtrees_[0] + of_subtrees_[1]), of_above_[0] + of_above_[1]);
 }
 
-template <class Number>
-void UpdateMemory<Number>::Freed::operator()(Number* memory) const {
-  std::free(memory);
-}
+void UpdateMemory::Freed::operator()(double* memory) const { std::free(memory); }
 
-template <class Number>
-auto UpdateMemory<Number>::take(std::int64_t numbers) -> Block {
+UpdateMemory::Block UpdateMemory::take(std::int64_t numbers) {
   if (numbers == 0) return nullptr;
-  void* memory = allocate_in_huge_pages(sizeof(Number) * static_cast<std::size_t>(numbers));
+  void* memory = allocate_in_huge_pages(sizeof(double) * static_cast<std::size_t>(numbers));
   if (memory == nullptr) throw std::bad_alloc();
-  return Block(static_cast<Number*>(memory));
+  return Block(static_cast<double*>(memory));
 }
 
-template <class Number>
-UpdateMemory<Number>::UpdateMemory(const UpdatePlan& plan, int threads) : plan_(plan), apart_(plan.sizes_.size()) {
+UpdateMemory::UpdateMemory(const UpdatePlan& plan, int threads) : plan_(plan), apart_(plan.sizes_.size()) {
   for (int thread = 0; thread < threads; ++thread) stacks_.push_back(take(plan.of_subtrees_));
   for (const std::int64_t s : plan.apart_)
     apart_[static_cast<std::size_t>(s)] = take(plan.sizes_[static_cast<std::size_t>(s)]);
 }
 
-template <class Number>
-void UpdateMemory<Number>::leave_subtrees() {
+void UpdateMemory::leave_subtrees() {
   stacks_.clear();
   stacks_.push_back(take(plan_.of_above_));
 }
 
-template <class Number>
-Number* UpdateMemory<Number>::of(std::int64_t s, int worker) const {
+double* UpdateMemory::of(std::int64_t s, int worker) const {
   const UpdatePlan::Place& place = plan_.places_[static_cast<std::size_t>(s)];
   if (place.parity < 0) return apart_[static_cast<std::size_t>(s)].get();
   return stacks_[static_cast<std::size_t>(worker)][static_cast<std::size_t>(place.parity)].get() + place.offset;
 }
 
-template <class Number>
-void UpdateMemory<Number>::free(std::int64_t s) {
-  apart_[static_cast<std::size_t>(s)].reset();
-}
-
-template class UpdateMemory<double>;
-template class UpdateMemory<float>;
+void UpdateMemory::free(std::int64_t s) { apart_[static_cast<std::size_t>(s)].reset(); }
 
 }  // namespace bielle

@@ -49,7 +49,6 @@ class UpdatePlan {
   std::int64_t numbers(int threads) const;
 
  private:
-  template <class Number>
   friend class UpdateMemory;
   using StackSizes = std::array<std::int64_t, 2>;
   struct Place {
@@ -72,7 +71,6 @@ class UpdatePlan {
 };
 
 /// The memory that a plan asks for.
-template <class Number>
 class UpdateMemory {
  public:
   /// For the subtrees. @throws std::bad_alloc
@@ -81,15 +79,15 @@ class UpdateMemory {
   void leave_subtrees();
 
   /// @param worker  whose stacks: the number of a thread; 0 above the subtrees
-  Number* of(std::int64_t s, int worker) const;
+  double* of(std::int64_t s, int worker) const;
   /// Not needed any more.
   void free(std::int64_t s);
 
  private:
   struct Freed {
-    void operator()(Number* memory) const;
+    void operator()(double* memory) const;
   };
-  using Block = std::unique_ptr<Number, Freed>;
+  using Block = std::unique_ptr<double, Freed>;
   using Stacks = std::array<Block, 2>;
 
   static Block take(std::int64_t numbers);

@@ -244,30 +244,3 @@ TEST_CASE("A body in two pieces is refused") {
   chain.blocks[0].nodes = kept;
   CHECK_THROWS_WITH(test::reduced(chain, test::steel_body(Tie::rigid, Tie::rigid)), Contains("2 pieces"));
 }
-
-TEST_CASE("A body that was factorised in single precision is the same") {
-  const int variant = GENERATE(0, 1, 2, 3);
-  CAPTURE(variant);
-  ReductionOptions options = variant == 0   ? test::steel_body(Tie::rigid, Tie::rigid, 8)
-                             : variant == 1 ? test::steel_body(Tie::average, Tie::average, 8)
-                             : variant == 2 ? test::steel_body(Tie::free, Tie::average, 8)
-                                            : test::steel_body(Tie::average, Tie::rigid, 8);
-  if (variant == 3) options.interfaces[1].kept = {true, true, true, true, true, false};
-  const Mesh mesh = test::twisted_block();
-  Progress quiet(true);
-  ReductionReport of_full, of_single;
-  const Superelement full =
-                         reduce_body(mesh, options, quiet, 2, &of_full, assembled_matrices_with(FactorPrecision::full)),
-                     single = reduce_body(mesh, options, quiet, 2, &of_single,
-                                          assembled_matrices_with(FactorPrecision::single));
-  CHECK_FALSE(of_full.factor.is_single);
-  CHECK(of_single.factor.is_single);
-  for (const Check& check : of_single.checks) {
-    CAPTURE(check.name);
-    CHECK(check.value <= check.limit);
-  }
-  CHECK(difference(single.stiffness, full.stiffness) < 1e-9);
-  // Modes may differ in sign, and multiple ones by more.
-  CHECK(difference(single.stiffness.cwiseAbs(), full.stiffness.cwiseAbs()) < 1e-9);
-  CHECK(difference(single.mass.cwiseAbs(), full.mass.cwiseAbs()) < 1e-7);
-}
