@@ -10,8 +10,8 @@ namespace bielle {
 
 namespace {
 
-constexpr double worth_a_thread = 2e7;  // flops
-constexpr int parts_of_a_thread = 4;    // subtrees are no larger than such a part of what a thread has to do
+constexpr double flops_of_a_thread = 2e7;
+constexpr int parts_of_a_thread = 4;  // subtrees are no larger than such a part of what a thread has to do
 
 double elimination_work(double width, double below) {
   return width * width * width / 3 + width * width * below + width * below * below;
@@ -41,29 +41,32 @@ EliminationTree::EliminationTree(const SupernodalFactor& structure) {
   }
 }
 
-TreeShares share_out(const EliminationTree& tree, int threads) {
+TreeShares share_out(const EliminationTree& tree, std::span<const double> work, double worth_a_thread, int threads) {
   const std::size_t count = tree.parents.size();
   using Subtree = std::pair<double, std::int64_t>;  // work, root
   std::priority_queue<Subtree> subtrees;
   double all = 0;
   for (std::size_t s = 0; s < count; ++s) {
     if (tree.parents[s] >= 0) continue;
-    subtrees.emplace(tree.work[s], static_cast<std::int64_t>(s));
-    all += tree.work[s];
+    subtrees.emplace(work[s], static_cast<std::int64_t>(s));
+    all += work[s];
   }
-  threads = static_cast<int>(std::clamp(all / worth_a_thread, 1.0, static_cast<double>(std::max(1, threads))));
   TreeShares shares;
+  shares.threads = static_cast<int>(std::clamp(all / worth_a_thread, 1.0, static_cast<double>(std::max(1, threads))));
   shares.is_above.assign(count, false);
-  const double small = all / (parts_of_a_thread * threads);
-  while (threads > 1 && !subtrees.empty() && subtrees.top().first > small) {
+  const double small = all / (parts_of_a_thread * shares.threads);
+  while (shares.threads > 1 && !subtrees.empty() && subtrees.top().first > small) {
     const auto root = static_cast<std::size_t>(subtrees.top().second);
     subtrees.pop();
     shares.is_above[root] = true;
-    for (const std::int64_t child : tree.children[root])
-      subtrees.emplace(tree.work[static_cast<std::size_t>(child)], child);
+    for (const std::int64_t child : tree.children[root]) subtrees.emplace(work[static_cast<std::size_t>(child)], child);
   }
   for (; !subtrees.empty(); subtrees.pop()) shares.roots.push_back(subtrees.top().second);
   return shares;
+}
+
+TreeShares share_out(const EliminationTree& tree, int threads) {
+  return share_out(tree, tree.work, flops_of_a_thread, threads);
 }
 
 }  // namespace bielle

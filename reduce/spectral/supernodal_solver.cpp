@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <memory>
 #include <new>
-#include <queue>
 
 #include <omp.h>
 
@@ -249,7 +248,7 @@ void SupernodalSolver::cut_into_panels(double* values) const {
     largest = std::max(largest, factor_.value_starts[s + 1] - factor_.value_starts[s]);
   std::vector<RowsOfVectors> rooms;
   for (std::size_t part = 0; part < of_threads_.size(); ++part) rooms.emplace_back(largest, 1);
-#pragma omp parallel num_threads(static_cast<int>(rooms.size()))
+#pragma omp parallel num_threads(static_cast <int>(rooms.size()))
   {
     double* const room = rooms[static_cast<std::size_t>(omp_get_thread_num())].row(0);
 #pragma omp for schedule(dynamic, 1)
@@ -263,56 +262,44 @@ void SupernodalSolver::cut_into_panels(double* values) const {
 
 SupernodalSolver::~SupernodalSolver() = default;
 
-/// Cuts the largest subtree off its root until there are enough for each thread, and gives each in turn to the thread
-/// that has least.
 void SupernodalSolver::share_out(int threads) {
   const auto count = static_cast<std::size_t>(factor_.supernodes);
   const EliminationTree tree(factor_);
-  const std::vector<std::int64_t>& parents = tree.parents;
-  std::vector<std::int64_t> work(count);
-  using Subtree = std::pair<std::int64_t, std::int64_t>;  // work, root
-  std::priority_queue<Subtree> subtrees;
-  std::int64_t all = 0;
+  std::vector<double> entries(count);  // of each subtree
   for (std::size_t s = 0; s < count; ++s) {
-    const std::int64_t own =
-        (factor_.columns[s + 1] - factor_.columns[s]) * (factor_.row_starts[s + 1] - factor_.row_starts[s]);
-    work[s] += own;
-    all += own;
-    if (parents[s] < 0) {
-      subtrees.emplace(work[s], s);
-    } else {
-      const auto parent = static_cast<std::size_t>(parents[s]);
-      work[parent] += work[s];
-    }
+    entries[s] += static_cast<double>((factor_.columns[s + 1] - factor_.columns[s]) *
+                                      (factor_.row_starts[s + 1] - factor_.row_starts[s]));
+    if (tree.parents[s] >= 0) entries[static_cast<std::size_t>(tree.parents[s])] += entries[s];
   }
-  const std::int64_t useful = std::clamp<std::int64_t>(all / entries_of_a_thread, 1, std::max(1, threads));
-  threads = static_cast<int>(useful);
-  of_threads_.resize(static_cast<std::size_t>(threads));
-  if (threads > 1) {
-    const std::int64_t small = all / (4 * threads);
-    while (!subtrees.empty() && subtrees.top().first > small) {
-      const auto root = static_cast<std::size_t>(subtrees.top().second);
-      subtrees.pop();
-      above_.push_back(static_cast<std::int64_t>(root));
-      for (const std::int64_t child : tree.children[root])
-        subtrees.emplace(work[static_cast<std::size_t>(child)], child);
-    }
-    std::sort(above_.begin(), above_.end());
-  }
-  std::vector<std::int64_t> load(of_threads_.size(), 0), thread_of(count, -1);
-  for (; !subtrees.empty(); subtrees.pop()) {
-    const auto [weight, root] = subtrees.top();
+  const TreeShares shares = bielle::share_out(tree, entries, static_cast<double>(entries_of_a_thread), threads);
+  give_subtrees(tree, shares, entries);
+  number_rows_above(shares);
+}
+
+/// Each in turn to the thread that has least.
+void SupernodalSolver::give_subtrees(const EliminationTree& tree, const TreeShares& shares,
+                                     const std::vector<double>& entries) {
+  of_threads_.resize(static_cast<std::size_t>(shares.threads));
+  const std::size_t count = tree.parents.size();
+  std::vector<double> load(of_threads_.size(), 0);
+  std::vector<std::int64_t> thread_of(count, -1);
+  for (const std::int64_t root : shares.roots) {
     const auto least = std::min_element(load.begin(), load.end()) - load.begin();
-    load[static_cast<std::size_t>(least)] += weight;
+    load[static_cast<std::size_t>(least)] += entries[static_cast<std::size_t>(root)];
     thread_of[static_cast<std::size_t>(root)] = least;
   }
   for (std::size_t s = count; s-- > 0;)  // parents come after their children
-    if (parents[s] >= 0 && thread_of[s] < 0 && !std::binary_search(above_.begin(), above_.end(), s))
-      thread_of[s] = thread_of[static_cast<std::size_t>(parents[s])];
+    if (tree.parents[s] >= 0 && thread_of[s] < 0 && !shares.is_above[s])
+      thread_of[s] = thread_of[static_cast<std::size_t>(tree.parents[s])];
   for (std::size_t s = 0; s < count; ++s)
     if (thread_of[s] >= 0) of_threads_[static_cast<std::size_t>(thread_of[s])].push_back(static_cast<std::int64_t>(s));
+}
+
+void SupernodalSolver::number_rows_above(const TreeShares& shares) {
   place_above_.assign(static_cast<std::size_t>(factor_.size), -1);
-  for (const std::int64_t s : above_) {
+  for (std::int64_t s = 0; s < factor_.supernodes; ++s) {
+    if (!shares.is_above[static_cast<std::size_t>(s)]) continue;
+    above_.push_back(s);
     for (std::int64_t k = factor_.columns[s]; k < factor_.columns[s + 1]; ++k) {
       place_above_[static_cast<std::size_t>(k)] = static_cast<std::int64_t>(unknowns_above_.size());
       unknowns_above_.push_back(k);

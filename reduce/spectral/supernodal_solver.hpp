@@ -27,6 +27,9 @@ struct SupernodalFactor {
   const double* values = nullptr;
 };
 
+struct EliminationTree;
+struct TreeShares;
+
 class SupernodalSolver {
  public:
   /// @param factor  outlives this
@@ -43,6 +46,8 @@ class SupernodalSolver {
   struct Room;
 
   void share_out(int threads);
+  void give_subtrees(const EliminationTree& tree, const TreeShares& shares, const std::vector<double>& entries);
+  void number_rows_above(const TreeShares& shares);
   void cut_into_panels(double* values) const;
   std::unique_ptr<Room> take_room(int columns) const;
   void keep(std::unique_ptr<Room> room) const;
