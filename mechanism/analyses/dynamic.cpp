@@ -138,8 +138,7 @@ std::string judge_gap(const Gap& gap, double tolerance) {
   if (gap.scheme < -doubtful)
     text += fmt::format(
         "  DOUBTFUL: the scheme's own dissipation took {:.0f} % of the largest energy: unless what it damps does not "
-        "matter, "
-        "take smaller steps, or a scheme that dissipates less (`rho` closer to 1)\n",
+        "matter, take smaller steps, or a scheme that dissipates less (`rho` closer to 1)\n",
         -100 * gap.scheme);
   return text;
 }

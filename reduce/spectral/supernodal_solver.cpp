@@ -10,6 +10,7 @@
 
 #include "reduce/spectral/elimination_tree.hpp"
 #include "reduce/spectral/huge_pages.hpp"
+#include "reduce/spectral/spread_entries.hpp"
 #include "reduce/spectral/supernode.hpp"
 
 namespace bielle {
@@ -234,10 +235,9 @@ class SupernodalSolver::Sweep {
   std::vector<RowsOfVectors>& sums_;
 };
 
-SupernodalSolver::SupernodalSolver(const SupernodalFactor& factor, double* values, int threads) : factor_(factor) {
+SupernodalSolver::SupernodalSolver(const SupernodalFactor& factor, double* values, int threads)
+    : factor_(factor), places_(places_in_order(factor)) {
   factor_.values = values;
-  places_.resize(static_cast<std::size_t>(factor.size));
-  for (std::int64_t k = 0; k < factor.size; ++k) places_[static_cast<std::size_t>(factor.order[k])] = k;
   share_out(threads);
   cut_into_panels(values);
 }

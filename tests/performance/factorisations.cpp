@@ -6,8 +6,7 @@
 // structure, of the numbers in memory that the process has not had yet and again, flops, numbers kept, the most memory
 // that it took to the end of the first numbers beyond the matrix that it was given [GB], seconds of solutions with 1, 8
 // and 20 columns (the best of some), and |K x - b| / |b|. What is not built in prints null.
-#include <chrono>
-#include <cstdio>
+#include <algorithm>
 #include <fstream>
 #include <map>
 #include <stdexcept>
@@ -15,21 +14,15 @@
 
 #include <fmt/format.h>
 
-#include "reduce/common/command_line.hpp"
+#include "tests/performance/compared_program.hpp"
 #include "tests/performance/measured_factor.hpp"
 
 namespace {
 
 using namespace bielle;
 
-using Clock = std::chrono::steady_clock;
-
-template <class Work>
-double seconds_of(const Work& work) {
-  const auto start = Clock::now();
-  work();
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
+using performance::best_seconds_of;
+using performance::seconds_of;
 
 template <class Number>
 std::vector<Number> read(const std::string& name) {
@@ -89,8 +82,7 @@ void run(const std::string& method, const std::string& folder, int threads) {
   for (const int columns : {1, 8, 20}) {
     const Eigen::MatrixXd b = Eigen::MatrixXd::Random(matrix.size, columns);
     Eigen::MatrixXd x;
-    double best = 1e300;
-    for (int k = 0; k < 4; ++k) best = std::min(best, seconds_of([&] { x = factor->solve(b); }));
+    const double best = best_seconds_of([&] { x = factor->solve(b); });
     solutions += fmt::format("{}\"{}\": {}", solutions.empty() ? "" : ", ", columns, best);
     error = std::max(error, (matrix.multiply(x) - b).norm() / b.norm());
   }
@@ -103,14 +95,6 @@ void run(const std::string& method, const std::string& folder, int threads) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    fmt::print(stderr, "factorisations bielle|cholmod|eigen|spooles FOLDER\n");
-    return 2;
-  }
-  try {
-    run(argv[1], argv[2], available_processors());
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 1;
-  }
+  return bielle::performance::run_with_two_arguments(argc, argv, "factorisations bielle|cholmod|eigen|spooles FOLDER",
+                                                     run);
 }

@@ -8,9 +8,6 @@
 // points of their surfaces; average ties leave them free, and a reduction holds what is then left by a few supports:
 // they are held here too. Prints, as JSON, the speed of a dense product (dgemm), the bandwidth of reading memory, and
 // time and size of the factorisation and of solutions with 1 and 12 columns, all from this run.
-#include <chrono>
-#include <cstdio>
-#include <exception>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -18,7 +15,6 @@
 #include <fmt/format.h>
 
 #include "reduce/body_file.hpp"
-#include "reduce/common/command_line.hpp"
 #include "reduce/common/progress.hpp"
 #include "reduce/fe/assembly.hpp"
 #include "reduce/mesh/import.hpp"
@@ -26,15 +22,14 @@
 #include "reduce/reduction/ties.hpp"
 #include "reduce/spectral/blas.hpp"
 #include "reduce/spectral/symmetric_factor.hpp"
+#include "tests/performance/compared_program.hpp"
 
 namespace {
 
 using namespace bielle;
 using namespace bielle::reduce;
 
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+using performance::best_seconds_of;
 
 template <class Range>
 void write(const std::string& name, const Range& values) {
@@ -70,25 +65,17 @@ SymmetricMatrix three_fold(const NodeMatrix& mass) {
 double measure_bandwidth(int threads) {
   const std::vector<double> numbers(std::size_t{1} << 27, 1.0);  // 1 GB
   const auto count = static_cast<std::int64_t>(numbers.size());
-  double best = 0, sum = 0;
-  for (int k = 0; k < 4; ++k) {
-    const auto start = Clock::now();
+  double sum = 0;
+  const double best = best_seconds_of([&] {
 #pragma omp parallel for simd num_threads(threads) reduction(+ : sum)
     for (std::int64_t i = 0; i < count; ++i) sum += numbers[static_cast<std::size_t>(i)];
-    best = std::max(best, 8e-9 * static_cast<double>(count) / seconds_since(start));
-  }
-  return sum > 0 ? best : 0;
+  });
+  return sum > 0 ? 8e-9 * static_cast<double>(count) / best : 0;
 }
 
 double measure_solution(const SymmetricFactor& factor, int columns) {
   const Eigen::MatrixXd b = Eigen::MatrixXd::Random(factor.size(), columns);
-  double best = 1e300;
-  for (int k = 0; k < 4; ++k) {
-    const auto start = Clock::now();
-    factor.solve(b);
-    best = std::min(best, seconds_since(start));
-  }
-  return best;
+  return best_seconds_of([&] { factor.solve(b); });
 }
 
 void run(const std::string& body, const std::string& folder, int threads) {
@@ -129,14 +116,5 @@ void run(const std::string& body, const std::string& folder, int threads) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    fmt::print(stderr, "reduce_parts BODY.yaml FOLDER\n");
-    return 2;
-  }
-  try {
-    run(argv[1], argv[2], available_processors());
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 1;
-  }
+  return bielle::performance::run_with_two_arguments(argc, argv, "reduce_parts BODY.yaml FOLDER", run);
 }
