@@ -1,5 +1,6 @@
 // `kinematic` and `inverse_dynamics`: a mechanism whose every motion is driven, time after time.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "mechanism/analyses/analysis_table.hpp"
 #include "mechanism/analyses/step_reader.hpp"
@@ -9,6 +10,25 @@
 
 namespace bielle::mechanism {
 namespace {
+
+std::string format_elastic(const KinematicsReport& report) {
+  if (!report.elastic) return {};
+  constexpr double much = 0.05;
+  std::string text = fmt::format(
+      "  elastic parts follow in equilibrium under inertia forces (quasi-static): the accelerations of that "
+      "deformation, "
+      "which are left out, reach {:.2g} % of the largest acceleration{}\n",
+      100 * report.left_out, report.left_out > much ? "; take a dynamic analysis for what vibrates" : "");
+  if (!report.indifferent.empty())
+    text += fmt::format("  neither driven nor loaded, at rest: {}\n", fmt::join(report.indifferent, ", "));
+  return text;
+}
+
+std::string format_events(const KinematicsReport& report) {
+  if (report.events == 0) return {};
+  return fmt::format("  {}, the last: {}{}\n", counted(report.events, "event"), report.last_event,
+                     report.stopped_by_event ? ", which stopped the run" : "");
+}
 
 class KinematicAnalysis final : public Analysis {
  public:
@@ -25,8 +45,8 @@ class KinematicAnalysis final : public Analysis {
     summary.records = session.rows();
     summary.text = fmt::format("{}, {}\n", type() == "kinematic" ? "kinematics" : "inverse dynamics",
                                counted(report.points, "position"));
-    summary.text += format_start(report.start) + format_mobility(session);
-    summary.text += format_energies(report.energy);
+    summary.text += format_start(report.start) + format_mobility(session) + format_elastic(report);
+    summary.text += format_energies(report.energy) + format_events(report);
   }
   KinematicsOptions options_;
 };
@@ -37,6 +57,7 @@ std::unique_ptr<Analysis> read(const YamlValue& entry, const std::string& type) 
   options.duration = entry.at("duration").positive_number();
   options.step = entry.at("step").positive_number();
   check_step(entry, "step", options.step, options.duration);
+  options.elastic = type == "inverse_dynamics";
   return std::make_unique<KinematicAnalysis>(type, options);
 }
 

@@ -3,30 +3,67 @@
 // integrated: each time stands for itself, exact to rounding.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "mechanism/session/session.hpp"
 #include "mechanism/session/time_grid.hpp"
-#include "mechanism/solvers/newton/model_length.hpp"
+#include "mechanism/solvers/dynamics/crossing_watch.hpp"
 #include "mechanism/solvers/start/assemble_positions.hpp"
 #include "mechanism/solvers/start/consistent_accelerations.hpp"
 #include "mechanism/solvers/start/consistent_start.hpp"
 #include "mechanism/solvers/start/consistent_velocities.hpp"
-#include "mechanism/solvers/statics/load_ramp.hpp"
+#include "mechanism/solvers/start/continuous_motion.hpp"
+#include "mechanism/solvers/start/undriven_motions.hpp"
+#include "mechanism/solvers/statics/quasi_static_motion.hpp"
 #include "reduce/common/counted.hpp"
 #include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
 namespace {
 
-void check_driven(const System& system, const Mobility& mobility) {
-  if (mobility.degrees > 0)
-    throw InputError(fmt::format(
-        "{} not driven: kinematics and inverse dynamics need a motion for each (drives of joints, `motion` of nodes), "
-        "and rigid parts; flexible ones deform by themselves. A dynamic analysis takes what is driven and what is free",
-        counted(mobility.degrees, "degree of freedom is", "degrees of freedom are")));
+/// Whether gravity or loads act along some motions (dofs, motions).
+bool is_loaded(const System& system, const Environment& environment, const State& state, const MatrixX& motions) {
+  constexpr double nothing = 1e-9;  // of the largest power of a force
+  Environment statics = environment;
+  statics.statics = true;
+  State still = state;
+  system.set_rates(still, VectorX::Zero(system.dofs()), VectorX::Zero(system.dofs()));
+  still.multiplier.setZero();
+  VectorX r(system.size());
+  residual_at_rest(system, statics, still, r);
+  for (Eigen::Index k = 0; k < motions.cols(); ++k) {
+    const VectorX powers = motions.col(k).cwiseProduct(r.head(system.dofs()));
+    if (std::abs(powers.sum()) > nothing * powers.cwiseAbs().maxCoeff()) return true;
+  }
+  return false;
+}
+
+/// Throws where a motion is free that has to be driven.
+/// @param elastic  elastic parts may deform, and motions that nothing loads or determines stay at rest
+/// @returns the coordinates that tell the latter
+std::vector<std::string> check_driven(const System& system, const Environment& environment, const State& state,
+                                      const Mobility& mobility, bool elastic) {
+  std::vector<std::string> indifferent;
+  if (mobility.degrees > 0) {
+    if (const std::string singular = describe_singular_start(system, environment, state); !singular.empty())
+      throw InputError(singular);
+    UndrivenMotions undriven = find_undriven(system, environment, state);
+    const auto count = static_cast<int>(undriven.names.size());
+    if (!elastic || is_loaded(system, environment, state, undriven.directions)) {
+      const bool flexible = count < mobility.degrees;
+      throw InputError(fmt::format(
+          "{} not driven{}: kinematics and inverse dynamics need a motion for each (drives of joints, `motion` of "
+          "nodes){}. A dynamic analysis takes what is driven and what is free",
+          counted(elastic ? count : mobility.degrees, "degree of freedom is", "degrees of freedom are"),
+          count == 0 ? "" : fmt::format(" ({})", fmt::join(undriven.names, ", ")),
+          flexible && !elastic ? "; `kinematic` takes rigid parts, `inverse_dynamics` elastic ones as well" : ""));
+    }
+    indifferent = std::move(undriven.names);
+  }
   for (int k = 0; k < system.multipliers(); ++k)
     if (system.constraint_kind(k) == ConstraintKind::nonholonomic)
       throw InputError(fmt::format(
@@ -36,29 +73,7 @@ void check_driven(const System& system, const Mobility& mobility) {
   if (system.first_orders() > 0)
     throw InputError(fmt::format("{} has a motion of its own, which kinematics cannot tell: take a dynamic analysis",
                                  system.unknown_name(system.dofs())));
-}
-
-/// Throws where two positions do not belong to one motion: velocities that jump against their accelerations are those
-/// of another branch, as a dead centre that is met exactly leaves it open.
-void check_continuous(const System& system, const State& from, const State& to) {
-  constexpr double most = 0.6;  // of the larger one: the trapezoidal rule errs by h^2 w^2/12 of it
-  VectorX v(system.dofs()), a(system.dofs()), v_to(system.dofs()), a_to(system.dofs());
-  system.get_rates(from, v, a);
-  system.get_rates(to, v_to, a_to);
-  const double h = to.time - from.time, length = std::max(model_extent(to), 1e-30);
-  double change = 0, gap = 0, speed = 0;
-  for (int i = 0; i < system.dofs(); ++i) {
-    const double size = system.kind(i) == Kind::translation ? 1 / length : 1, dv = v_to[i] - v[i];
-    const double by_a = 0.5 * h * (a[i] + a_to[i]);
-    change = std::max(change, size * std::max(std::abs(dv), std::abs(by_a)));
-    gap = std::max(gap, size * std::abs(dv - by_a));
-    speed = std::max(speed, size * std::max(std::abs(v[i]), std::abs(v_to[i])));
-  }
-  if (gap > most * change && gap > most * speed)
-    throw ComputationError(
-        "velocities and accelerations do not fit to those a step before: either the steps are too large to tell that "
-        "this is the same motion, a drive jumps, or a dead centre is met, where the mechanism may go on in two ways: "
-        "take smaller or other steps");
+  return indifferent;
 }
 
 /// Whether a time is one of some, which ascend, but for rounding [s].
@@ -98,29 +113,109 @@ State predicted(const System& system, const State& state, double time) {
   return next;
 }
 
+/// Positions, velocities, accelerations and reactions of driven rigid parts.
+class RigidPositions {
+ public:
+  RigidPositions(const System& system, const Environment& environment)
+      : system_(system), environment_(environment), saddle_(system) {}
+  State operator()(const State& from, double time) {
+    State next = predicted(system_, from, time);
+    StartReport unused;
+    assemble_positions(system_, environment_, next, unused);
+    make_velocities_consistent(system_, environment_, next, unused, saddle_);
+    system_.begin_branch(next, environment_);  // stops, contacts
+    make_accelerations_consistent(system_, environment_, next, saddle_);
+    return next;
+  }
+
+ private:
+  const System& system_;
+  const Environment& environment_;
+  MassSaddle saddle_;
+};
+
+/// A prescribed motion from point to point, and from crossing to crossing.
+class CrossedMotion {
+ public:
+  CrossedMotion(const System& system, const Environment& environment, ContinuousMotion::Position position)
+      : system_(system), environment_(environment), motion_(system, std::move(position)), watch_(system) {}
+
+  /// To be called before each step. @returns crossings that are met where velocities or forces have jumped
+  std::vector<int> begin(const State& state) { return watch_.begin(state, environment_); }
+  /// Takes a state to a time or, where a crossing lies before it, just behind that: by at most a billionth of the step.
+  /// @param jumps  velocities may jump at that time
+  /// @returns the crossings that are met at the state's new time
+  std::vector<int> advance(State& state, double time, bool jumps) {
+    State next = motion_.advance(state, time, jumps);
+    const double h = time - state.time;
+    std::vector<int> passed;
+    if (!watch_.idle() && watch_.found(next, environment_, h, same_time * h)) {
+      while (!watch_.located()) {
+        const double part = watch_.proposal();
+        watch_.narrow(motion_.advance(state, state.time + part, false), environment_, part);
+      }
+      passed = watch_.pass();
+      if (watch_.behind() < h) next = motion_.advance(state, state.time + watch_.behind(), false);
+    }
+    system_.accept(next, environment_);
+    if (!passed.empty()) system_.begin_branch(next, environment_, passed);
+    state = std::move(next);
+    return passed;
+  }
+
+ private:
+  const System& system_;
+  const Environment& environment_;
+  ContinuousMotion motion_;
+  CrossingWatch watch_;
+};
+
 }  // namespace
 
-KinematicsReport Session::kinematics(const KinematicsOptions& options) {
-  if (!(options.duration > 0) || !(options.step > 0))
-    throw InputError("kinematics needs a duration and a step greater than 0");
-  check_driven(system_, mobility_);
+bool Session::note_crossings(const std::vector<int>& crossed, KinematicsReport& report) {
+  bool stops = false;
+  for (const int k : crossed) {
+    const MemberCrossing& met = system_.crossings()[static_cast<std::size_t>(k)];
+    note(Event{state_.time, k, met.name});
+    report.last_event = met.name;
+    ++report.events;
+    stops = stops || met.crossing.stops;
+  }
+  return stops;
+}
+
+void Session::begin_kinematics(const KinematicsOptions& options, KinematicsReport& report) {
   at_rest();
   stopping_ = false;
   acting_ = environment_;
   loaded_ = {1, 1};
-  KinematicsReport report;
   apply_motions(system_, 1, state_);
   system_.begin_motion(state_, environment_, false);
   if (const StartConditions conditions = start_conditions(); !conditions.empty())
     assemble_positions(system_, environment_, state_, report.start, conditions);
+  report.indifferent = check_driven(system_, environment_, state_, mobility_, options.elastic);
+  report.elastic = options.elastic && mobility_.degrees > 0;
   report.start.add(make_consistent(system_, environment_, state_));
   started_ = true;
   shown_ = &state_;
+}
+
+KinematicsReport Session::kinematics(const KinematicsOptions& options) {
+  if (!(options.duration > 0) || !(options.step > 0))
+    throw InputError("kinematics needs a duration and a step greater than 0");
+  KinematicsReport report;
+  begin_kinematics(options, report);
   EnergyBalance books;
   const double begin = state_.time;
   const std::vector<double> times = times_of(system_, options, recording_, begin);
   const std::vector<double> kinks = system_.break_points();
   const double rounding = same_time * options.step;
+  RigidPositions rigid(system_, environment_);
+  QuasiStaticMotion elastic(system_, environment_, options.step);
+  if (report.elastic) elastic.begin(state_);
+  CrossedMotion motion(system_, environment_, [&](const State& from, double time) {
+    return report.elastic ? elastic.position(from, time) : rigid(from, time);
+  });
   books.start(begin, system_.energy(state_, environment_));
   const auto point = [&](double step, bool recorded) {
     report_.emplace();
@@ -129,33 +224,34 @@ KinematicsReport Session::kinematics(const KinematicsOptions& options) {
     report_->step = step;
     if (recorded) record(state_, environment_, *report_);
     gather(state_, environment_);
+    if (report.elastic) elastic.note_left_out(state_);
     ++report.points;
     if (notes_) notes_->progress((state_.time - begin) / options.duration, fmt::format("t = {:.6g} s", state_.time));
     if (state_.time > begin) call_back();
   };
   point(0, true);
-  MassSaddle saddle(system_);
-  for (std::size_t k = 0; k < times.size() && !stopping_; ++k) {
-    State next = predicted(system_, state_, times[k]);
+  double last = begin;
+  for (std::size_t k = 0; k < times.size() && !stopping_ && !report.stopped_by_event;) {
     try {
-      StartReport unused;
-      assemble_positions(system_, environment_, next, unused);
-      make_velocities_consistent(system_, environment_, next, unused, saddle);
-      system_.begin_branch(next, environment_);  // stops, contacts
-      make_accelerations_consistent(system_, environment_, next, saddle);
-      if (!contains(kinks, next.time, rounding)) check_continuous(system_, state_, next);
-      system_.accept(next, environment_);
+      report.stopped_by_event = note_crossings(motion.begin(state_), report);
+      if (report.stopped_by_event) break;
+      const std::vector<int> crossed = motion.advance(state_, times[k], contains(kinks, times[k], rounding));
+      report.stopped_by_event = note_crossings(crossed, report);
     } catch (const ComputationError& error) {
-      const std::string time = fmt::format("t = {:.6g} s: ", next.time), why = error.what();
+      const std::string time = fmt::format("t = {:.6g} s: ", times[k]), why = error.what();
       throw ComputationError(why.starts_with("t = ") ? why : time + why);
     }
-    const double step = next.time - state_.time;
-    state_ = std::move(next);
     books.advance(state_.time, system_.energy(state_, environment_));
-    const bool last = k + 1 == times.size();
-    point(step, recording_.times.empty() ? (k + 1) % static_cast<std::size_t>(recording_.every) == 0 || last
-                                         : contains(recording_.times, state_.time, rounding));
+    const bool ends = report.stopped_by_event;
+    if (state_.time < times[k] && !ends) continue;  // a crossing between two points
+    ++k;
+    const bool asked_for = recording_.times.empty()
+                               ? k % static_cast<std::size_t>(recording_.every) == 0 || k == times.size()
+                               : contains(recording_.times, state_.time, rounding);
+    point(state_.time - last, asked_for || ends);
+    last = state_.time;
   }
+  report.left_out = elastic.left_out();
   report.energy = books.totals();
   report.balance = books.balance();
   return report;

@@ -74,8 +74,8 @@ class Session {
   /// @throws ComputationError when there is none near; the state is then the last equilibrium
   StaticsReport statics(const StaticsOptions& options = {});
   /// A mechanism whose every motion is driven: positions, velocities, accelerations and the forces that belong to them,
-  /// time after time, without integration. @throws InputError when something is free, ComputationError naming what
-  /// cannot be satisfied
+  /// time after time, without integration; elastic parts follow in equilibrium, if asked for. @throws InputError naming
+  /// what is free, ComputationError naming what cannot be satisfied
   KinematicsReport kinematics(const KinematicsOptions& options);
   /// A motion from the state, made consistent. It must not outlive the session.
   Motion dynamics(const DynamicsOptions& options);
@@ -177,6 +177,9 @@ class Session {
   const ResultsRows& readable() const;
   /// @param done  share of the way; @param limit  a limit point of the load
   using StaticsPoint = std::function<void(const State& state, double factor, int iterations, double done, bool limit)>;
+  void begin_kinematics(const KinematicsOptions& options, KinematicsReport& report);
+  /// @returns whether one of them ends the analysis
+  bool note_crossings(const std::vector<int>& crossed, KinematicsReport& report);
   void note_dropped_rates(const StartConditions& conditions) const;  ///< where a state that moves comes to rest
   /// By load steps or along a path, point after point. @param statics  the environment of statics under the whole load
   void follow_loads(const StaticsOptions& options, const Environment& statics, StaticsReport& report,

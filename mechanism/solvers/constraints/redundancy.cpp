@@ -244,6 +244,16 @@ bool stands_in_singular_position(const System& system, const Environment& enviro
 
 }  // namespace
 
+std::string describe_singular_start(const System& system, const Environment& environment, const State& state) {
+  std::vector<int> redundant;
+  system.for_each_redundant(state, [&](int multiplier) { redundant.push_back(multiplier); });
+  if (redundant.empty() || !stands_in_singular_position(system, environment, state)) return {};
+  return fmt::format(
+      "the mechanism starts in a singular position (links in line, a dead centre): {} only look{} redundant there, and "
+      "how it leaves that position is open; start from another one, or drive another joint",
+      fmt::join(name_constraints(system, redundant), "; "), redundant.size() == 1 ? "s" : "");
+}
+
 void check_set_aside(const System& system, const Environment& environment, const State& state) {
   if (system.set_aside().empty() && state.idle.empty()) return;
   // Rounding and Newton's tolerance leave far less; a contradiction shows immediately.

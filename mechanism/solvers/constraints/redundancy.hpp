@@ -1,9 +1,9 @@
 // Constraints that repeat what others hold already: found, named and set aside.
 //
-// A planar mechanism of hinges, closed in space, is the everyday case. Of the columns of B^T (one per multiplier, scaled
-// to length one, translations in arms of the constraints) those are found that depend on others before them in the file
-// (math/rank.hpp). Their rows leave the equations and their multipliers stay zero: the motion is unaffected. Reported
-// are the reactions of smallest norm (reaction_norm.hpp).
+// A planar mechanism of hinges, closed in space, is the everyday case. Of the columns of B^T (one per multiplier,
+// scaled to length one, translations in arms of the constraints) those are found that depend on others before them in
+// the file (math/rank.hpp). Their rows leave the equations and their multipliers stay zero: the motion is unaffected.
+// Reported are the reactions of smallest norm (reaction_norm.hpp).
 #pragma once
 
 #include <string>
@@ -35,8 +35,8 @@ std::vector<int> take_out_redundant(System& system, const Environment& environme
 struct Mobility {
   int degrees = 0;      ///< of freedom, amplitudes included
   int independent = 0;  ///< constraints
-  /// Constraints that differ from what others hold by less than a thousandth (sines of angles between constraints): meant
-  /// to repeat them, perhaps. By joint, as name_constraints().
+  /// Constraints that differ from what others hold by less than a thousandth (sines of angles between constraints):
+  /// meant to repeat them, perhaps. By joint, as name_constraints().
   std::vector<std::string> nearly_redundant;
 };
 
@@ -50,6 +50,10 @@ void set_redundant_aside(const System& system, const Environment& environment, S
 /// What to say of a position in which a step fails, if constraints nearly repeat others there that did not at the
 /// start; or nothing.
 std::string describe_singularity(const System& system, const Environment& environment, const State& state);
+
+/// A sentence where constraints that are set aside only look redundant: because the mechanism stands in a singular
+/// position, which it may leave in more than one way. Otherwise nothing.
+std::string describe_singular_start(const System& system, const Environment& environment, const State& state);
 
 /// The constraints of ascending multipliers in the user's terms, one text per joint: "x, y, rz of joint 'crank'".
 std::vector<std::string> name_constraints(const System& system, const std::vector<int>& multipliers);

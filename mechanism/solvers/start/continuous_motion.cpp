@@ -1,0 +1,47 @@
+#include "mechanism/solvers/start/continuous_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mechanism/solvers/newton/model_length.hpp"
+#include "reduce/common/error.hpp"
+
+namespace bielle::mechanism {
+
+bool ContinuousMotion::fits(const State& from, const State& to) {
+  constexpr double most = 0.6;         // of the larger one: the trapezoidal rule errs by h^2 w^2/12 of it
+  constexpr double invisible = 1e-9;   // that a step moves, relative to the extent
+  constexpr double standstill = 1e-6;  // relative to the fastest so far: a drive at rest is so but for rounding
+  VectorX v(system_.dofs()), a(system_.dofs()), v_to(system_.dofs()), a_to(system_.dofs());
+  system_.get_rates(from, v, a);
+  system_.get_rates(to, v_to, a_to);
+  const double h = to.time - from.time, length = std::max(model_extent(to), 1e-30);
+  double change = 0, gap = 0, speed = 0;
+  for (int i = 0; i < system_.dofs(); ++i) {
+    const double size = system_.kind(i) == Kind::translation ? 1 / length : 1, dv = v_to[i] - v[i];
+    const double by_a = 0.5 * h * (a[i] + a_to[i]);
+    change = std::max(change, size * std::max(std::abs(dv), std::abs(by_a)));
+    gap = std::max(gap, size * std::abs(dv - by_a));
+    speed = std::max(speed, size * std::max(std::abs(v[i]), std::abs(v_to[i])));
+  }
+  fastest_ = std::max(fastest_, speed);
+  if (gap * h <= invisible || gap <= standstill * fastest_) return true;
+  return gap <= most * change || gap <= most * speed;
+}
+
+State ContinuousMotion::advance(const State& from, double time, bool jumps) { return advance(from, time, jumps, 0); }
+
+State ContinuousMotion::advance(const State& from, double time, bool jumps, int depth) {
+  constexpr int deepest = 10;
+  State next = position_(from, time);
+  if (fits(from, next) || (jumps && depth == deepest)) return next;
+  if (depth == deepest)
+    throw ComputationError(
+        "velocities and accelerations do not fit to those just before, however short the step: either a drive jumps, "
+        "or "
+        "a dead centre is met, where the mechanism may go on in two ways: take other steps, or drive another joint");
+  const State middle = advance(from, from.time + 0.5 * (time - from.time), false, depth + 1);
+  return advance(middle, time, jumps, depth + 1);
+}
+
+}  // namespace bielle::mechanism

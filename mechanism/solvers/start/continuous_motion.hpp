@@ -1,0 +1,33 @@
+// Positions of a mechanism whose motion is prescribed, one after the other: whether they belong to one motion.
+#pragma once
+
+#include <functional>
+
+#include "mechanism/system/system.hpp"
+
+namespace bielle::mechanism {
+
+/// Velocities that jump against their accelerations are those of another branch, as a dead centre that is met exactly
+/// leaves it open. A step whose velocities do not fit is halved, and its halves likewise: what is smooth fits in the
+/// end, or changes so little that nobody can see it.
+class ContinuousMotion {
+ public:
+  /// The state of a time, searched for from another state's positions and rates.
+  using Position = std::function<State(const State& from, double time)>;
+  ContinuousMotion(const System& system, Position position) : system_(system), position_(std::move(position)) {}
+
+  /// The state of a later time. @param jumps  velocities may jump at that time (a kink of a drive's law)
+  /// @throws ComputationError where they jump elsewhere
+  State advance(const State& from, double time, bool jumps);
+
+ private:
+  State advance(const State& from, double time, bool jumps, int depth);
+  /// Whether the velocities of two states fit to their accelerations by the trapezoidal rule.
+  bool fits(const State& from, const State& to);
+
+  const System& system_;
+  Position position_;
+  double fastest_ = 0;  ///< velocity so far, relative to the model's extent [1/s]
+};
+
+}  // namespace bielle::mechanism

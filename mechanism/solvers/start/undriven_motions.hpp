@@ -1,0 +1,25 @@
+// Motions that neither constraints nor elastic stiffness determine: what a mechanism needs a drive for.
+//
+// They span the null space of [K B^T; B 0], with the stiffness K of the unloaded mechanism (no gravity, loads or
+// reactions, which would make a hanging pendulum stiff). K is factorised with e D added, D the mean stiffness of each
+// kind of unknown and e = 1e-9: (K + e D)^-1 e D is then the projection on that space, but for e.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mechanism/system/system.hpp"
+
+namespace bielle::mechanism {
+
+struct UndrivenMotions {
+  /// Of each motion the coordinate that tells it best, a joint's if possible: "angle of joint 'arm'", "x at node 'b'".
+  std::vector<std::string> names;
+  MatrixX directions;  ///< (dofs, motions)
+};
+
+/// @param state  assembled, with redundant constraints taken out
+/// @param most   the search ends with so many motions
+UndrivenMotions find_undriven(const System& system, const Environment& environment, const State& state, int most = 12);
+
+}  // namespace bielle::mechanism

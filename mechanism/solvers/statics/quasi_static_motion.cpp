@@ -1,0 +1,209 @@
+#include "mechanism/solvers/statics/quasi_static_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mechanism/math/so3.hpp"
+#include "mechanism/solvers/newton/model_length.hpp"
+#include "mechanism/solvers/start/consistent_velocities.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+Environment at_rest_in(Environment environment) {
+  environment.statics = true;
+  return environment;
+}
+
+/// The largest displacement of a node, relative to the extent, or turn [rad].
+double distance(const State& from, const State& to) {
+  const double length = std::max(model_extent(to), 1e-30);
+  double largest = 0;
+  for (std::size_t i = 0; i < to.nodes.size(); ++i)
+    largest = std::max({largest, (to.nodes[i].x - from.nodes[i].x).norm() / length,
+                        log_so3(Matrix3(from.nodes[i].R.transpose() * to.nodes[i].R)).norm()});
+  return largest;
+}
+
+}  // namespace
+
+QuasiStaticMotion::QuasiStaticMotion(const System& system, const Environment& environment, double step)
+    : system_(system),
+      environment_(environment),
+      statics_(at_rest_in(environment)),
+      ramp_(system, statics_, Loaded{1, 1}),
+      path_equilibrium_(ramp_, NewtonOptions()),
+      equilibrium_(ramp_, NewtonOptions()),
+      tangent_(system),
+      saddle_(system),
+      kinks_(system.break_points()),
+      step_(step),
+      v_(VectorX::Zero(system.dofs())),
+      a_(VectorX::Zero(system.dofs())),
+      lambda_rate_(VectorX::Zero(system.multipliers())) {}
+
+void QuasiStaticMotion::begin(State& state) {
+  path_ = state;
+  path_equilibrium_.look_for_loose(1, path_);
+  equilibrium_.look_for_loose(1, path_);
+  tangent_.look_for_loose(path_, statics_);
+  find_path(path_, state.time);
+  find_rates();
+  state = path_;
+  load_by_inertia(state);
+}
+
+State QuasiStaticMotion::position(const State& from, double time) {
+  VectorX v(system_.dofs()), a(system_.dofs());
+  system_.get_rates(from, v, a);
+  State next = from;
+  const double h = time - from.time;
+  next.time = time;
+  system_.displace(next, from, h * v + 0.5 * h * h * a);
+  find_path(path_, time);
+  find_rates();
+  load_by_inertia(next);
+  return next;
+}
+
+void QuasiStaticMotion::find_path(const State& from, double time) {
+  State next = from;
+  const double h = time - from.time;
+  next.time = time;
+  system_.displace(next, from, h * v_ + 0.5 * h * h * a_);
+  system_.set_rates(next, VectorX::Zero(system_.dofs()), VectorX::Zero(system_.dofs()));
+  if (path_equilibrium_.find(1, next) < 0 && path_equilibrium_.search(1, next) < 0)
+    throw ComputationError(path_equilibrium_.why());
+  path_ = std::move(next);
+}
+
+/// The residual at rest a time after that of the path, a part of the way along its rates.
+VectorX QuasiStaticMotion::at_rest(double after, double part) const {
+  State moved = path_;
+  moved.time = path_.time + after;
+  system_.displace(moved, path_, part * after * v_);
+  moved.multiplier += part * after * lambda_rate_;
+  VectorX r(system_.size());
+  residual_at_rest(system_, statics_, moved, r);
+  return r;
+}
+
+/// A third of the time over which differences look, to the side of the farther kink; negative: back [s].
+double QuasiStaticMotion::difference_step(double rate) const {
+  constexpr double turn = 0.01;  // [rad], or of the extent: the third order errs by its cube
+  const double t = path_.time, infinity = std::numeric_limits<double>::infinity();
+  double before = infinity, behind = infinity;
+  for (const double kink : kinks_) {
+    if (kink > t) behind = std::min(behind, kink - t);
+    if (kink < t) before = std::min(before, t - kink);
+  }
+  const double room = std::max(behind, before),
+               step = std::min({0.25 * step_, turn / std::max(rate, 1e-300), 0.3 * room});
+  return behind >= before ? step : -step;
+}
+
+void QuasiStaticMotion::find_rates() {
+  const int dofs = system_.dofs(), multipliers = system_.multipliers();
+  tangent_.factor(path_, statics_);
+  const double length = std::max(model_extent(path_), 1e-30);
+  double rate = 0;
+  for (int i = 0; i < dofs; ++i)
+    rate = std::max(rate, std::abs(v_[i]) / (system_.kind(i) == Kind::translation ? length : 1));
+  const double h = difference_step(rate);
+  VectorX r(system_.size()), solution(system_.size()), velocity(multipliers), acceleration(multipliers);
+  const VectorX zero = VectorX::Zero(dofs);
+  // Of values that vanish at 0: the first derivative from three, and the second where the first vanishes as well.
+  const auto differences = [&](double part, double w1, double w2, double w3) {
+    const VectorX r0 = at_rest(0, part);
+    return VectorX(w1 * (at_rest(h, part) - r0) + w2 * (at_rest(2 * h, part) - r0) + w3 * (at_rest(3 * h, part) - r0));
+  };
+  const auto put_constraints = [&](const VectorX& rows) {
+    r.tail(multipliers) = rows;
+    system_.for_each_idle(path_, [&](int k) { r[system_.size() - multipliers + k] = 0; });
+  };
+  State moving = path_;
+  system_.set_rates(moving, zero, zero);
+  system_.constraint_rates(moving, environment_, velocity, acceleration);
+  r = differences(0, 3 / h, -1.5 / h, 1 / (3 * h));
+  put_constraints(velocity);
+  tangent_.solve(r, solution);
+  v_ = solution.head(dofs);
+  lambda_rate_ = solution.tail(multipliers);
+  system_.set_rates(moving, v_, zero);
+  system_.constraint_rates(moving, environment_, velocity, acceleration);
+  r = differences(1, 6 / (h * h), -1.5 / (h * h), 2 / (9 * h * h));
+  put_constraints(acceleration);
+  tangent_.solve(r, solution);
+  a_ = solution.head(dofs);
+}
+
+/// What velocities and accelerations add to the residual (dofs).
+VectorX QuasiStaticMotion::inertia_forces(const State& state) const {
+  VectorX moving(system_.size()), resting(system_.size());
+  system_.residual(state, environment_, moving);
+  State still = state;
+  system_.set_rates(still, VectorX::Zero(system_.dofs()), VectorX::Zero(system_.dofs()));
+  residual_at_rest(system_, statics_, still, resting);
+  return (moving - resting).head(system_.dofs());
+}
+
+/// Gives a state the path's rates, changed as little as the constraints of its deformed position ask for.
+void QuasiStaticMotion::take_rates(State& state) {
+  const int multipliers = system_.multipliers();
+  system_.set_rates(state, v_, a_);
+  if (multipliers == 0) return;
+  StartReport unused;
+  make_velocities_consistent(system_, environment_, state, unused, saddle_);
+  VectorX v(system_.dofs()), a(system_.dofs()), velocity(multipliers), acceleration(multipliers);
+  system_.constraint_rates(state, environment_, velocity, acceleration);
+  VectorX r = VectorX::Zero(system_.size()), change(system_.size());
+  r.tail(multipliers) = acceleration;
+  system_.for_each_idle(state, [&](int k) { r[system_.size() - multipliers + k] = 0; });
+  saddle_.solve(r, change);
+  system_.get_rates(state, v, a);
+  system_.set_rates(state, v, a + change.head(system_.dofs()));
+}
+
+void QuasiStaticMotion::load_by_inertia(State& state) {
+  constexpr int most = 60;
+  constexpr double settled = 1e-9;     // relative to the deformation by inertia
+  constexpr double invisible = 1e-14;  // relative to the extent, and [rad]
+  for (int k = 0; k < most; ++k) {
+    take_rates(state);
+    equilibrium_.push(-inertia_forces(state));
+    State next = state;
+    system_.set_rates(next, VectorX::Zero(system_.dofs()), VectorX::Zero(system_.dofs()));
+    if (equilibrium_.find(1, next) < 0 && equilibrium_.search(1, next) < 0) throw ComputationError(equilibrium_.why());
+    const double change = distance(state, next);
+    state = std::move(next);
+    if (k > 0 && change <= invisible + settled * distance(path_, state)) return take_rates(state);
+  }
+  throw ComputationError(
+      "the deformation under inertia forces does not settle: the motion is too fast for elastic parts that follow in "
+      "equilibrium; take a dynamic analysis");
+}
+
+void QuasiStaticMotion::note_left_out(const State& state) {
+  std::vector<Vector3> deformation;
+  for (std::size_t i = 0; i < state.nodes.size(); ++i) deformation.push_back(state.nodes[i].x - path_.nodes[i].x);
+  deformations_.push_back(std::move(deformation));
+  times_.push_back(state.time);
+  const std::size_t n = times_.size();
+  if (n < 3) return;
+  const double h = times_[n - 1] - times_[n - 2], before = times_[n - 2] - times_[n - 3];
+  if (std::abs(h - before) <= 1e-6 * h) {
+    double left_out = 0, motion = 0;
+    for (std::size_t i = 0; i < state.nodes.size(); ++i) {
+      left_out =
+          std::max(left_out, (deformations_[n - 1][i] - 2 * deformations_[n - 2][i] + deformations_[n - 3][i]).norm());
+      motion = std::max(motion, state.nodes[i].a.norm());
+    }
+    largest_motion_ = std::max(largest_motion_, motion);
+    largest_left_out_ = std::max(largest_left_out_, left_out / (h * h));
+  }
+  deformations_.erase(deformations_.begin());
+  times_.erase(times_.begin());
+}
+
+}  // namespace bielle::mechanism
