@@ -12,6 +12,7 @@
 #include "mechanism/session/session.hpp"
 #include "mechanism/session/time_grid.hpp"
 #include "mechanism/solvers/dynamics/crossing_watch.hpp"
+#include "mechanism/solvers/newton/model_length.hpp"
 #include "mechanism/solvers/start/assemble_positions.hpp"
 #include "mechanism/solvers/start/consistent_accelerations.hpp"
 #include "mechanism/solvers/start/consistent_start.hpp"
@@ -25,9 +26,17 @@
 namespace bielle::mechanism {
 namespace {
 
+/// The largest translation of a vector over the dofs times a size, or other entry.
+double largest_entry(const System& system, const Eigen::Ref<const VectorX>& vector, double of_translations) {
+  double largest = 0;
+  for (int i = 0; i < system.dofs(); ++i)
+    largest = std::max(largest, std::abs(vector[i]) * (system.kind(i) == Kind::translation ? of_translations : 1.0));
+  return largest;
+}
+
 /// Whether gravity or loads act along some motions (dofs, motions).
 bool is_loaded(const System& system, const Environment& environment, const State& state, const MatrixX& motions) {
-  constexpr double nothing = 1e-9;  // of the largest power of a force
+  constexpr double nothing = 1e-7;  // of the largest force along the largest motion; the motions are exact to some 1e-9
   Environment statics = environment;
   statics.statics = true;
   State still = state;
@@ -35,10 +44,11 @@ bool is_loaded(const System& system, const Environment& environment, const State
   still.multiplier.setZero();
   VectorX r(system.size());
   residual_at_rest(system, statics, still, r);
-  for (Eigen::Index k = 0; k < motions.cols(); ++k) {
-    const VectorX powers = motions.col(k).cwiseProduct(r.head(system.dofs()));
-    if (std::abs(powers.sum()) > nothing * powers.cwiseAbs().maxCoeff()) return true;
-  }
+  const VectorX forces = r.head(system.dofs());
+  const double length = std::max(model_extent(state), 1e-30), force = largest_entry(system, forces, length);
+  for (Eigen::Index k = 0; k < motions.cols(); ++k)
+    if (std::abs(motions.col(k).dot(forces)) > nothing * force * largest_entry(system, motions.col(k), 1 / length))
+      return true;
   return false;
 }
 

@@ -12,6 +12,7 @@ namespace {
 /// A basis of the null space, orthonormal by the weights (dofs).
 MatrixX null_space(const System& system, const LinearStep& linear, const VectorX& weights, int most) {
   constexpr double nothing = 1e-4;  // left of a vector of length one by what determines all motions
+  constexpr int passes = 4;         // each reduces what a soft stiffness k determines to e D/k of it
   MatrixX basis(system.dofs(), 0);
   VectorX r = VectorX::Zero(system.size()), projected(system.size());
   for (int k = 0; k < most; ++k) {
@@ -20,9 +21,12 @@ MatrixX null_space(const System& system, const LinearStep& linear, const VectorX
       trial[i] =
           std::sin(1 + 1.7 * static_cast<double>(i) + 2.3 * k * static_cast<double>(i + 1)) / std::sqrt(weights[i]);
     trial /= std::sqrt(trial.dot(weights.cwiseProduct(trial)));
-    r.head(system.dofs()) = -weights.cwiseProduct(trial);
-    linear.solve(r, projected);
-    VectorX motion = projected.head(system.dofs());
+    VectorX motion = trial;
+    for (int pass = 0; pass < passes; ++pass) {
+      r.head(system.dofs()) = -weights.cwiseProduct(motion);
+      linear.solve(r, projected);
+      motion = projected.head(system.dofs());
+    }
     for (int again = 0; again < 2; ++again) {
       const VectorX along = basis.transpose() * weights.cwiseProduct(motion);
       motion -= basis * along;

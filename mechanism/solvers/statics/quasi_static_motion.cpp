@@ -78,10 +78,11 @@ void QuasiStaticMotion::find_path(const State& from, double time) {
   path_ = std::move(next);
 }
 
-/// The residual at rest a time after that of the path, a part of the way along its rates.
+/// The residual at rest a time after that of the path, a part of the way along its rates. Time stands still where no
+/// support moves: drives act by their constraints, and what loads change by themselves deforms without inertia.
 VectorX QuasiStaticMotion::at_rest(double after, double part) const {
   State moved = path_;
-  moved.time = path_.time + after;
+  if (supports_move_) moved.time = path_.time + after;
   system_.displace(moved, path_, part * after * v_);
   moved.multiplier += part * after * lambda_rate_;
   VectorX r(system_.size());
@@ -89,32 +90,46 @@ VectorX QuasiStaticMotion::at_rest(double after, double part) const {
   return r;
 }
 
-/// A third of the time over which differences look, to the side of the farther kink; negative: back [s].
-double QuasiStaticMotion::difference_step(double rate) const {
-  constexpr double turn = 0.01;  // [rad], or of the extent: the third order errs by its cube
+/// Whether nodes are moved by their supports about the path's time.
+bool QuasiStaticMotion::do_supports_move() const {
+  State moved = path_;
+  for (const double after : {-step_, 0.3 * step_, step_}) {
+    moved.time = path_.time + after;
+    system_.displace(moved, path_, VectorX::Zero(system_.dofs()));
+    for (std::size_t i = 0; i < moved.nodes.size(); ++i)
+      if (moved.nodes[i].x != path_.nodes[i].x || moved.nodes[i].R != path_.nodes[i].R) return true;
+  }
+  return false;
+}
+
+/// A third of the time over which differences look; with supports that move, to the side of the farther kink; negative:
+/// back [s].
+double QuasiStaticMotion::difference_step() const {
+  constexpr double turn = 0.005;  // [rad], or of the extent: differences err by its cube, and rounding by its square
+  const double length = std::max(model_extent(path_), 1e-30);
+  double speed = 0;
+  for (int i = 0; i < system_.dofs(); ++i)
+    speed = std::max(speed, std::abs(v_[i]) / (system_.kind(i) == Kind::translation ? length : 1));
+  const double by_turn = turn / std::max(speed, 1e-300);
+  if (!supports_move_) return std::min(by_turn, 1e3 * step_);
   const double t = path_.time, infinity = std::numeric_limits<double>::infinity();
   double before = infinity, behind = infinity;
   for (const double kink : kinks_) {
     if (kink > t) behind = std::min(behind, kink - t);
     if (kink < t) before = std::min(before, t - kink);
   }
-  const double room = std::max(behind, before),
-               step = std::min({0.25 * step_, turn / std::max(rate, 1e-300), 0.3 * room});
+  const double step = std::min({0.5 * step_, by_turn, 0.3 * std::max(behind, before)});
   return behind >= before ? step : -step;
 }
 
 void QuasiStaticMotion::find_rates() {
   const int dofs = system_.dofs(), multipliers = system_.multipliers();
   tangent_.factor(path_, statics_);
-  const double length = std::max(model_extent(path_), 1e-30);
-  double rate = 0;
-  for (int i = 0; i < dofs; ++i)
-    rate = std::max(rate, std::abs(v_[i]) / (system_.kind(i) == Kind::translation ? length : 1));
-  const double h = difference_step(rate);
+  supports_move_ = do_supports_move();
   VectorX r(system_.size()), solution(system_.size()), velocity(multipliers), acceleration(multipliers);
   const VectorX zero = VectorX::Zero(dofs);
   // Of values that vanish at 0: the first derivative from three, and the second where the first vanishes as well.
-  const auto differences = [&](double part, double w1, double w2, double w3) {
+  const auto differences = [&](double part, double h, double w1, double w2, double w3) {
     const VectorX r0 = at_rest(0, part);
     return VectorX(w1 * (at_rest(h, part) - r0) + w2 * (at_rest(2 * h, part) - r0) + w3 * (at_rest(3 * h, part) - r0));
   };
@@ -125,14 +140,16 @@ void QuasiStaticMotion::find_rates() {
   State moving = path_;
   system_.set_rates(moving, zero, zero);
   system_.constraint_rates(moving, environment_, velocity, acceleration);
-  r = differences(0, 3 / h, -1.5 / h, 1 / (3 * h));
+  double h = difference_step();
+  r = differences(0, h, 3 / h, -1.5 / h, 1 / (3 * h));
   put_constraints(velocity);
   tangent_.solve(r, solution);
   v_ = solution.head(dofs);
   lambda_rate_ = solution.tail(multipliers);
   system_.set_rates(moving, v_, zero);
   system_.constraint_rates(moving, environment_, velocity, acceleration);
-  r = differences(1, 6 / (h * h), -1.5 / (h * h), 2 / (9 * h * h));
+  h = difference_step();
+  r = differences(1, h, 6 / (h * h), -1.5 / (h * h), 2 / (9 * h * h));
   put_constraints(acceleration);
   tangent_.solve(r, solution);
   a_ = solution.head(dofs);
@@ -167,8 +184,7 @@ void QuasiStaticMotion::take_rates(State& state) {
 
 void QuasiStaticMotion::load_by_inertia(State& state) {
   constexpr int most = 60;
-  constexpr double settled = 1e-9;     // relative to the deformation by inertia
-  constexpr double invisible = 1e-14;  // relative to the extent, and [rad]
+  constexpr double settled = 1e-9;  // [rad], or of the extent: so far inertia forces are not known
   for (int k = 0; k < most; ++k) {
     take_rates(state);
     equilibrium_.push(-inertia_forces(state));
@@ -177,7 +193,7 @@ void QuasiStaticMotion::load_by_inertia(State& state) {
     if (equilibrium_.find(1, next) < 0 && equilibrium_.search(1, next) < 0) throw ComputationError(equilibrium_.why());
     const double change = distance(state, next);
     state = std::move(next);
-    if (k > 0 && change <= invisible + settled * distance(path_, state)) return take_rates(state);
+    if (k > 0 && change <= settled) return take_rates(state);
   }
   throw ComputationError(
       "the deformation under inertia forces does not settle: the motion is too fast for elastic parts that follow in "
@@ -192,7 +208,10 @@ void QuasiStaticMotion::note_left_out(const State& state) {
   const std::size_t n = times_.size();
   if (n < 3) return;
   const double h = times_[n - 1] - times_[n - 2], before = times_[n - 2] - times_[n - 3];
-  if (std::abs(h - before) <= 1e-6 * h) {
+  // Where the law of a drive has a kink, a difference tells of the kink alone.
+  const bool smooth = std::none_of(kinks_.begin(), kinks_.end(),
+                                   [&](double kink) { return kink > times_[n - 3] - h && kink < times_[n - 1] + h; });
+  if (smooth && std::abs(h - before) <= 1e-6 * h) {
     double left_out = 0, motion = 0;
     for (std::size_t i = 0; i < state.nodes.size(); ++i) {
       left_out =

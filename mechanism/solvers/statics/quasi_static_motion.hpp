@@ -5,7 +5,8 @@
 // At each time two equilibria are found. The first, under gravity, loads and the motions of drives alone, F(q, lambda,
 // t) = 0, tells velocities and accelerations: along the path of such equilibria
 //     J [v; lambda'] = -dF/dt,   J [a; lambda''] = -d2F/ds2 (q + v s, lambda + lambda' s, t + s),   J = [K B^T; B 0].
-// Rows of constraints are exact, those of forces differences in s to one side, away from the nearest kink of a law. The
+// Rows of constraints are exact, those of forces differences in s, to one side: where supports move, away from the
+// nearest kink of a law. The
 // second equilibrium has the inertia forces and dampers' forces of these rates as well, and tells deformations,
 // reactions and efforts of drives. Left out are the accelerations of the deformation that inertia itself causes:
 // `left_out` estimates them.
@@ -42,7 +43,8 @@ class QuasiStaticMotion {
   void load_by_inertia(State& state);
   VectorX inertia_forces(const State& state) const;
   VectorX at_rest(double after, double part) const;
-  double difference_step(double rate) const;
+  bool do_supports_move() const;
+  double difference_step() const;
 
   const System& system_;
   Environment environment_, statics_;
@@ -52,6 +54,7 @@ class QuasiStaticMotion {
   MassSaddle saddle_;
   std::vector<double> kinks_;
   double step_;
+  bool supports_move_ = false;
   State path_;                                        ///< equilibrium of what acts at rest
   VectorX v_, a_, lambda_rate_;                       ///< along the path
   double largest_left_out_ = 0, largest_motion_ = 0;  ///< accelerations of nodes so far [m/s^2]
