@@ -102,24 +102,33 @@ bool QuasiStaticMotion::do_supports_move() const {
   return false;
 }
 
-/// A third of the time over which differences look; with supports that move, to the side of the farther kink; negative:
-/// back [s].
-double QuasiStaticMotion::difference_step() const {
-  constexpr double turn = 0.005;  // [rad], or of the extent: differences err by its cube, and rounding by its square
+/// The first derivative of a residual that moves along a part of the path's rates, or the second where the first
+/// vanishes. Where a kink of a support's motion is too near, to the other side of it alone.
+VectorX QuasiStaticMotion::derivative(double part, int order) const {
+  constexpr double turn = 0.005;  // [rad], or of the extent: differences err by its powers, rounding by its square
   const double length = std::max(model_extent(path_), 1e-30);
   double speed = 0;
   for (int i = 0; i < system_.dofs(); ++i)
     speed = std::max(speed, std::abs(v_[i]) / (system_.kind(i) == Kind::translation ? length : 1));
-  const double by_turn = turn / std::max(speed, 1e-300);
-  if (!supports_move_) return std::min(by_turn, 1e3 * step_);
-  const double t = path_.time, infinity = std::numeric_limits<double>::infinity();
-  double before = infinity, behind = infinity;
+  double h = std::min(turn / std::max(speed, 1e-300), supports_move_ ? 0.5 * step_ : 1e3 * step_);
+  double before = std::numeric_limits<double>::infinity(), behind = before;
   for (const double kink : kinks_) {
-    if (kink > t) behind = std::min(behind, kink - t);
-    if (kink < t) before = std::min(before, t - kink);
+    if (!supports_move_) break;
+    if (kink >= path_.time) behind = std::min(behind, kink - path_.time);
+    if (kink <= path_.time) before = std::min(before, path_.time - kink);
   }
-  const double step = std::min({0.5 * step_, by_turn, 0.3 * std::max(behind, before)});
-  return behind >= before ? step : -step;
+  const VectorX r0 = at_rest(0, part);
+  const auto r = [&](int steps) { return VectorX(at_rest(steps * h, part) - r0); };
+  if (std::min(before, behind) >= 2 * h)
+    return order == 1 ? VectorX((8 * (r(1) - r(-1)) - r(2) + r(-2)) / (12 * h))
+                      : VectorX((16 * (r(1) + r(-1)) - r(2) - r(-2)) / (12 * h * h));
+  double after = 0;  // a kink at this time is left behind
+  for (const double kink : kinks_)
+    if (kink > path_.time) after = after == 0 ? kink - path_.time : std::min(after, kink - path_.time);
+  const bool back = after > 0 && after < before;
+  h = back ? -std::min(h, 0.3 * before) : after > 0 ? std::min(h, 0.3 * after) : h;
+  return order == 1 ? VectorX((3 * r(1) - 1.5 * r(2) + r(3) / 3) / h)
+                    : VectorX((6 * r(1) - 1.5 * r(2) + 2.0 / 9 * r(3)) / (h * h));
 }
 
 void QuasiStaticMotion::find_rates() {
@@ -128,11 +137,6 @@ void QuasiStaticMotion::find_rates() {
   supports_move_ = do_supports_move();
   VectorX r(system_.size()), solution(system_.size()), velocity(multipliers), acceleration(multipliers);
   const VectorX zero = VectorX::Zero(dofs);
-  // Of values that vanish at 0: the first derivative from three, and the second where the first vanishes as well.
-  const auto differences = [&](double part, double h, double w1, double w2, double w3) {
-    const VectorX r0 = at_rest(0, part);
-    return VectorX(w1 * (at_rest(h, part) - r0) + w2 * (at_rest(2 * h, part) - r0) + w3 * (at_rest(3 * h, part) - r0));
-  };
   const auto put_constraints = [&](const VectorX& rows) {
     r.tail(multipliers) = rows;
     system_.for_each_idle(path_, [&](int k) { r[system_.size() - multipliers + k] = 0; });
@@ -140,16 +144,14 @@ void QuasiStaticMotion::find_rates() {
   State moving = path_;
   system_.set_rates(moving, zero, zero);
   system_.constraint_rates(moving, environment_, velocity, acceleration);
-  double h = difference_step();
-  r = differences(0, h, 3 / h, -1.5 / h, 1 / (3 * h));
+  r = derivative(0, 1);
   put_constraints(velocity);
   tangent_.solve(r, solution);
   v_ = solution.head(dofs);
   lambda_rate_ = solution.tail(multipliers);
   system_.set_rates(moving, v_, zero);
   system_.constraint_rates(moving, environment_, velocity, acceleration);
-  h = difference_step();
-  r = differences(1, h, 6 / (h * h), -1.5 / (h * h), 2 / (9 * h * h));
+  r = derivative(1, 2);
   put_constraints(acceleration);
   tangent_.solve(r, solution);
   a_ = solution.head(dofs);

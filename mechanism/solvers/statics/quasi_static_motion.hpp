@@ -5,8 +5,7 @@
 // At each time two equilibria are found. The first, under gravity, loads and the motions of drives alone, F(q, lambda,
 // t) = 0, tells velocities and accelerations: along the path of such equilibria
 //     J [v; lambda'] = -dF/dt,   J [a; lambda''] = -d2F/ds2 (q + v s, lambda + lambda' s, t + s),   J = [K B^T; B 0].
-// Rows of constraints are exact, those of forces differences in s, to one side: where supports move, away from the
-// nearest kink of a law. The
+// Rows of constraints are exact, those of forces differences in s. The
 // second equilibrium has the inertia forces and dampers' forces of these rates as well, and tells deformations,
 // reactions and efforts of drives. Left out are the accelerations of the deformation that inertia itself causes:
 // `left_out` estimates them.
@@ -44,7 +43,7 @@ class QuasiStaticMotion {
   VectorX inertia_forces(const State& state) const;
   VectorX at_rest(double after, double part) const;
   bool do_supports_move() const;
-  double difference_step() const;
+  VectorX derivative(double part, int order) const;
 
   const System& system_;
   Environment environment_, statics_;
