@@ -1,4 +1,4 @@
-"""Reads meshes of foreign formats: Abaqus and CalculiX by our own reader, everything else through meshio.
+"""Reads meshes of foreign formats: Abaqus, CalculiX and Nastran by our own readers, everything else through meshio.
 
 Where a format has no named sets, its numbers become names: Nastran properties `property_3`, Medit references `ref_3`,
 integer arrays of VTK files `<array>_3`. MED families give the names of their groups.
@@ -7,19 +7,22 @@ integer arrays of VTK files `<array>_3`. MED families give the names of their gr
 import contextlib
 import io
 import os
-import tempfile
+import re
 
 import numpy as np
 
 from .abaqus_file import read_abaqus
 from .messages import InputError
+from .nastran_cards import read_cards
 from .nastran_file import read_extras
+from .nastran_mesh import read_mesh
 from .solid_mesh import RawMesh
 
 READ_BY_GMSH = (".geo", ".step", ".stp", ".brep", ".iges", ".igs", ".msh", ".unv")
 NASTRAN = (".bdf", ".nas", ".fem")
+MANY_PROGRAMS = (".dat",)
 # Arrays whose integers are references to groups, and the name that goes before the number.
-REFERENCES = {"nastran:ref": "property", "medit:ref": "ref"}
+REFERENCES = {"medit:ref": "ref"}
 MOST_GROUPS = 200  # an integer array with more values numbers things and names no groups
 
 
@@ -32,6 +35,8 @@ def read_foreign(path):
         raise InputError(f"'{path}': {extension} needs no conversion, bielle-reduce reads it")
     if extension == ".inp":
         return read_abaqus(path)
+    if extension in MANY_PROGRAMS:
+        return _nastran_mesh(path) if _is_nastran(path) else read_abaqus(path)
     if extension in NASTRAN:
         return _nastran_mesh(path)
     mesh = _read(path)
@@ -59,28 +64,26 @@ def _read(path, shown=None, file_format=None):
 
 
 def _nastran_mesh(path):
-    """The mesh that meshio reads, with the sets and notes of what it passes over."""
-    with open(path, encoding="utf-8", errors="replace") as file:
-        text = file.read()
-    mesh = _read_nastran(path, text)
-    _check_points(mesh, path)
-    raw = _raw_mesh(mesh)
-    extras = read_extras(text, path)
+    """The mesh with the sets and notes of what is no mesh."""
+    cards = read_cards(path)
+    raw, nodes = read_mesh(cards)
+    if not len(raw.points):
+        raise InputError(f"'{path}' holds no GRID: it is no Nastran bulk data")
+    extras = read_extras(cards, nodes, raw.points)
     raw.point_sets.update(extras.point_sets)
     raw.notes += extras.notes
     return raw
 
 
-def _read_nastran(path, text):
-    """meshio wants the case control section's end, which many programs leave out of mesh files."""
-    lines = text.upper().splitlines()
-    begin = "" if any(line.strip().startswith("BEGIN BULK") for line in lines) else "BEGIN BULK\n"
-    end = "" if any(line.startswith("ENDDATA") for line in lines) else "\nENDDATA\n"
-    with tempfile.TemporaryDirectory() as folder:
-        completed = os.path.join(folder, "mesh.bdf")
-        with open(completed, "w", encoding="utf-8") as file:
-            file.write(begin + text + end)
-        return _read(completed, shown=path, file_format="nastran")
+def _is_nastran(path):
+    """Whether a file of a name that several programs use is Nastran's."""
+    with open(path, encoding="utf-8", errors="replace") as file:
+        for line in file:
+            if re.match(r"\s*(BEGIN\s+BULK|GRID\b|GRID\*|CTETRA|SOL\s+\d|INCLUDE\s)", line, re.IGNORECASE):
+                return True
+            if line.lstrip().startswith("*"):
+                return False
+    return False
 
 
 def _raw_mesh(mesh):

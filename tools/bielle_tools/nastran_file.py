@@ -4,7 +4,6 @@ A superelement has no place for some of it. Nothing of it is passed over in sile
 file, the nodes of RBE2 and RBE3 become sets that an interface can name, everything else is told with its numbers.
 """
 
-import re
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -12,8 +11,9 @@ import numpy as np
 from .messages import InputError, counted
 
 # Cards that hold stiffness, mass or conditions that no tetrahedron has.
-LOST = ("CONM1", "CMASS1", "CMASS2", "CELAS1", "CELAS2", "CBUSH", "CBAR", "CBEAM", "CROD", "RBAR", "RBE1", "MPC", "CGAP", "CWELD",
-        "CFAST", "MAT2", "MAT8", "MAT9")
+LOST = ("CONM1", "CMASS1", "CMASS2", "CMASS3", "CMASS4", "CELAS1", "CELAS2", "CELAS3", "CELAS4", "CBUSH", "CBUSH1D", "CBAR", "CBEAM", "CROD",
+        "CONROD", "CTUBE", "CSHEAR", "CVISC", "CDAMP1", "CDAMP2", "RBAR", "RBE1", "RROD", "RSPLINE", "RTRPLT", "MPC", "CGAP", "CWELD", "CFAST",
+        "MAT2", "MAT3", "MAT8", "MAT9", "MAT9ORT", "MATORT", "GENEL", "DMIG")
 READ = ("GRID", "MAT1", "PSOLID", "CONM2", "RBE2", "RBE3") + LOST
 MOST_NAMED = 8
 
@@ -26,15 +26,16 @@ class Extras:
     notes: list = field(default_factory=list)
 
 
-def read_extras(text, path):
-    """@returns Extras. @raises InputError where a card of those that are read has no number where one belongs."""
+def read_extras(all_cards, nodes, points):
+    """@param nodes: the row of each grid point among the points, by its number. @returns Extras. @raises InputError where a
+    card of those that are read has no number where one belongs."""
     cards = {name: [] for name in READ}
-    for line, fields in _cards(text):
-        if fields[0] in cards:
-            cards[fields[0]].append(_Card(path, line, fields))
-    nodes = {card.integer(1): k for k, card in enumerate(cards["GRID"])}
-    places = {card.integer(1): [card.number(k, 0.0) for k in (3, 4, 5)] for card in cards["GRID"]}
+    for card in all_cards:
+        if card.name in cards:
+            cards[card.name].append(card)
+    places = {number: points[row] for number, row in nodes.items()}
     extras = Extras()
+    _tell_parts(extras, all_cards)
     tied = {}
     for card in cards["RBE2"]:
         members = [card.integer(k) for k in card.filled(4) if card.is_integer(k)]  # a number with a point is ALPHA
@@ -51,6 +52,14 @@ def read_extras(text, path):
         if cards[name]:
             extras.notes.append(f"left out: {counted(len(cards[name]), name)} ({_ids(cards[name])}), which no tetrahedron stands for")
     return extras
+
+
+def _tell_parts(extras, all_cards):
+    for card in all_cards:
+        words = card.name + "".join(card.fields[1:])
+        if card.name.startswith("BEGIN") and ("SUPER" in words or "MODULE" in words):
+            extras.notes.append(f"line {card.line} begins a superelement or module of its own ({' '.join([card.name] + card.fields[1:]).strip()}): "
+                                "its cells are read as part of the one body, not joined by anything but common grid points")
 
 
 def _add_tie(extras, card, tie, reference, members, nodes, places, tied):
@@ -112,66 +121,3 @@ def _tell_masses(extras, cards, places, tied):
 
 def _ids(cards):
     return ", ".join(card.fields[1] for card in cards[:MOST_NAMED]) + (" ..." if len(cards) > MOST_NAMED else "")
-
-
-class _Card:
-    def __init__(self, path, line, fields):
-        self.path, self.line, self.fields, self.name = path, line, fields, fields[0]
-
-    def filled(self, first):
-        return [k for k in range(first, len(self.fields)) if self.fields[k]]
-
-    def is_integer(self, k):
-        return re.fullmatch(r"[+-]?\d+", self.fields[k]) is not None
-
-    def integer(self, k):
-        if k < len(self.fields) and self.is_integer(k):
-            return int(self.fields[k])
-        self.fail(k, "an integer")
-
-    def number(self, k, default):
-        if k >= len(self.fields) or not self.fields[k]:
-            return default
-        text = re.sub(r"(?<=[\d.])([+-]\d+)$", r"e\1", self.fields[k].replace("D", "E"))  # 7.85-9 is 7.85e-9
-        try:
-            return float(text)
-        except ValueError:
-            self.fail(k, "a number")
-
-    def fail(self, k, expected):
-        found = f"'{self.fields[k]}'" if k < len(self.fields) else "nothing"
-        raise InputError(f"'{self.path}': line {self.line}: {self.name}: expected {expected} in field {k + 1}, found {found}")
-
-
-def _cards(text):
-    """Line number and fields of each card, continuations joined: field 0 is the name."""
-    line_of, fields = 0, None
-    for number, line in enumerate(text.upper().splitlines(), start=1):
-        line = line.split("$")[0].rstrip()
-        if not line:
-            continue
-        more, name = _split(line)
-        if name and not name.startswith(("+", "*")):
-            if fields:
-                yield line_of, fields
-            line_of, fields = number, [name] + more
-        elif fields:
-            fields += more
-    if fields:
-        yield line_of, fields
-
-
-def _split(line):
-    """The fields of one line after the first, always as many as its form has, and the first."""
-    if "," in line:
-        parts = [part.strip() for part in line.split(",")]
-        wide = parts[0].endswith("*")
-        count = 4 if wide else 8
-        fields = (parts[1:] + [""] * count)[:count]
-    else:
-        line = line.expandtabs(8)
-        wide = "*" in line[:8]
-        width, count = (16, 4) if wide else (8, 8)
-        fields = [line[8 + k * width:8 + (k + 1) * width].strip() for k in range(count)]
-    name = (line.split(",")[0] if "," in line else line[:8]).strip()
-    return fields, (name.rstrip("*") if name != "*" else name)

@@ -1,0 +1,109 @@
+"""Cards of a Nastran bulk data section: small, large and free field, continuations, INCLUDE.
+
+Fields are upper case; 0 is the name without the star of a large field. (MSC Nastran Quick Reference Guide, "Format of
+Bulk Data Entries".)
+"""
+
+import os
+import re
+
+from .messages import InputError
+
+DEEPEST = 20  # files that include each other
+
+
+class Card:
+    def __init__(self, path, line, fields):
+        self.path, self.line, self.fields, self.name = path, line, fields, fields[0]
+
+    def filled(self, first):
+        return [k for k in range(first, len(self.fields)) if self.fields[k]]
+
+    def is_integer(self, k):
+        return k < len(self.fields) and re.fullmatch(r"[+-]?\d+", self.fields[k]) is not None
+
+    def integer(self, k, default=None):
+        if default is not None and (k >= len(self.fields) or not self.fields[k]):
+            return default
+        if self.is_integer(k):
+            return int(self.fields[k])
+        self.fail(k, "an integer")
+
+    def number(self, k, default):
+        if k >= len(self.fields) or not self.fields[k]:
+            return default
+        text = re.sub(r"(?<=[\d.])([+-]\d+)$", r"e\1", self.fields[k].replace("D", "E"))  # 7.85-9 is 7.85e-9
+        try:
+            return float(text)
+        except ValueError:
+            self.fail(k, "a number")
+
+    def fail(self, k, expected):
+        found = f"'{self.fields[k]}'" if k < len(self.fields) and self.fields[k] else "nothing"
+        raise InputError(f"'{self.path}': line {self.line}: {self.name}: expected {expected} in field {k + 1}, found {found}")
+
+
+def read_cards(path):
+    """@returns list of Card, those of included files in their place. @raises InputError with file and line."""
+    cards, open_card = [], None
+    for place, number, line in _bulk_lines(path):
+        more, name = _split(line)
+        if name and not name.startswith(("+", "*")):
+            open_card = Card(place, number, [name] + more)
+            cards.append(open_card)
+        elif open_card:
+            open_card.fields += more
+    return cards
+
+
+def _bulk_lines(path):
+    lines = list(_lines(path, 0))
+    begin = next((k for k, (_, _, text) in enumerate(lines) if re.match(r"BEGIN\s+BULK", text)), -1)
+    for place, number, text in lines[begin + 1:]:
+        if text.startswith("ENDDATA"):
+            return
+        yield place, number, text
+
+
+def _lines(path, depth):
+    """Upper case, without comments, empty ones left out; file and line number of each."""
+    if depth > DEEPEST:
+        raise InputError(f"'{path}' is included by itself")
+    try:
+        with open(path, encoding="utf-8", errors="replace") as file:
+            lines = file.read().splitlines()
+    except OSError as error:
+        raise InputError(f"cannot read '{path}': {error.strerror}") from None
+    k = 0
+    while k < len(lines):
+        number, line = k + 1, lines[k].split("$")[0].rstrip()
+        k += 1
+        if re.match(r"\s*INCLUDE\b", line, re.IGNORECASE):
+            while line.count("'") == 1 and k < len(lines):  # a name in quotes may go on
+                line += lines[k].strip()
+                k += 1
+            name = line.split(None, 1)[1].strip().strip("'\"") if len(line.split(None, 1)) > 1 else ""
+            included = os.path.join(os.path.dirname(path), name)
+            if not name or not os.path.isfile(included):
+                raise InputError(f"'{path}': line {number}: INCLUDE '{name}': there is no such file"
+                                 f" in '{os.path.dirname(os.path.abspath(path))}'")
+            yield from _lines(included, depth + 1)
+        elif line:
+            yield path, number, line.upper()
+
+
+def _split(line):
+    """The fields of one line after the first, always as many as its form has, and the first."""
+    if "," in line:
+        parts = [part.strip() for part in line.split(",")]
+        name = parts[0]
+        wide = name.endswith("*") or name.startswith("*")
+        count = 4 if wide else 8
+        fields = (parts[1:] + [""] * count)[:count]
+    else:
+        line = line.expandtabs(8)
+        name = line[:8].strip()
+        wide = "*" in name
+        width, count = (16, 4) if wide else (8, 8)
+        fields = [line[8 + k * width:8 + (k + 1) * width].strip() for k in range(count)]
+    return fields, (name.rstrip("*") if name != "*" else name)
