@@ -18,6 +18,7 @@
 #include "reduce/mesh/length_unit.hpp"
 #include "reduce/mesh/place.hpp"
 #include "reduce/mesh/signature.hpp"
+#include "reduce/mesh/universal_file.hpp"
 
 namespace bielle::reduce {
 
@@ -48,26 +49,24 @@ std::string ending_of(const std::string& path) {
   return ending;
 }
 
-std::string trimmed(const std::string& line) {
-  const auto first = line.find_first_not_of(" \t\r"), last = line.find_last_not_of(" \t\r");
-  return first == std::string::npos ? "" : line.substr(first, last - first + 1);
-}
-
-// gmsh 4.8 reads the groups of universal files from the older datasets 2435, 2452 and 2477, but passes over 2467, whose
-// records are those of 2477: a copy under that number keeps them. Returns false, and the copy is of no use, when there
-// is nothing to renumber.
-bool renumber_groups(const std::string& source, const std::string& target) {
-  std::ifstream in(source);
-  std::ofstream out(target);
-  bool found = false;
-  std::string before;
-  for (std::string line; std::getline(in, line); before = line) {
-    const bool groups = trimmed(before) == "-1" && trimmed(line) == "2467";  // -1 begins and ends each dataset
-    found = found || groups;
-    out << (groups ? "  2477" : line) << '\n';
+// Of a universal file, which may tell its unit: Salome writes metres whatever the mesh was drawn in, so that what the
+// user says counts more.
+void settle_universal_unit(const MeshRequest& request, double said, SourceFile& source, Progress& progress) {
+  const std::optional<double> told = universal_length_unit(request.path);
+  source.metres = request.length_unit ? said : told.value_or(1);
+  if (!told) {
+    source.unit_note = request.length_unit ? fmt::format("read in {} as length_unit says", *request.length_unit)
+                                           : "it carries no unit: read in m (length_unit changes that)";
+  } else if (!request.length_unit) {
+    source.unit_note = fmt::format("its dataset 164 says that its unit is {}", unit_name(*told));
+  } else {
+    source.unit_note = fmt::format("read in {} as length_unit says", *request.length_unit);
+    if (std::abs(*told - said) > 1e-6 * said)
+      progress.warn(
+          at_place(request.length_unit_located,
+                   fmt::format("'{}' contradicts the dataset 164 of '{}', by which its unit is {}; read in {}",
+                               *request.length_unit, request.path, unit_name(*told), *request.length_unit)));
   }
-  if (!out.flush()) throw ComputationError(fmt::format("'{}' cannot be written: is the disk full?", target));
-  return found;
 }
 
 // Metres per unit of a geometry that carries none; for one that carries its own, a warning when the user says
@@ -75,6 +74,7 @@ bool renumber_groups(const std::string& source, const std::string& target) {
 void settle_unit(const MeshRequest& request, const std::string& ending, SourceFile& source, Progress& progress) {
   const double said =
       request.length_unit ? placed(request.length_unit_located, [&] { return metres_per(*request.length_unit); }) : 1.0;
+  if (ending == ".unv") return settle_universal_unit(request, said, source, progress);
   if (!source.carries_unit) {
     source.metres = said;
     source.unit_note = request.length_unit ? fmt::format("read in {} as length_unit says", *request.length_unit)
@@ -110,7 +110,9 @@ SourceFile prepare_source(const MeshRequest& request, Progress& progress) {
   if (ending == ".unv") {
     source.folder = std::make_unique<ScratchFolder>();
     const std::string copy = (source.folder->path() / "mesh.unv").string();
-    if (renumber_groups(request.path, copy)) source.path = copy;
+    placed(request.located, [&] {
+      if (adapt_universal_file(request.path, copy)) source.path = copy;
+    });
   }
   return source;
 }

@@ -2,8 +2,10 @@
 
 meshio reads .inp too, but drops *SURFACE, stops at the triangles CPS6 that gmsh writes, and assigns element sets to the
 wrong blocks when several *ELEMENT blocks have none or share one. This reader knows
-    *NODE, *ELEMENT, *NSET, *ELSET (GENERATE, sets of sets), *SURFACE (TYPE=ELEMENT, NODE), *INCLUDE, and one *PART
-and passes over every other keyword. Labels are compared without regard to case, as Abaqus does.
+    *NODE, *ELEMENT (INPUT), *SYSTEM, *NSET, *ELSET (GENERATE, sets of sets), *SURFACE (TYPE=ELEMENT, NODE), *INCLUDE, and
+    one *PART, or one *INSTANCE that holds a mesh,
+refuses what generates or moves nodes and elements, and tells what a superelement has no place for (abaqus_extras). Labels
+are compared without regard to case, as Abaqus does.
 Faces of tetrahedra: S1 = nodes 1 2 3, S2 = 1 4 2, S3 = 2 4 3, S4 = 3 4 1 (CalculiX manual, "Four-node tetrahedral").
 """
 
@@ -12,6 +14,7 @@ import re
 
 import numpy as np
 
+from .abaqus_extras import Extras
 from .messages import InputError, counted
 from .solid_mesh import RawMesh
 
@@ -24,6 +27,8 @@ FAMILIES = [
     (r"(MASS|ROTARYI|SPRING[12A]|DASHPOT[12A]|DCOUP3D|CONN3D2|GAPUNI|B[23][123]|T[23]D[23]|FRAME3D)[A-Z]*", None, None),
 ]
 FACES = {"S1": (0, 1, 2), "S2": (0, 3, 1), "S3": (1, 3, 2), "S4": (2, 3, 0)}
+# Keywords that make or move nodes and elements, which this reader does not do.
+GENERATING = ("NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYMMETRIC MODEL GENERATION", "MODEL CHANGE", "TRANSFORM COORDINATES")
 CELL_SIDES = ("SPOS", "SNEG", "")  # both sides of a shell or membrane element
 
 
@@ -43,8 +48,11 @@ class _Reader:
         self.surfaces = {}  # upper-case name -> (name, kind, entries, where)
         self.skipped = {}  # element type -> count
         self.parts = 0
-        self.in_assembly = False
+        self.in_assembly = self.in_instance = False
+        self.instance = self.meshed_instance = None  # names of the one in hand, and of the one that holds the mesh
+        self.system = None  # origin and axes (columns) that *NODE is given in
         self.notes = []
+        self.extras = Extras()
 
     # ---- reading ------------------------------------------------------------------------------------------------
     def read(self, path):
@@ -79,42 +87,75 @@ class _Reader:
             options[key.strip().upper()] = value.strip().strip('"')
         try:
             if keyword == "NODE":
-                self._nodes(where, options, rows)
+                self._nodes(where, options, self._rows(path, where, options, rows))
             elif keyword == "ELEMENT":
-                self._elements(where, options, rows)
+                self._elements(where, options, self._rows(path, where, options, rows))
             elif keyword in ("NSET", "ELSET"):
                 self._set(where, keyword, options, rows)
             elif keyword == "SURFACE":
                 self._surface(where, options, rows)
             elif keyword == "INCLUDE":
                 self.read(os.path.join(os.path.dirname(path), options.get("INPUT", "")))
-            elif keyword in ("PART", "ASSEMBLY", "END ASSEMBLY", "INSTANCE"):
-                self._structure(where, keyword, rows)
+            elif keyword == "SYSTEM":
+                self.system = _system(where, rows)
+            elif keyword in ("PART", "ASSEMBLY", "END ASSEMBLY", "INSTANCE", "END INSTANCE"):
+                self._structure(where, keyword, options, rows)
+            elif keyword in GENERATING:
+                raise InputError(f"{where}: *{keyword} makes or moves nodes or elements, which Bielle does not do: write the mesh out in full "
+                                 "(a preprocessor that reads the file exports it so)")
+            else:
+                self.extras.keyword(keyword, options, rows)
         except ValueError as error:
             raise InputError(f"{where}: *{keyword}: {error}") from None
 
-    def _structure(self, where, keyword, rows):
-        self.in_assembly = keyword in ("ASSEMBLY", "INSTANCE")
+    def _structure(self, where, keyword, options, rows):
+        self.in_assembly = keyword in ("ASSEMBLY", "INSTANCE", "END INSTANCE")
+        self.in_instance = keyword == "INSTANCE"
         if keyword == "PART":
             self.parts += 1
-        if self.parts > 1 and keyword == "PART":
-            raise InputError(f"{where}: the file holds several parts; Bielle reduces one body at a time: export one part")
-        if keyword == "INSTANCE" and rows:
-            raise InputError(f"{where}: the instance is moved or turned; export the part where it was meshed")
+            if self.points:
+                raise InputError(f"{where}: the file holds several parts; Bielle reduces one body at a time: export one part")
+        if keyword == "INSTANCE":
+            if rows:
+                raise InputError(f"{where}: the instance is moved or turned; export the part where it was meshed")
+            self.instance = options.get("NAME", "?")
+            self.extras.instance(options.get("PART", ""), options.get("NAME", ""))
+
+    def _rows(self, path, where, options, rows):
+        """Data lines with those of the file that INPUT names."""
+        if "INPUT" not in options:
+            return rows
+        name = os.path.join(os.path.dirname(path), options["INPUT"])
+        try:
+            with open(name, encoding="utf-8", errors="replace") as file:
+                lines = [line.strip() for line in file]
+        except OSError as error:
+            raise InputError(f"{where}: cannot read '{name}': {error.strerror}") from None
+        return rows + [line for line in lines if line and not line.startswith("*")]
 
     def _nodes(self, where, options, rows):
         if options.get("SYSTEM", "R").upper() != "R":
             raise InputError(f"{where}: nodes in cylindrical or spherical coordinates; write them in Cartesian ones")
-        if self.in_assembly:
+        if self.in_assembly and not self.in_instance:
             self.notes.append(f"{len(rows)} reference points of the assembly are left out")
             return
+        if self.in_instance:
+            if self.points and self.meshed_instance != self.instance:
+                raise InputError(f"{where}: the instance '{self.instance}' holds a mesh as well as what stands before it; Bielle reduces one "
+                                 "body at a time: export one instance")
+            self.meshed_instance = self.instance
         labels = []
         for row in rows:
             values = [word for word in row.split(",")]
             label = int(values[0])
             xyz = [float(re.sub("[dD]", "e", word)) if word.strip() else 0.0 for word in values[1:4]]
+            xyz += [0.0] * (3 - len(xyz))
+            if self.system:
+                xyz = (self.system[0] + self.system[1] @ np.array(xyz)).tolist()
+            if label in self.numbers and self.points[self.numbers[label]] != xyz:
+                raise InputError(f"{where}: there is a second node {label}, in another place")
             self.numbers[label] = len(self.points)
-            self.points.append(xyz + [0.0] * (3 - len(xyz)))
+            self.points.append(xyz)
             labels.append(label)
         if "NSET" in options:
             self._extend("NSET", options["NSET"], labels)
@@ -189,6 +230,7 @@ class _Reader:
             for row, label in enumerate(labels.tolist()):
                 self.cell_place[label] = (block, row)
         mesh = RawMesh(np.array(self.points), self.cells, notes=self.notes)
+        mesh.notes += self.extras.notes()
         for count, kind in ((count, kind) for kind, count in self.skipped.items()):
             mesh.notes.append(f"left out: {counted(count, 'element')} of type {kind}, which has neither volume nor surface")
         for key, (name, _) in self.sets["ELSET"].items():
@@ -260,3 +302,29 @@ class _Reader:
                                      "tetrahedra have sides S1 to S4")
         if faces:
             mesh.face_sets[name] = np.array(faces)
+
+
+def _system(where, rows):
+    """Origin a and axes of *SYSTEM: b on the first axis, c in the plane of the first two; None where it ends one.
+    (Abaqus Keywords Guide, "*SYSTEM".)"""
+    words = [word.strip() for row in rows for word in row.rstrip(",").split(",")]
+    values = [float(word) if word else 0.0 for word in words]
+    if not values:
+        return None
+    values += [0.0] * (-len(values) % 3)
+    points = np.array(values).reshape(-1, 3)
+    if len(points) > 3:
+        raise ValueError(f"expected three points at most, found {counted(len(values), 'number')}")
+    if len(points) == 1:
+        return points[0], np.eye(3)
+    x = points[1] - points[0]
+    if len(points) == 2:
+        if x[2] != 0:
+            raise ValueError("without a third point the first axis must stand in the plane of x and y")
+        z = np.array([0.0, 0.0, 1.0])
+    else:
+        z = np.cross(x, points[2] - points[0])
+    if np.linalg.norm(x) == 0 or np.linalg.norm(z) <= 1e-12 * np.linalg.norm(x) * max(np.linalg.norm(points[-1] - points[0]), 1e-300):
+        raise InputError(f"{where}: *SYSTEM: the points stand in one line")
+    x, z = x / np.linalg.norm(x), z / np.linalg.norm(z)
+    return points[0], np.column_stack([x, np.cross(z, x), z])

@@ -1,0 +1,159 @@
+#include "reduce/mesh/universal_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <vector>
+
+#include <Eigen/Core>
+#include <fmt/format.h>
+
+#include "reduce/common/error.hpp"
+
+namespace bielle::reduce {
+
+namespace {
+
+constexpr int units = 164, nodes = 2411, systems = 2420, groups = 2467, groups_of_gmsh = 2477;
+
+/// Reads a file line by line, and knows in which dataset it is.
+class Datasets {
+ public:
+  explicit Datasets(const std::string& path) : path_(path), in_(path) {}
+  bool next(std::string& line) {
+    if (!std::getline(in_, line)) return false;
+    ++number_;
+    const auto first = line.find_first_not_of(" \t\r"), last = line.find_last_not_of(" \t\r");
+    const std::string text = first == std::string::npos ? "" : line.substr(first, last - first + 1);
+    if (text == "-1") {
+      inside_ = !inside_;
+      begins_ = inside_;
+      dataset_ = 0;
+      record_ = -3;
+    } else if (begins_) {
+      begins_ = false;
+      dataset_ = std::atoi(text.c_str());
+    }
+    ++record_;
+    return true;
+  }
+  int dataset() const { return dataset_; }  ///< 0 between datasets
+  int record() const { return record_; }    ///< of the dataset, from 0 on; -1: its number; less: no dataset
+  /// Numbers of a line; Fortran's exponent D is read. @throws InputError where one is none or missing
+  template <class Number>
+  std::vector<Number> numbers(const std::string& line, std::size_t count) const {
+    std::string text = line;
+    std::replace(text.begin(), text.end(), 'D', 'E');
+    std::istringstream in(text);
+    std::vector<Number> result(count);
+    for (Number& each : result)
+      if (!(in >> each))
+        throw InputError(fmt::format("'{}': line {}: expected {} numbers in dataset {}, found '{}'", path_, number_,
+                                     count, dataset_, line));
+    return result;
+  }
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(fmt::format("'{}': line {}: {}", path_, number_, what));
+  }
+
+ private:
+  std::string path_;
+  std::ifstream in_;
+  long number_ = 0;
+  bool inside_ = false, begins_ = false;
+  int dataset_ = 0, record_ = -3;
+};
+
+struct System {
+  int kind = 0;                                        ///< 0: Cartesian, 1: cylindrical, 2: spherical
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< in rows, global components
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  bool global() const { return kind == 0 && axes.isIdentity(0) && origin.isZero(0); }
+  /// Angles are in degrees: r, theta, z, or r, the angle from z, that about z.
+  Eigen::Vector3d place(const std::vector<double>& given) const {
+    const double degree = std::acos(-1.0) / 180;
+    Eigen::Vector3d x(given[0], given[1], given[2]);
+    if (kind == 1) x << given[0] * std::cos(given[1] * degree), given[0] * std::sin(given[1] * degree), given[2];
+    if (kind == 2)
+      x << given[0] * std::sin(given[1] * degree) * std::cos(given[2] * degree),
+          given[0] * std::sin(given[1] * degree) * std::sin(given[2] * degree), given[0] * std::cos(given[1] * degree);
+    return origin + axes.transpose() * x;
+  }
+};
+
+/// Dataset 2420: two lines of the part, then six lines of each system: label, kind and colour; name; three axes;
+/// origin.
+std::map<int, System> read_systems(const std::string& path) {
+  std::map<int, System> result;
+  Datasets file(path);
+  System* system = nullptr;
+  for (std::string line; file.next(line);) {
+    if (file.dataset() != systems || file.record() < 2) continue;
+    const int row = (file.record() - 2) % 6;
+    if (row == 0) {
+      const std::vector<int> head = file.numbers<int>(line, 2);
+      system = &result[head[0]];
+      system->kind = head[1];
+      if (head[1] < 0 || head[1] > 2)
+        file.fail(
+            fmt::format("coordinate system {} of kind {}: 0 (Cartesian), 1 (cylindrical) and 2 (spherical) are read",
+                        head[0], head[1]));
+    } else if (row >= 2) {
+      const std::vector<double> x = file.numbers<double>(line, 3);
+      const Eigen::Vector3d vector(x[0], x[1], x[2]);
+      if (row == 5)
+        system->origin = vector;
+      else
+        system->axes.row(row - 2) = vector;
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+std::optional<double> universal_length_unit(const std::string& path) {
+  Datasets file(path);
+  for (std::string line; file.next(line);)
+    if (file.dataset() == units && file.record() == 1) {
+      const double factor = file.numbers<double>(line, 1)[0];  // units of the file in a metre
+      if (!(factor > 0) || !std::isfinite(factor)) file.fail(fmt::format("a factor of lengths of {}", factor));
+      return 1 / factor;
+    }
+  return std::nullopt;
+}
+
+bool adapt_universal_file(const std::string& source, const std::string& target) {
+  const std::map<int, System> known = read_systems(source);
+  Datasets file(source);
+  std::ofstream out(target);
+  bool changed = false;
+  const System* system = nullptr;  // of the node whose coordinates come next
+  for (std::string line; file.next(line); out << line << '\n') {
+    if (file.dataset() == groups && file.record() == -1) {
+      line = fmt::format("{:6d}", groups_of_gmsh);  // its records are the same
+      changed = true;
+    }
+    if (file.dataset() != nodes || file.record() < 0) continue;
+    if (file.record() % 2 == 0) {
+      const std::vector<int> head = file.numbers<int>(line, 2);
+      const auto found = known.find(head[1]);
+      // Files without dataset 2420 number the global system 0 or 1.
+      if (found == known.end() && !known.empty() && head[1] > 1)
+        file.fail(fmt::format("node {} stands in the coordinate system {}, which dataset 2420 does not hold", head[0],
+                              head[1]));
+      system = found == known.end() || found->second.global() ? nullptr : &found->second;
+    } else if (system) {
+      const Eigen::Vector3d x = system->place(file.numbers<double>(line, 3));
+      line = fmt::format("{:25.16E}{:25.16E}{:25.16E}", x[0], x[1], x[2]);
+      changed = true;
+    }
+  }
+  if (!out.flush()) throw ComputationError(fmt::format("'{}' cannot be written: is the disk full?", target));
+  return changed;
+}
+
+}  // namespace bielle::reduce

@@ -1,0 +1,82 @@
+"""What an Abaqus or CalculiX file holds besides its mesh, in sentences for the user.
+
+A superelement takes its materials and interfaces from the body file. Nothing of the input is passed over in silence:
+materials are told as lines of a body file, ties and couplings as interfaces to define, masses and orientations as left out.
+"""
+
+from .messages import InputError, counted
+
+# Keywords of constraints and of what adds stiffness or mass, and the words to tell them by.
+TOLD = {
+    "RIGID BODY": "an interface with `tie: rigid` stands for it", "COUPLING": "an interface stands for it: `tie: rigid` for *KINEMATIC, "
+    "`tie: average` for *DISTRIBUTING", "DISTRIBUTING COUPLING": "an interface with `tie: average` stands for it",
+    "KINEMATIC COUPLING": "an interface with `tie: rigid` stands for it", "MPC": "the nodes stay apart", "EQUATION": "the nodes stay apart",
+    "TIE": "the surfaces stay apart: mesh the parts with common nodes", "EMBEDDED ELEMENT": "the elements stay apart",
+    "SHELL TO SOLID COUPLING": "the surfaces stay apart", "CONTACT PAIR": "the surfaces stay apart", "PRE-TENSION SECTION": "there is no tension",
+    "MASS": "give the mechanism a point mass there", "ROTARY INERTIA": "give the mechanism a rigid body there",
+    "NONSTRUCTURAL MASS": "raise the density", "SPRING": "give the mechanism a spring there", "DASHPOT": "give the mechanism a damper there",
+    "SHELL SECTION": "shells are surfaces without stiffness here", "MEMBRANE SECTION": "membranes are surfaces without stiffness here",
+    "BEAM SECTION": "beams are left out", "ORIENTATION": "materials have no directions here: only isotropic ones are right",
+    "TRANSFORM": "results have the axes of the mesh", "INITIAL CONDITIONS": "the body is free of stress", "DISTRIBUTION": "nothing varies",
+}
+MATERIAL = ("ELASTIC", "DENSITY", "PLASTIC", "HYPERELASTIC", "EXPANSION", "DAMPING", "USER MATERIAL")
+
+
+class Extras:
+    def __init__(self):
+        self.told = {}       # keyword -> count
+        self.materials = {}  # name -> lines of properties
+        self.sections = []   # (set, material, oriented)
+        self.instances = {}  # part -> names
+        self.material = None
+
+    def keyword(self, keyword, options, rows):
+        if keyword == "MATERIAL":
+            self.material = options.get("NAME", "?")
+            self.materials.setdefault(self.material, {})
+        elif keyword in MATERIAL and self.material is not None:
+            self.materials[self.material][keyword] = (options, rows)
+        elif keyword == "SOLID SECTION":
+            self.sections.append((options.get("ELSET", "?"), options.get("MATERIAL", "?"), "ORIENTATION" in options))
+        elif keyword in TOLD:
+            self.told[keyword] = self.told.get(keyword, 0) + 1
+
+    def instance(self, part, name):
+        self.instances.setdefault(part.upper(), []).append(name)
+
+    def notes(self):
+        notes = [f"left out: {counted(count, '*' + keyword, '*' + keyword)}: {TOLD[keyword]}" for keyword, count in self.told.items()]
+        for part, names in self.instances.items():
+            if len(names) > 1:
+                notes.append(f"the part '{part}' stands in {len(names)} instances ({', '.join(names)}): it is read once, as one body")
+        users = {}
+        for region, material, oriented in self.sections:
+            users.setdefault(material.upper(), []).append(region + (" (with an orientation, which is left out)" if oriented else ""))
+        for name, properties in self.materials.items():
+            regions = ", ".join(users.get(name.upper(), [])) or "no section"
+            notes.append(f"material '{name}' of {regions} is, in the file's units (the body file wants SI), {name.lower()}: {_properties(properties)}")
+        if len(users) > 1:
+            notes.append("several materials: name them for their regions in the body file: "
+                         + ", ".join(f"{region}: {material.lower()}" for region, material, _ in self.sections))
+        return notes
+
+
+def _properties(properties):
+    values, rest = [], []
+    for keyword, (options, rows) in properties.items():
+        numbers = [word.strip() for row in rows for word in row.split(",") if word.strip()]
+        kind = options.get("TYPE", "ISOTROPIC").upper()
+        if keyword == "ELASTIC" and kind in ("ISOTROPIC", "ISO"):
+            values += [f"{key}: {_number(word)}" for key, word in zip(("young", "poisson"), numbers)]
+        elif keyword == "DENSITY" and numbers:
+            values.append(f"density: {_number(numbers[0])}")
+        else:
+            rest.append(f"*{keyword}" + (f", TYPE={kind}" if "TYPE" in options else ""))
+    return "{" + ", ".join(values) + "}" + (f"; left out: {', '.join(rest)}, as materials are isotropic and linear" if rest else "")
+
+
+def _number(word):
+    try:
+        return f"{float(word.upper().replace('D', 'E')):g}"
+    except ValueError:
+        raise InputError(f"a material has '{word}' where a number belongs") from None
