@@ -113,7 +113,7 @@ class _Reader:
         self.in_instance = keyword == "INSTANCE"
         if keyword == "PART":
             self.parts += 1
-            if self.points:
+            if self.parts > 1:
                 raise InputError(f"{where}: the file holds several parts; Bielle reduces one body at a time: export one part")
         if keyword == "INSTANCE":
             if rows:

@@ -106,4 +106,4 @@ def _split(line):
         wide = "*" in name
         width, count = (16, 4) if wide else (8, 8)
         fields = [line[8 + k * width:8 + (k + 1) * width].strip() for k in range(count)]
-    return fields, (name.rstrip("*") if name != "*" else name)
+    return fields, (name.rstrip("*_") if name != "*" else name)  # meshio writes CTETRA_

@@ -4,16 +4,23 @@ A superelement has no place for some of it. Nothing of it is passed over in sile
 file, the nodes of RBE2 and RBE3 become sets that an interface can name, everything else is told with its numbers.
 """
 
+from collections import Counter
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from .messages import InputError, counted
+from .nastran_mesh import CELLS
 
 # Cards that hold stiffness, mass or conditions that no tetrahedron has.
 LOST = ("CONM1", "CMASS1", "CMASS2", "CMASS3", "CMASS4", "CELAS1", "CELAS2", "CELAS3", "CELAS4", "CBUSH", "CBUSH1D", "CBAR", "CBEAM", "CROD",
         "CONROD", "CTUBE", "CSHEAR", "CVISC", "CDAMP1", "CDAMP2", "RBAR", "RBE1", "RROD", "RSPLINE", "RTRPLT", "MPC", "CGAP", "CWELD", "CFAST",
         "MAT2", "MAT3", "MAT8", "MAT9", "MAT9ORT", "MATORT", "GENEL", "DMIG")
+# Cards of loads, supports, solutions and outputs, which a body does not have.
+OF_ANALYSES = ("PARAM", "SPC", "SPC1", "SPCD", "SPCADD", "SUPORT", "LOAD", "FORCE", "MOMENT", "PLOAD", "PLOAD2", "PLOAD4", "GRAV", "RFORCE",
+               "TEMP", "TEMPD", "EIGR", "EIGRL", "EIGC", "SET", "SET1", "SET3", "ASET", "ASET1", "DMI", "FREQ", "FREQ1", "TABLED1", "CORD1R", "CORD1C",
+               "CORD1S", "CORD2R", "CORD2C", "CORD2S", "GRDSET", "PSHELL", "PELAS", "PBUSH", "PBAR", "PBARL", "PBEAM", "PBEAML", "PROD", "SPOINT",
+               "MDLPRM", "DOMAINS", "BSURF", "BCPROP")
 READ = ("GRID", "MAT1", "PSOLID", "CONM2", "RBE2", "RBE3") + LOST
 MOST_NAMED = 8
 
@@ -55,6 +62,14 @@ def read_extras(all_cards, nodes, points):
 
 
 def _tell_parts(extras, all_cards):
+    skins = [card for card in all_cards if card.name == "PSHELL"]
+    if skins:
+        extras.notes.append(f"left out: the stiffness and mass of shells (PSHELL {_ids(skins)}): their triangles are surfaces")
+    known = set(READ + OF_ANALYSES) | set(CELLS)
+    unknown = Counter(card.name for card in all_cards if card.name not in known and not card.name.startswith("BEGIN"))
+    if unknown:
+        extras.notes.append("not read: " + ", ".join(f"{count} {name}" for name, count in unknown.most_common(MOST_NAMED))
+                            + (" ..." if len(unknown) > MOST_NAMED else ""))
     for card in all_cards:
         words = card.name + "".join(card.fields[1:])
         if card.name.startswith("BEGIN") and ("SUPER" in words or "MODULE" in words):
