@@ -83,7 +83,7 @@ TEST_CASE("the unit of a universal file counts unless the body file says another
   CHECK(universal_length_unit(path) == Approx(1e-3).epsilon(1e-15));
   CHECK(mesh_volume(import(request(path))) == Approx(a * b * c / 6 * 1e-9).epsilon(1e-12));
   MeshRequest in_metres = request(path);
-  in_metres.length_unit = "m";
+  in_metres.length_unit.emplace("m");
   CHECK(mesh_volume(import(in_metres)) == Approx(a * b * c / 6).epsilon(1e-12));
   const std::string none = folder.file("none.unv", tetrahedron("", 0, own, cartesian));
   CHECK_FALSE(universal_length_unit(none));
