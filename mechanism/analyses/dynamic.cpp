@@ -112,10 +112,14 @@ std::string format_events(const Motion& motion) {
                      motion.stopped_by_event() ? ", which stopped the run" : "");
 }
 
+/// What goes in and is dissipated in the same step cancels, and leaves no error: where more flows through in a step
+/// than is stored, a part of it will do as measure.
+constexpr double part_of_turnover = 0.1;
+
 /// What the balance lacks, relative to the largest energy, stored or flowed through. Negative: energy is missing.
 struct Gap {
   double whole, scheme;  ///< of it what the scheme's own damping has taken
-  double turnover;       ///< largest error in a stretch that turns the stored energy over, relative to what it moves
+  double turnover;       ///< largest error while the stored energy is turned over once, by what is stored then
   double errors() const { return whole - scheme; }
 };
 
@@ -160,8 +164,8 @@ std::string format_energy(const Session& session, const Motion& motion, const Dy
   const double largest = std::max(stored, through);
   const std::string text = format_energies(energy);
   if (!(largest > energy_noise(session))) return text + "  nothing moved\n";
-  const Gap gap{balance / largest, -motion.scheme_loss() / largest,
-                books.largest_error() / std::max(stored, books.largest_turnover())};
+  const Gap gap{balance / largest, 0 - motion.scheme_loss() / largest,
+                books.largest_error() / std::max(stored, part_of_turnover * books.largest_turnover())};
   return text +
          fmt::format("  balance {:.3g} J, {:.2g} of {} ({})\n", balance, gap.whole,
                      through > stored ? "what flowed through" : "the largest energy",

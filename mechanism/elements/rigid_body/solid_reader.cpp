@@ -118,7 +118,7 @@ void check_empty_cuts(const YamlValue& value, const std::vector<PlacedSpace>& so
     const YamlValue cut = value.at(empty.solid);
     const std::string why = empty.other >= 0 ? fmt::format("solid {} of the list has cut {} out already",
                                                            empty.other + 1, empty.share > whole ? "it" : "that part")
-                                             : "none of the other solids is there";
+                                             : "no other solid of its density is there";
     if (empty.share > whole) cut.fail(fmt::format("there is nothing here that could be cut out: {}", why));
     cut.doubt(
         fmt::format("about {:.2g} % of what this solid cuts out is not there ({}), and its mass is subtracted all the "

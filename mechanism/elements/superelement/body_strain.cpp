@@ -17,10 +17,9 @@ double size_of(const double* strain) {
 
 }  // namespace
 
-BodyStrain::BodyStrain(const MatrixX& strains, const SuperelementMatrices& matrices,
-                       const std::vector<BodyPoint>& points) {
-  if (strains.size() > 0) {
-    strains_ = matrices.columns_in_rows(strains);
+BodyStrain::BodyStrain(const SuperelementMatrices& matrices, const std::vector<BodyPoint>& points) {
+  if (matrices.strains.size() > 0) {
+    strains_ = &matrices.strains;
     return;
   }
   const std::size_t count = std::min(points.size(), most_ends);
@@ -39,9 +38,9 @@ StrainSizes BodyStrain::calc(const VectorX& eps) const {
     sizes.mean =
         std::max(sizes.mean, std::abs(line.per_length.dot(eps.segment<3>(line.to) - eps.segment<3>(line.from))));
   sizes.largest = sizes.mean;
-  if (strains_.size() == 0) return sizes;
+  if (!strains_) return sizes;
   thread_local VectorX strain;
-  strain.noalias() = strains_ * eps;
+  strain.noalias() = *strains_ * eps;
   const Eigen::Index last = strain.size() - 6;
   for (Eigen::Index k = 0; k < last; k += 6) sizes.largest = std::max(sizes.largest, size_of(strain.data() + k));
   sizes.mean = size_of(strain.data() + last);

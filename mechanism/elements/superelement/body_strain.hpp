@@ -24,8 +24,8 @@ struct StrainSizes {
 class BodyStrain {
  public:
   BodyStrain() = default;
-  /// @param strains  of the file's coordinates, see Superelement; may be empty @param points  interfaces, as placed
-  BodyStrain(const MatrixX& strains, const SuperelementMatrices& matrices, const std::vector<BodyPoint>& points);
+  /// @param matrices  kept as long as this is @param points  interfaces, as placed
+  BodyStrain(const SuperelementMatrices& matrices, const std::vector<BodyPoint>& points);
   /// @param eps  linear coordinates
   StrainSizes calc(const VectorX& eps) const;
 
@@ -34,7 +34,7 @@ class BodyStrain {
     int from, to;        ///< rows of the interfaces' displacements
     Vector3 per_length;  ///< direction over length [1/m]
   };
-  MatrixX strains_;  ///< (6 (q + 1), n)
+  const MatrixX* strains_ = nullptr;  ///< of the matrices
   std::vector<Line> lines_;
 };
 

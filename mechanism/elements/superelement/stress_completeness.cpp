@@ -21,23 +21,29 @@ StressCompleteness::StressCompleteness(std::string body, const InertiaAnswer& an
 void StressCompleteness::begin() {
   largest_missing_ = elastic_ = time_ = 0;
   modes_share_ = 1;
-  statics_ = false;
+  before_.setZero();
+  statics_ = began_ = false;
 }
 
 void StressCompleteness::add(const LocalState& state) {
-  const auto& c = deformation_->acceleration;
+  statics_ = state.environment().statics;
+  const Eigen::Matrix<double, 12, 1> c =
+      began_ && !statics_ ? 0.5 * (before_ + deformation_->acceleration) : deformation_->acceleration;
+  before_ = deformation_->acceleration;
+  began_ = true;
   elastic_ = std::max(elastic_, deformation_->elastic);
   const double missing = 0.5 * c.dot(missing_ * c);
   if (!(missing > largest_missing_)) return;
   largest_missing_ = missing;
   modes_share_ = std::clamp(1 - missing / (0.5 * c.dot(whole_ * c)), 0.0, 1.0);
-  statics_ = state.environment().statics;
   time_ = statics_ ? state.environment().load_factor : state.time();
 }
 
 void StressCompleteness::exchange(Archive& archive) {
   for (double* value : {&largest_missing_, &elastic_, &modes_share_, &time_}) archive(*value);
+  for (double& value : before_) archive(value);
   archive(statics_);
+  archive(began_);
 }
 
 double StressCompleteness::missing_share() const {

@@ -6,6 +6,7 @@
 // energy norm (the root of the mean square), it lacks the share sqrt(D / (V + D)). Both energies are the largest of the
 // motion, since stress is looked at where it is large, and accelerations are ahead of the stress that they cause.
 //
+// Accelerations are means of two steps: those that alternate from step to step are the scheme's ringing.
 // What vibrates in the modes left out is not in it, nor what loads inside the body do next to themselves.
 #pragma once
 
@@ -35,8 +36,10 @@ class StressCompleteness final : public Gatherer {
   std::string body_;
   Eigen::Matrix<double, 12, 12> whole_, missing_;
   std::shared_ptr<const BodyDeformation> deformation_;
-  double largest_missing_ = 0, elastic_ = 0;  ///< energies [J]
-  double modes_share_ = 1;                    ///< of the held body's answer, where most is missing
+  Eigen::Matrix<double, 12, 1> before_ = Eigen::Matrix<double, 12, 1>::Zero();  ///< accelerations at the last state
+  bool began_ = false;                                                          ///< there was a state before
+  double largest_missing_ = 0, elastic_ = 0;                                    ///< energies [J]
+  double modes_share_ = 1;  ///< of the held body's answer, where most is missing
   double time_ = 0;
   bool statics_ = false;  ///< the time is a load factor
 };

@@ -112,7 +112,6 @@ SuperelementBody::SuperelementBody(std::string name, const Superelement& superel
   frequencies_ = superelement.frequencies.head(superelement.fixed_boundary_modes());
   residual_vectors_ = superelement.residual_vectors;
   mode_turns_ = superelement.mode_turns;
-  strains_ = superelement.strains;
   inertia_answer_ = superelement.inertia_answer;
   for (std::size_t k = 0; k < placement.node_names.size(); ++k)
     attributes_.emplace_back("interface " + superelement.interfaces[k].name, placement.node_names[k]);
@@ -304,11 +303,10 @@ std::unique_ptr<Gatherer> SuperelementBody::make_gatherer() const {
       [this](const LocalState& state, BodyDeformation& deformation) { read_deformation(state, deformation); });
   const std::shared_ptr<const BodyDeformation> now = reader->now();
   all.push_back(std::move(reader));
-  all.push_back(
-      std::make_unique<Validity>(name(), frame_.points(),
-                                 ValidityMeasures{matrices_->gyration, mode_turns_,
-                                                  BodyStrain(strains_, *matrices_, frame_.points()), largest_error_},
-                                 now));
+  all.push_back(std::make_unique<Validity>(
+      name(), frame_.points(),
+      ValidityMeasures{matrices_->gyration, mode_turns_, BodyStrain(*matrices_, frame_.points()), largest_error_},
+      now));
   if (recovered_.has_stress() && inertia_answer_.whole.size() > 0)
     all.push_back(std::make_unique<StressCompleteness>(name(), inertia_answer_, now));
   if (!peaks_.empty())

@@ -140,7 +140,7 @@ class SuperelementBody : public Component {
   std::vector<std::string> interfaces_;  ///< names, in the order of the nodes
   VectorX frequencies_;                  ///< of the fixed-boundary modes [Hz]
   Eigen::Index residual_vectors_ = 0;    ///< so many modes more
-  MatrixX mode_turns_, strains_;         ///< as in Superelement
+  MatrixX mode_turns_;                   ///< as in Superelement
   InertiaAnswer inertia_answer_;         ///< likewise
   RecoveredOutputs recovered_;
   std::vector<std::string> peaks_;  ///< that are wanted

@@ -19,7 +19,7 @@ Energy energy(double kinetic, double input = 0, double dissipation = 0) {
 
 /// As a summary judges it.
 double relative_error(const EnergyBalance& books) {
-  return books.largest_error() / std::max(books.largest(), books.largest_turnover());
+  return books.largest_error() / std::max(books.largest(), 0.1 * books.largest_turnover());
 }
 
 }  // namespace

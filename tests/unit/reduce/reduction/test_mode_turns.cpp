@@ -59,7 +59,8 @@ TEST_CASE("Strains at places are those of the displacement field, and the last i
       CHECK(strains.block<6, 1>(k, 1).norm() < 1e-10);
       largest = std::max(largest, std::abs(strains(k, 2)));
     }
-    CHECK(largest == Approx(0.05).epsilon(0.3));  // at the outermost fibres, elements of 0.05 m
+    CHECK(largest > (quadratic ? 0.035 : 0.02));  // at the outermost fibres, less half an element or so
+    CHECK(largest < 0.05 * (1 + 1e-9));
     if (quadratic) CHECK(std::abs(strains(strains.rows() - 6, 2)) < 1e-12);  // bending cancels
   }
 }

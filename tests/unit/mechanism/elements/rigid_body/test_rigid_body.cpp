@@ -323,7 +323,7 @@ TEST_CASE("a hole that is cut twice is refused") {
   CHECK_THROWS_WITH(ReadSolids(plate + ", " + once + ", " + hole(0.01, 0.02, "[0.01, 0, 0.03]")),
                     Contains("has cut it out already"));
   CHECK_THROWS_WITH(ReadSolids(plate + ", " + hole(0.03, 0.1, "[0.15, 0, 0]")),
-                    Contains("none of the other solids is there"));
+                    Contains("no other solid of its density is there"));
 }
 
 TEST_CASE("holes that overlap or project are told with their share") {
@@ -331,9 +331,9 @@ TEST_CASE("holes that overlap or project are told with their share") {
   const ReadSolids bore(plate + ", " + hole(0.02, 0.1, "[0, 0, 0]") + ", " + hole(0.04, 0.05, "[0, 0, 0.025]"));
   CHECK_THAT(bore.doubts, Contains("solid[3]") && Contains("about 25 % of what this solid cuts out is not there") &&
                               Contains("solid 2 of the list has cut that part out already"));
-  CHECK_THAT(
-      ReadSolids(plate + ", " + hole(0.02, 0.2, "[0, 0, 0]")).doubts,
-      Contains("about 50 % of what this solid cuts out is not there") && Contains("none of the other solids is there"));
+  CHECK_THAT(ReadSolids(plate + ", " + hole(0.02, 0.2, "[0, 0, 0]")).doubts,
+             Contains("about 50 % of what this solid cuts out is not there") &&
+                 Contains("no other solid of its density is there"));
   // Two holes that meet: one ends where the other begins.
   CHECK(ReadSolids(plate + ", " + hole(0.02, 0.05, "[0, 0, -0.025]") + ", " + hole(0.04, 0.05, "[0, 0, 0.025]"))
             .doubts.empty());
