@@ -76,9 +76,10 @@ class BeamElement : public Component {
   void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
 
   const BeamPlace& place() const { return place_; }
-  double length() const { return L_; }                           ///< [m]
-  double mass() const { return mass_; }                          ///< [kg]
-  const Matrix6& section() const { return section_.stiffness; }  ///< of the section in the middle
+  double length() const { return L_; }                               ///< [m]
+  double mass() const { return mass_; }                              ///< [kg]
+  const Matrix6& section() const { return section_.stiffness; }      ///< of the section in the middle
+  bool knows_its_shape() const { return !section_.reach.isZero(); }  ///< else the section is given by constants
   /// In the middle, see beam_strain.hpp; to first order in how far the element itself bends.
   double largest_strain(const LocalState& state) const;
   std::unique_ptr<Gatherer> make_gatherer() const override;

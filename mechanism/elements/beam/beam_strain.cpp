@@ -31,10 +31,11 @@ void BeamStrainWatch::exchange(Archive& archive) {
 std::string BeamStrainWatch::summary() {
   if (strain_ < worth_a_doubt) return {};
   const auto [element, elements] = element_.place();
-  return fmt::format("  DOUBTFUL: beam '{}' is strained by {:.2g} %{} at {}: its law is linear, for small strains\n",
+  return fmt::format("  DOUBTFUL: beam '{}' is strained by {:.2g} %{} at {}{}: its law is linear, for small strains\n",
                      element_.name(), 100 * strain_,
                      elements == 1 ? "" : fmt::format(", most in element {} of {},", element, elements),
-                     statics_ ? fmt::format("load factor {:.6g}", time_) : fmt::format("t = {:.6g} s", time_));
+                     statics_ ? fmt::format("load factor {:.6g}", time_) : fmt::format("t = {:.6g} s", time_),
+                     element_.knows_its_shape() ? "" : ", if it is as thick as EI and EA say");
 }
 
 std::string BeamStrainWatch::what() const { return fmt::format("{}, {}", voice(), element_.place().element); }

@@ -77,11 +77,12 @@ Placed block(const TemporaryFolder& folder, const Vector3& moved, const Vector3&
 }
 
 /// A beam of length 1 and 8 elements along a line: place and turn of its nodes by s in 0..1.
+/// @param section  a shape with its dimensions, or constants
 std::string beam_says(const std::string& section, const std::function<Vector3(double)>& x,
                       const std::function<Vector3(double)>& turn) {
   Placed beam(
       "nodes: {a: {}, b: {position: [1, 0, 0]}}\nelements: {m: {type: beam, nodes: [a, b], elements: 8, section: {" +
-      section + ", young: 2e11, poisson: 0.3, density: 7800}}}\n");
+      section + (section.starts_with("EA") ? "" : ", young: 2e11, poisson: 0.3, density: 7800") + "}}}\n");
   for (int k = 0; k <= 8; ++k)
     beam.put(k == 0 ? "a" : k == 8 ? "b" : fmt::format("m.{}", k), x(k / 8.0), turn(k / 8.0));
   return beam.says();
@@ -189,6 +190,9 @@ TEST_CASE("beams say how far they are strained: stretch, bending, torsion") {
   CHECK_THAT(arc(circle, false), Contains("beam 'm' is strained by 3 %"));
   CHECK_THAT(arc(upright, false), Contains("beam 'm' is strained by 3 %"));
   CHECK(arc(upright, true).empty());
+  // By constants it is as thick as a rectangle of its radii of gyration: those of 0.02 x 0.04 m, of no mass.
+  CHECK_THAT(arc("EA: 1.6e8, GAy: 5e7, GAz: 5e7, GJ: 1e4, EIy: 21333.3333333, EIz: 5333.33333333", false),
+             Contains("beam 'm' is strained by 3 %") && Contains("if it is as thick as EI and EA say"));
   // Twisted by 2.4 rad: gamma = 2.4 * 0.02 at the surface, of which two thirds count.
   const auto twist = [&](double whole) {
     return beam_says(
