@@ -294,7 +294,9 @@ void SuperelementBody::read_deformation(const LocalState& state, BodyDeformation
   const Matrix3 gradient = skew(Om_rate) + skew(Om) * skew(Om);
   const Vector3 at_centre = motion.nu_rate.head<3>() + Om.cross(v_0) + gradient * matrices_->centre;
   for (int i = 0; i < 3; ++i) deformation.acceleration.segment<4>(4 * i) << at_centre[i], gradient.row(i).transpose();
-  deformation.elastic = 0.5 * deformation.eps.dot(matrices_->K * deformation.eps);
+  thread_local VectorX force;
+  force.noalias() = matrices_->K * deformation.eps;
+  deformation.elastic = 0.5 * deformation.eps.dot(force);
 }
 
 std::unique_ptr<Gatherer> SuperelementBody::make_gatherer() const {

@@ -67,14 +67,14 @@ struct Placed {
 };
 
 /// The block of length 1, its end b displaced and turned, what moves besides being zero.
-Placed block(const TemporaryFolder& folder, const Vector3& moved, const Vector3& turn, const std::string& more = "") {
-  Placed result(
-      fmt::format("nodes: {{a: {{}}, b: {{position: [1, 0, 0]}}}}\n"
-                  "elements: {{m: {{type: superelement, file: {}/block.h5, nodes: {{x0: a, x1: b}}{}}}}}\n",
-                  folder.path(), more));
-  result.put("b", Vector3(1, 0, 0) + moved, turn);
-  return result;
-}
+struct Block : Placed {
+  Block(const TemporaryFolder& folder, const Vector3& moved, const Vector3& turn, const std::string& more = "")
+      : Placed(fmt::format("nodes: {{a: {{}}, b: {{position: [1, 0, 0]}}}}\n"
+                           "elements: {{m: {{type: superelement, file: {}/block.h5, nodes: {{x0: a, x1: b}}{}}}}}\n",
+                           folder.path(), more)) {
+    put("b", Vector3(1, 0, 0) + moved, turn);
+  }
+};
 
 /// A beam of length 1 and 8 elements along a line: place and turn of its nodes by s in 0..1.
 /// @param section  a shape with its dimensions, or constants
@@ -95,7 +95,7 @@ TEST_CASE("a superelement that is stretched is doubted by its strain") {
   write_block(folder / "block.h5", {1, 0.1, 0.1}, {10, 1, 1});
   const Vector3 straight = Vector3::Zero();
   for (const double e : {0.1, -0.1, 0.03}) {
-    Placed found = block(folder, {e, 0, 0}, straight);
+    Block found(folder, {e, 0, 0}, straight);
     const std::string text = found.says();
     CAPTURE(e, text);
     CHECK(found.error() == Approx(std::abs(e)).epsilon(1e-6));
@@ -103,13 +103,13 @@ TEST_CASE("a superelement that is stretched is doubted by its strain") {
     CHECK_THAT(text, Contains(fmt::format("DOUBTFUL: superelement 'm' is strained by {:.2g} % in the mean",
                                           100 * std::abs(e))));
   }
-  CHECK(block(folder, {5e-4, 0, 0}, straight).says().empty());
+  CHECK(Block(folder, {5e-4, 0, 0}, straight).says().empty());
   CHECK_THAT(message_of<ComputationError>([&] {
-               block(folder, {0.1, 0, 0}, straight, ", largest_error: 0.05").says();
+               Block(folder, {0.1, 0, 0}, straight, ", largest_error: 0.05").says();
              }),
              Contains("is strained by 10 % in the mean") && Contains("largest_error"));
   // A rigid motion strains nothing.
-  Placed turned = block(folder, {-1, 1, 0}, {0, 0, M_PI / 2});
+  Block turned(folder, {-1, 1, 0}, {0, 0, M_PI / 2});
   turned.put("a", Vector3::Zero(), {0, 0, M_PI / 2});
   CHECK(turned.says().empty());
   CHECK(turned.strain() < 1e-9);
@@ -121,7 +121,7 @@ TEST_CASE(
   write_block(folder / "block.h5", {1, 0.1, 0.1}, {20, 2, 2});
   // An arc of the length 1 that turns by 0.3 rad.
   const double angle = 0.3;
-  Placed bent = block(folder, {std::sin(angle) / angle - 1, (1 - std::cos(angle)) / angle, 0}, {0, 0, angle});
+  Block bent(folder, {std::sin(angle) / angle - 1, (1 - std::cos(angle)) / angle, 0}, {0, 0, angle});
   const std::string text = bent.says();
   CAPTURE(text);
   CHECK(bent.strain() < 1.05 * angle * 0.05);
@@ -135,7 +135,7 @@ TEST_CASE("a superelement of an earlier version is doubted by the stretch of the
   Superelement body = read_superelement(folder / "block.h5");
   body.strains.resize(0, 0);
   write_superelement(body, folder / "block.h5");
-  Placed found = block(folder, {0.1, 0, 0}, Vector3::Zero());
+  Block found(folder, {0.1, 0, 0}, Vector3::Zero());
   CHECK_THAT(found.says(), Contains("is strained by 10 % in the mean"));
   CHECK(found.error() == Approx(0.1).epsilon(1e-6));
 }
@@ -145,14 +145,14 @@ TEST_CASE("shear and torsion of a stout superelement are seen, which turns and c
   // A plate between two faces, 1 thick and 4 x 4, whose sides are free of stress.
   write_block(folder / "block.h5", {1, 4, 4}, {2, 6, 6});
   const double gamma = 0.09;
-  Placed sheared = block(folder, {0, gamma, 0}, Vector3::Zero());
+  Block sheared(folder, {0, gamma, 0}, Vector3::Zero());
   CHECK_THAT(sheared.says(), Contains("DOUBTFUL: superelement 'm' is strained by"));
   CHECK(sheared.error() == Approx(2.0 / 3 * gamma).epsilon(0.2));
   // A cube whose faces are turned by theta: sides of a long square bar have gamma = 0.675 theta, edges theta/sqrt(2)
   // where they are held. The mean is zero.
   write_block(folder / "block.h5", {1, 1, 1}, {4, 4, 4});
   const double theta = 0.1;
-  Placed twisted = block(folder, Vector3::Zero(), {theta, 0, 0});
+  Block twisted(folder, Vector3::Zero(), {theta, 0, 0});
   CHECK_THAT(twisted.says(), Contains("DOUBTFUL: superelement 'm' is strained by"));
   CHECK(twisted.strain() > 2.0 / 3 * 0.675 * theta * 0.7);
   CHECK(twisted.strain() < 2.0 / 3 * theta);
