@@ -182,7 +182,7 @@ void read_parameters(YamlValue& root) {
 
 BodyFile read(YamlValue root) {
   root.check_keys({"body", "parameters", "geometry", "length_unit", "mesh", "materials", "regions", "interfaces",
-                   "modes", "damping", "loads", "points", "recovery", "pieces"},
+                   "modes", "inertia_relief", "damping", "loads", "points", "recovery", "pieces"},
                   "a body file");
   read_parameters(root);
   BodyFile body;
@@ -200,6 +200,7 @@ BodyFile read(YamlValue root) {
         "expected at least one: a mechanism moves a body by its interfaces, and one with 'tie: average' on "
         "any surface leaves the body free");
   read_modes(root.at("modes"), body.options);
+  if (const auto relief = root.find("inertia_relief")) body.options.inertia_relief = relief->boolean();
   if (const auto damping = root.find("damping")) read_damping(*damping, body.options);
   if (const auto loads = root.find("loads"))
     for (const auto& [name, value] : loads->entries()) body.options.loads.push_back(read_load(name, value, body.mesh));

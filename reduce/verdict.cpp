@@ -93,13 +93,29 @@ void judge_modes(const Superelement& body, const Adequacy& found, Findings& find
   findings.changes.emplace_back(wider_modes(found, std::max(range.first_bad, found.wanted)));
 }
 
+/// Share of the held body's answer to its spin about an axis of the body that the modes have.
+double answer_to_spin(const InertiaAnswer& answer, int axis) {
+  // omega x (omega x x) = -(x less its part along the axis)
+  Eigen::VectorXd field = Eigen::VectorXd::Zero(12);
+  for (int i = 0; i < 3; ++i)
+    if (i != axis) field(4 * i + 1 + i) = -1;
+  const double whole = field.dot(answer.whole * field);
+  return whole > 0 ? std::clamp(1 - field.dot(answer.missing * field) / whole, 0.0, 1.0) : 1;
+}
+
 void judge_inertia(const Superelement& body, const Adequacy& found, Findings& findings) {
   if (body.modes() == 0) return;
   const auto whole = [](double share) { return std::round(100 * share); };
+  const InertiaAnswer& answer = body.inertia_answer;
+  const std::string spins =
+      answer.whole.size() == 0
+          ? ""
+          : fmt::format("; spinning about them by {:.0f}, {:.0f} and {:.0f} %", whole(answer_to_spin(answer, 0)),
+                        whole(answer_to_spin(answer, 1)), whole(answer_to_spin(answer, 2)));
   findings.lines.emplace_back(fmt::format(
       "inertia: under accelerations along x, y, z the body, held at its interfaces, gives way by {:.0f}, {:.0f} and "
-      "{:.0f} % of what the mesh does",
-      whole(found.inertia_answer.x()), whole(found.inertia_answer.y()), whole(found.inertia_answer.z())));
+      "{:.0f} % of what the mesh does{}",
+      whole(found.inertia_answer.x()), whole(found.inertia_answer.y()), whole(found.inertia_answer.z()), spins));
 }
 
 double median(const Eigen::VectorXd& numbers) {

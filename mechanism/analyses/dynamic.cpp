@@ -1,5 +1,6 @@
 #include "mechanism/analyses/dynamic.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -111,9 +112,14 @@ std::string format_events(const Motion& motion) {
                      motion.stopped_by_event() ? ", which stopped the run" : "");
 }
 
-/// What the balance lacks, relative to the largest energy. Negative: energy is missing.
+/// What goes in and is dissipated in the same step cancels, and leaves no error: where more flows through in a step
+/// than is stored, a part of it will do as measure.
+constexpr double part_of_turnover = 0.1;
+
+/// What the balance lacks, relative to the largest energy, stored or flowed through. Negative: energy is missing.
 struct Gap {
   double whole, scheme;  ///< of it what the scheme's own damping has taken
+  double turnover;       ///< largest error while the stored energy is turned over once, by what is stored then
   double errors() const { return whole - scheme; }
 };
 
@@ -129,7 +135,7 @@ std::string explain_gap(const Gap& gap, const Scheme& scheme) {
 std::string judge_gap(const Gap& gap, double tolerance) {
   const char* const advice = tolerance > 0 ? "give a smaller `tolerance`" : "take smaller steps, or give a `tolerance`";
   std::string text;
-  if (std::abs(gap.errors()) > doubtful)
+  if (std::max(std::abs(gap.errors()), gap.turnover) > doubtful)
     text = "  DOUBTFUL: so large errors in the balance mean steps too long for the motion, or a motion that jumps\n";
   else if (gap.whole > gained)
     text = fmt::format("  energy grows: {}\n", advice);
@@ -143,16 +149,28 @@ std::string judge_gap(const Gap& gap, double tolerance) {
   return text;
 }
 
+/// Much stored energy does not make little input or dissipation better known.
+std::string judge_flow(double balance, double stored, double through) {
+  constexpr double least = 1e-3;  // of the stored energy: less is a motion without losses
+  if (through >= stored || through < least * stored || std::abs(balance) <= doubtful * through) return {};
+  return fmt::format("  that is {:.2g} of the {:.3g} J that went in or were dissipated: these are not known better\n",
+                     std::abs(balance) / through, through);
+}
+
 std::string format_energy(const Session& session, const Motion& motion, const DynamicsOptions& options) {
   const Energy& energy = motion.energy();
-  const double balance = motion.balance(), largest = motion.books().largest();
+  const EnergyBalance& books = motion.books();
+  const double balance = books.balance(), stored = books.largest(), through = books.through();
+  const double largest = std::max(stored, through);
   const std::string text = format_energies(energy);
   if (!(largest > energy_noise(session))) return text + "  nothing moved\n";
-  const Gap gap{balance / largest, -motion.scheme_loss() / largest};
+  const Gap gap{balance / largest, 0 - motion.scheme_loss() / largest,
+                books.largest_error() / std::max(stored, part_of_turnover * books.largest_turnover())};
   return text +
-         fmt::format("  balance {:.3g} J, {:.2g} of the largest energy ({})\n", balance, gap.whole,
+         fmt::format("  balance {:.3g} J, {:.2g} of {} ({})\n", balance, gap.whole,
+                     through > stored ? "what flowed through" : "the largest energy",
                      explain_gap(gap, options.scheme)) +
-         judge_gap(gap, options.stepping.tolerance);
+         judge_gap(gap, options.stepping.tolerance) + judge_flow(balance, stored, through);
 }
 
 }  // namespace

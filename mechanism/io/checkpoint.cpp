@@ -21,7 +21,7 @@ namespace {
 const std::string root = "/checkpoints";
 
 /// Of the numbers in a checkpoint: one more whenever what is exchanged with the Archive, or its order, changes.
-constexpr int format = 6;
+constexpr int format = 7;
 
 std::string analysis_name(int analysis) { return fmt::format("/analysis_{}", analysis); }
 

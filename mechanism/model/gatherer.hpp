@@ -25,7 +25,16 @@ class Gatherer {
   virtual void exchange(Archive& archive) = 0;
   /// What it has found. Its arrays belong into the group of the analysis.
   virtual std::vector<ResultArray> results() = 0;
+  /// Names of all datasets that `results` may give, known from the beginning.
+  virtual std::vector<std::string> datasets() {
+    std::vector<std::string> names;
+    for (const ResultArray& array : results()) names.push_back(array.dataset);
+    return names;
+  }
   virtual std::string summary() = 0;  ///< the same in lines for the user; each ends with a line break
+  /// Of those with one voice (the elements of a beam) the loudest alone has a summary. Empty: it speaks for itself.
+  virtual std::string voice() const { return {}; }
+  virtual double loudness() const { return 0; }
   /// What it gathers, of whom: "peaks of 'rod': von_mises". Only with the same can a run go on.
   virtual std::string what() const = 0;
 };

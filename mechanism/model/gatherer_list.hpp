@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "mechanism/model/gatherer.hpp"
@@ -25,6 +27,12 @@ class GathererList final : public Gatherer {
     std::vector<ResultArray> all;
     for (const auto& each : all_)
       for (ResultArray& array : each->results()) all.push_back(std::move(array));
+    return all;
+  }
+  std::vector<std::string> datasets() override {
+    std::vector<std::string> all;
+    for (const auto& each : all_)
+      for (std::string& name : each->datasets()) all.push_back(std::move(name));
     return all;
   }
   std::string summary() override {

@@ -1,4 +1,9 @@
 // Keeps the books of energy along a motion: what is stored, what went in, what was dissipated, what is missing.
+//
+// What is missing counts relative to what is stored, and to what flows through: a steady machine turns over its energy
+// many times, and errors add up. It is therefore also judged by turnovers, stretches of the motion in which as much
+// flows through as has ever been stored: `largest_error` is the largest error of one of them. Without it a long run
+// would hide any error in its flow.
 #pragma once
 
 #include <algorithm>
@@ -20,17 +25,23 @@ class EnergyBalance {
     totals_ = energy;
     totals_.input = totals_.dissipation = 0;
     largest_ = 0;
+    flow_ = turnover_ = {};
+    largest_turnover_ = largest_error_ = error_before_ = scheme_loss_ = 0;
     note_largest();
   }
-  void advance(double time, const Energy& energy) {
+  /// @param scheme_loss  what the scheme's own damping has taken out since the start [J]: no error
+  void advance(double time, const Energy& energy, double scheme_loss = 0) {
     const double half = 0.5 * (time - time_);
     const double input = totals_.input + half * (energy.input + last_.input);
     const double dissipation = totals_.dissipation + half * (energy.dissipation + last_.dissipation);
     totals_ = energy;
     totals_.input = input;
     totals_.dissipation = dissipation;
+    flow(half * (std::abs(energy.input) + std::abs(last_.input)),
+         half * (std::abs(energy.dissipation) + std::abs(last_.dissipation)));
     time_ = time;
     last_ = energy;
+    scheme_loss_ = scheme_loss;
     note_largest();
   }
   /// A discontinuity at the time of the last `advance`: energy lost in impulses is dissipated, powers continue from
@@ -41,6 +52,7 @@ class EnergyBalance {
     totals_ = last_ = after;
     totals_.input = input;
     totals_.dissipation = dissipation;
+    flow(std::abs(work), std::abs(stored(before) - stored(after) + work));
     note_largest();
   }
   /// Stored energies now, input and dissipation since the start [J].
@@ -48,20 +60,49 @@ class EnergyBalance {
   /// E - E_start - input + dissipation: zero for exact integration; negative: the scheme took energy out [J].
   double balance() const { return stored(totals_) - start_ - totals_.input + totals_.dissipation; }
   double energy_at_start() const { return start_; }
-  double largest() const { return largest_; }
+  double largest() const { return largest_; }  ///< of the stored energies, gravity's from the start on [J]
+  /// What has flowed through: the larger of what went in and what was dissipated, whatever their signs on the way [J].
+  double through() const { return flow_.larger(); }
+  /// The largest error of a turnover [J], and what flowed through in the largest one [J].
+  double largest_error() const { return std::max(largest_error_, std::abs(error() - error_before_)); }
+  double largest_turnover() const { return std::max(largest_turnover_, turnover_.larger()); }
   void exchange(Archive& archive) {
-    for (double* value : {&time_, &start_, &gravity_start_, &largest_}) archive(*value);
+    for (double* value :
+         {&time_, &start_, &gravity_start_, &largest_, &flow_.input, &flow_.dissipation, &turnover_.input,
+          &turnover_.dissipation, &largest_turnover_, &largest_error_, &error_before_, &scheme_loss_})
+      archive(*value);
     for (Energy* energy : {&last_, &totals_})
       for (double* value : {&energy->kinetic, &energy->elastic, &energy->gravity, &energy->dissipation, &energy->input})
         archive(*value);
   }
 
  private:
+  struct Flow {
+    double input = 0, dissipation = 0;  ///< [J], sizes added up
+    double larger() const { return std::max(input, dissipation); }
+  };
   static double stored(const Energy& e) { return e.kinetic + e.elastic + e.gravity; }
   void note_largest() {
     largest_ = std::max({largest_, totals_.kinetic, totals_.elastic, std::abs(totals_.gravity - gravity_start_)});
+    if (turnover_.larger() < largest_) return;
+    largest_error_ = largest_error();
+    largest_turnover_ = largest_turnover();
+    error_before_ = error();
+    turnover_ = {};
+  }
+  double error() const { return balance() + scheme_loss_; }
+  void flow(double input, double dissipation) {
+    for (Flow* flow : {&flow_, &turnover_}) {
+      flow->input += input;
+      flow->dissipation += dissipation;
+    }
   }
   double time_ = 0, start_ = 0, gravity_start_ = 0, largest_ = 0;
+  Flow flow_, turnover_;         ///< since the start, and since the last turnover
+  double largest_turnover_ = 0;  ///< [J]
+  double largest_error_ = 0;     ///< of a turnover that is over [J]
+  double error_before_ = 0;      ///< when the last turnover began [J]
+  double scheme_loss_ = 0;       ///< [J]
   Energy last_, totals_;
 };
 

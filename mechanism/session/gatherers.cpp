@@ -1,20 +1,42 @@
 #include "mechanism/session/gatherers.hpp"
 
+#include <map>
 #include <stdexcept>
+
+#include <fmt/format.h>
 
 #include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
 
 Gatherers::Gatherers(const Model& model) {
-  for (std::size_t m = 0; m < model.members().size(); ++m)
+  for (std::size_t m = 0; m < model.members().size(); ++m) {
+    names_.push_back(model.members()[m].component->name());
     if (auto gatherer = model.members()[m].component->make_gatherer()) all_.push_back({m, std::move(gatherer)});
+  }
 }
 
 Gatherers::~Gatherers() = default;
 
 void Gatherers::begin() {
   for (const One& one : all_) one.gatherer->begin();
+  check_datasets();
+}
+
+/// A results file refuses one name for two things, at the end, when all work is done.
+void Gatherers::check_datasets() {
+  std::map<std::string, std::size_t> owners;
+  for (const One& one : all_)
+    for (std::string& name : one.gatherer->datasets()) owners.emplace(std::move(name), one.member);
+  for (const auto& [name, owner] : owners)
+    for (std::size_t slash = name.find('/'); slash != std::string::npos; slash = name.find('/', slash + 1)) {
+      const auto other = owners.find(name.substr(0, slash));
+      if (other != owners.end())
+        throw InputError(fmt::format(
+            "'{}' and '{}' cannot both have results: '{}' would be a number of the one and a folder of the other; "
+            "rename one of them",
+            names_[other->second], names_[owner], other->first));
+    }
 }
 
 void Gatherers::add(const State& state, const std::vector<Slots>& slots, const Environment& environment) {
@@ -42,8 +64,15 @@ std::vector<ResultArray> Gatherers::results() {
 }
 
 std::string Gatherers::summary() {
+  std::map<std::string, std::size_t> speakers;
+  for (std::size_t k = 0; k < all_.size(); ++k) {
+    const auto [speaker, is_first] = speakers.emplace(all_[k].gatherer->voice(), k);
+    if (!is_first && all_[k].gatherer->loudness() > all_[speaker->second].gatherer->loudness()) speaker->second = k;
+  }
   std::string text;
-  for (const One& one : all_) text += one.gatherer->summary();
+  for (std::size_t k = 0; k < all_.size(); ++k)
+    if (const std::string voice = all_[k].gatherer->voice(); voice.empty() || speakers.at(voice) == k)
+      text += all_[k].gatherer->summary();
   return text;
 }
 

@@ -17,7 +17,8 @@ class Gatherers {
   explicit Gatherers(const Model& model);
   ~Gatherers();
 
-  void begin();  ///< an analysis begins
+  /// An analysis begins. @throws InputError when names of components make two of its results one
+  void begin();
   /// @param slots  of the model's members
   void add(const State& state, const std::vector<Slots>& slots, const Environment& environment);
   VectorX numbers();  ///< for a point to go on from
@@ -31,6 +32,8 @@ class Gatherers {
     std::size_t member;
     std::unique_ptr<Gatherer> gatherer;
   };
+  void check_datasets();
+  std::vector<std::string> names_;  ///< of the model's members
   std::vector<One> all_;
 };
 

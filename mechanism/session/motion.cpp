@@ -229,7 +229,7 @@ bool Motion::step() {
       session.note(caution);
       cautioned_ = true;
     }
-  parts_.books.advance(time(), session.system_.energy(state(), session.environment_));
+  parts_.books.advance(time(), session.system_.energy(state(), session.environment_), scheme_loss());
   if (step.on_grid) ++parts_.grid_steps;
   session.report_ = row(step, parts_.books);
   record_step(step, before, books_before);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -13,6 +14,7 @@
 #include "reduce/reduction/adequacy.hpp"
 #include "reduce/reduction/basis.hpp"
 #include "reduce/reduction/free_body.hpp"
+#include "reduce/reduction/inertia_answer.hpp"
 #include "reduce/reduction/load_patterns.hpp"
 #include "reduce/reduction/missed_modes.hpp"
 #include "reduce/reduction/mode_turns.hpp"
@@ -167,6 +169,21 @@ auto in_section(const ReductionOptions& options, const std::string& section, con
   return placed(line == options.lines.end() ? "" : line->second, work);
 }
 
+/// Those that loads and points ask for, and those of the body's own inertia.
+void add_all_residual_vectors(const ReductionOptions& options, std::vector<ResidualRequest> requests,
+                              const BodyMatrices& matrices, const HeldBody& held, Basis& basis, Progress& progress) {
+  const bool relieved = options.inertia_relief;
+  if (relieved) {
+    const auto line = options.lines.find("inertia_relief");
+    requests.push_back(inertia_relief(basis.linear, line == options.lines.end() ? "" : line->second));
+  }
+  if (requests.empty()) return;
+  progress.start("residual vectors");
+  add_residual_vectors(requests, matrices, held, basis);
+  if (relieved && basis.residual_vectors == 0)
+    progress.note("inertia_relief: no residual vectors are needed, the modes have the answer to all accelerations");
+}
+
 }  // namespace
 
 Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Progress& progress, int threads,
@@ -178,7 +195,7 @@ Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Prog
   const MassProperties properties = mass_properties(solid, threads);
   const Ties ties = make_ties(solid, options.interfaces);
   const std::vector<TiedPoint> points = tie_points(solid, options.points, options.name);
-  const std::vector<ResidualRequest> residual = residual_requests(solid, options.loads, points);
+  std::vector<ResidualRequest> residual = residual_requests(solid, options.loads, points);
   warn_about_rigid_ties(ties, progress);
   warn_about_size(static_cast<Eigen::Index>(ties.kept.size()) + options.mode_count.value_or(0), progress);
   HeldFreedoms freedoms(solid, ties);
@@ -197,10 +214,7 @@ Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Prog
   });
   const std::optional<ModeCount> count =
       options.modes_proven ? prove_modes(matrices, held, basis, progress, threads) : std::nullopt;
-  if (!residual.empty()) {
-    progress.start("residual vectors");
-    add_residual_vectors(residual, matrices, held, basis);
-  }
+  add_all_residual_vectors(options, std::move(residual), matrices, held, basis, progress);
 
   progress.start("reduced matrices");
   Superelement body = described_body(options, properties, ties, basis);
@@ -210,6 +224,7 @@ Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Prog
   body.stiffness = reduced.matrix;
   body.effective_mass = effective_masses(body);
   body.damping = in_section(options, "damping", [&] { return damping_matrix(options, body); });
+  body.inertia_answer = inertia_answer_energies(basis);
 
   progress.start("geometric stiffness");
   GeometricStiffness geometric = geometric_stiffness(solid, matrices, ties, basis, properties, body.stiffness,
@@ -228,6 +243,7 @@ Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Prog
   body.loads = reduce_loads(solid, options.loads, basis.shapes);
   body.points = named_points(points, basis.shapes);
   body.mode_turns = mode_turns(solid, basis.shapes, basis.kept(), options.name);
+  body.strains = place_strains(solid, basis.shapes, options.name);
   add_recovery(solid, options, basis.shapes, threads, body);
 
   if (options.judged) {

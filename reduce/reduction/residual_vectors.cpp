@@ -72,7 +72,7 @@ void check_requests(const std::vector<ResidualRequest>& requests, const std::vec
   auto first = is_left.begin();
   for (const ResidualRequest& request : requests) {
     const auto end = first + request.loads.cols();
-    if (std::none_of(first, end, [](bool left) { return left; }))
+    if (!request.may_be_empty && std::none_of(first, end, [](bool left) { return left; }))
       throw InputError(fmt::format(
           "{}: its loads leave nothing for residual vectors: interfaces carry them, or the modes have their answer "
           "already; remove `residual`",
@@ -159,6 +159,7 @@ void add_residual_vectors(const std::vector<ResidualRequest>& requests, const Bo
     if (is_left.back()) left.push_back(k);
   }
   check_requests(requests, is_left);
+  if (left.empty()) return;
 
   const Eigen::VectorXd unit = rest.cwiseSqrt().cwiseInverse();
   fields.combine(Eigen::MatrixXd(unit.asDiagonal())(Eigen::all, left));

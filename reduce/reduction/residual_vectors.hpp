@@ -19,8 +19,9 @@ namespace bielle::reduce {
 
 /// Loads that one entry of the body file wants answered exactly.
 struct ResidualRequest {
-  std::string located;  ///< "body.yaml:20: points.pin", put before messages about it
-  SparseRows loads;     ///< (3 points, k)
+  std::string located;        ///< "body.yaml:20: points.pin", put before messages about it
+  SparseRows loads;           ///< (3 points, k)
+  bool may_be_empty = false;  ///< whether it is no error that the modes have the answer already
 };
 
 /// Those of points, in the directions they ask for, and those of load patterns that have `residual`: each component of
@@ -31,7 +32,7 @@ std::vector<ResidualRequest> residual_requests(const Solid& solid, const std::ve
 
 /// Appends the residual vectors to the basis. Of loads that depend on each other, or whose answer the modes have
 /// already, as many are made as are left: energies below 1e-10 of the whole answer's count as nothing.
-/// @throws InputError, with the place of the request, when nothing is left of any of its loads
+/// @throws InputError, with the place of the request, when nothing is left of any of its loads, unless it may be so
 void add_residual_vectors(const std::vector<ResidualRequest>& requests, const BodyMatrices& matrices,
                           const HeldBody& held, Basis& basis);
 

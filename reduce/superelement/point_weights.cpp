@@ -62,14 +62,19 @@ bool in_space(const Matrix3Xd& arms) {
 }
 
 /// Of the nearest linear field. @param size  of the arms [m], for numbers of order 1
-Eigen::MatrixXd rows_of_linear_field(const Matrix3Xd& arms, const VectorXd& weight, double size) {
+void set_rows_of_linear_field(const Matrix3Xd& arms, const VectorXd& weight, double size, PointWeights& result) {
   const Matrix4Xd field = linear_weights(arms / size, weight);
-  Eigen::MatrixXd rows(6, 3 * arms.cols());
+  Eigen::MatrixXd& rows = result.rows;
+  rows.resize(6, 3 * arms.cols());
   for (Index k = 0; k < arms.cols(); ++k) {
     rows.block<3, 3>(0, 3 * k) = field(0, k) * Matrix3d::Identity();
-    rows.block<3, 3>(3, 3 * k) = 0.5 / size * cross_matrix(field.col(k).tail<3>());
+    const Vector3d gradient = field.col(k).tail<3>() / size;
+    rows.block<3, 3>(3, 3 * k) = 0.5 * cross_matrix(gradient);
+    auto strain = result.strains.block<6, 3>(0, 3 * k);
+    strain.topRows<3>() = gradient.asDiagonal();
+    strain.bottomRows<3>() << 0, gradient.z(), gradient.y(), gradient.z(), 0, gradient.x(), gradient.y(), gradient.x(),
+        0;
   }
-  return rows;
 }
 
 /// Of the nearest rigid motion: u = c + theta x arm.
@@ -110,7 +115,11 @@ PointWeights point_weights(const Matrix3Xd& nodes, const Vector3d& point, const 
                               .inverse()
                               .matrix()
                               .transpose();
-  result.rows = in_space(arms) ? rows_of_linear_field(arms, weight, size) : rows_of_rigid_motion(arms, weight);
+  result.strains = Eigen::MatrixXd::Zero(6, 3 * count);
+  if (in_space(arms))
+    set_rows_of_linear_field(arms, weight, size, result);
+  else
+    result.rows = rows_of_rigid_motion(arms, weight);
   return result;
 }
 

@@ -17,6 +17,9 @@ struct PointWeights {
   std::vector<Eigen::Index> nodes;  ///< of the mesh
   /// (6, 3 nodes): displacement and rotation of the point by the displacements x y z of the first node, the second ...
   Eigen::MatrixXd rows;
+  /// (6, 3 nodes): strain xx yy zz yz xz xy there, engineering shears, of the linear field; zero where the nodes lie in
+  /// one plane.
+  Eigen::MatrixXd strains;
 };
 
 /// Distance of a point from the nearest of some nodes [m]; infinite without any.

@@ -59,6 +59,14 @@ struct StressOrigin {
   std::map<std::string, std::vector<int>> groups;  ///< by volume group: rows of `stress_nodes`, ascending
 };
 
+/// The deformation of the body, held at its interfaces, under its own inertia: energies of its static answer to
+/// acceleration fields that are linear in space. Coordinate 4 i + j: direction i (body axes) times 1 [m/s^2], x, y, z
+/// [1/s^2] from the centre of mass, so that rigid accelerations and centrifugal fields are combinations c.
+struct InertiaAnswer {
+  Eigen::MatrixXd whole;    ///< (12,12): c^T whole c / 2 is the energy of the mesh [J]; empty: not known
+  Eigen::MatrixXd missing;  ///< of that what modes and residual vectors have not
+};
+
 /// Craig-Bampton model of a free body with n = (kept interface directions) + m (modes) generalised coordinates, ordered
 /// interface by interface (translations, then rotations, those that are kept), then modal amplitudes (mass-normalised).
 /// The last modes may be residual vectors, which make the static answer to single loads exact.
@@ -83,15 +91,19 @@ struct Superelement {
   std::vector<Eigen::MatrixXd>
       load_stiffness;  ///< K_sigma per unit interface load of each kept direction; may be empty
 
-  /// Rotation of each interface's surface in terms of the coordinates, body axes (3,n), released rotations included; zero
-  /// for free ties. What the checks of load_stiffness need; may be empty.
+  /// Rotation of each interface's surface in terms of the coordinates, body axes (3,n), released rotations included;
+  /// zero for free ties. What the checks of load_stiffness need; may be empty.
   std::vector<Eigen::MatrixXd> surface_rotations;
 
   Eigen::MatrixXd effective_mass;  ///< (m,6) of the modes: x y z [kg], rx ry rz about the centre [kg m^2]
-  /// Rotations of places spread over the body in each mode, body axes (3 q,m): by them a mechanism judges how far the body
-  /// bends in its modes; may be empty.
+  /// Rotations of places spread over the body in each mode, body axes (3 q,m): by them a mechanism judges how far the
+  /// body bends in its modes; may be empty.
   Eigen::MatrixXd mode_turns;
-  double total_mass = 0;           ///< integrated on the mesh [kg]
+  /// Strain xx yy zz yz xz xy (engineering shears) at places spread over the body, then its mean over the body, body
+  /// axes (6 (q + 1),n): by it a mechanism judges how far the body is strained; may be empty.
+  Eigen::MatrixXd strains;
+  InertiaAnswer inertia_answer;  ///< by it a mechanism judges whether stress is complete; may be empty
+  double total_mass = 0;         ///< integrated on the mesh [kg]
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();   ///< of mass [m]
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the centre, body axes [kg m^2]
 
@@ -100,8 +112,8 @@ struct Superelement {
   SuperelementMesh mesh;
   Eigen::MatrixXd
       displacement_recovery;  ///< (3p,n): displacement of every node, body axes; rows x y z of node 0, of node 1, ...
-  Eigen::MatrixXd stress_recovery;       ///< (6 s,n): xx yy zz yz xz xy [Pa] at the nodes `stress_nodes`; may be empty
-  std::vector<int> stress_nodes;         ///< (s) node numbers of the rows of stress_recovery
+  Eigen::MatrixXd stress_recovery;  ///< (6 s,n): xx yy zz yz xz xy [Pa] at the nodes `stress_nodes`; may be empty
+  std::vector<int> stress_nodes;    ///< (s) node numbers of the rows of stress_recovery
   StressOrigin stress_origin;
   std::map<std::string, double> checks;  ///< numbers of every check that the reduction made, by name
   std::optional<Adequacy> adequacy;      ///< what it is good for; absent in files of other programs

@@ -94,6 +94,11 @@ void check_reduced(const Superelement& body) {
           fmt::format("of {}, {} cannot be residual vectors", counted(m, "mode"), body.residual_vectors));
   check_matrix(body.effective_mass, m, 6, "/modes/effective_mass");
   if (body.mode_turns.size() > 0) check_matrix(body.mode_turns, body.mode_turns.rows() / 3 * 3, m, "/modes/turns");
+  if (body.strains.size() > 0) check_matrix(body.strains, body.strains.rows() / 6 * 6, n, "/reduced/strain");
+  if (const InertiaAnswer& answer = body.inertia_answer; answer.whole.size() + answer.missing.size() > 0) {
+    check_matrix(answer.whole, 12, 12, "/reduced/inertia_answer/whole");
+    check_matrix(answer.missing, 12, 12, "/reduced/inertia_answer/missing");
+  }
   for (const auto& [name, pattern] : body.loads)
     for (const Eigen::Matrix3Xd& force : pattern.force) check_matrix(force, 3, n, "/loads/" + name);
   for (const auto& [name, point] : body.points) {

@@ -102,6 +102,19 @@ void write_reduced(Hdf5File& file, const Superelement& body) {
                "(k, l, j): component k of the pattern acting along body axis l, for a factor of 1");
 }
 
+/// By what a run judges how far it can be trusted.
+void write_judgement(Hdf5File& file, const Superelement& body) {
+  if (body.strains.size() > 0)
+    file.write("/reduced/strain", body.strains, "1/u_j",
+               "xx yy zz yz xz xy of places spread over the body, then the mean over it, body axes");
+  if (body.inertia_answer.whole.size() == 0) return;
+  constexpr const char* units = "J/(c_i c_j)";
+  file.write("/reduced/inertia_answer/whole", body.inertia_answer.whole, units,
+             "of the held body's static answer to acceleration fields c: direction x y z times 1 x y z");
+  file.write("/reduced/inertia_answer/missing", body.inertia_answer.missing, units,
+             "of that what modes and residual vectors have not");
+}
+
 void write_mesh(Hdf5File& file, const SuperelementMesh& mesh) {
   file.write("/mesh/points", Eigen::MatrixXd(mesh.points.transpose()), "m");
   for (const auto& [type, cells] : mesh.cells) {
@@ -162,6 +175,7 @@ void write_all(Hdf5File& file, const Superelement& body) {
              "x y z [kg], rx ry rz about the centre of mass [kg m^2]");
   if (body.mode_turns.size() > 0)
     file.write("/modes/turns", body.mode_turns, "rad/u_j", "rotation x y z of places spread over the body, body axes");
+  write_judgement(file, body);
   file.write("/mass_properties/mass", body.total_mass, "kg");
   file.write("/mass_properties/centre", Eigen::VectorXd(body.centre), "m");
   file.write("/mass_properties/inertia", Eigen::MatrixXd(body.inertia), "kg m^2", "about the centre, body axes");
@@ -358,6 +372,11 @@ Superelement read_superelement(const Hdf5File& file) {
     body.residual_vectors = file.read_integer_attribute("/modes", "residual_vectors");
   body.effective_mass = file.read_matrix("/modes/effective_mass");
   if (file.has("/modes/turns")) body.mode_turns = file.read_matrix("/modes/turns");
+  if (file.has("/reduced/strain")) body.strains = file.read_matrix("/reduced/strain");
+  if (file.has("/reduced/inertia_answer/whole")) {
+    body.inertia_answer.whole = file.read_matrix("/reduced/inertia_answer/whole");
+    body.inertia_answer.missing = file.read_matrix("/reduced/inertia_answer/missing");
+  }
   read_interfaces(file, reader, body);
   read_reduced(file, reader, body);
   read_mass_properties(file, reader, body);

@@ -78,7 +78,9 @@ std::int64_t sum_of(const Superelement& body) {
     add(sum, point.shapes);
     for (const bool exact : point.residual) sum.add(exact ? 1.0 : 0.0);
   }
-  if (body.mode_turns.size() > 0) add(sum, body.mode_turns);
+  for (const Eigen::MatrixXd* matrix :
+       {&body.mode_turns, &body.strains, &body.inertia_answer.whole, &body.inertia_answer.missing})
+    if (matrix->size() > 0) add(sum, *matrix);
   if (body.residual_vectors > 0) sum.add(static_cast<double>(body.residual_vectors));
   if (body.adequacy) add_adequacy(sum, *body.adequacy);
   return sum.value();

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/elements/beam/beam_strain.hpp"
 #include "mechanism/math/gauss.hpp"
 #include "mechanism/math/inverse.hpp"
 #include "mechanism/model/description.hpp"
@@ -71,12 +72,14 @@ BeamElement::BeamElement(std::string name, BeamPlace place, int node_a, int node
       L_(reference.length),
       bending_(bending),
       stiffness_(element_stiffness(sections, reference, bending)),
-      section_(sections.middle().stiffness),
-      flexibility_(symmetric_inverse(section_)),
+      section_(sections.middle()),
+      flexibility_(symmetric_inverse(section_.stiffness)),
       mass_(L_ * sections.mean_mass()),
-      stress_(sections.middle().stress),
       damping_(damping),
-      inertia_(sections, R_A, R_B, reference) {}
+      inertia_(sections, R_A, R_B, reference) {
+  to_middle_.setIdentity();
+  if (bending == BeamBending::residual) to_middle_ = flexibility_ * equilibrium(d0_, exp_se3(-0.5 * d0_)) * stiffness_;
+}
 
 void BeamElement::declare(Declaration& declaration) const {
   declaration.nodes = {node_a_, node_b_};
@@ -232,7 +235,7 @@ void BeamElement::describe(const LocalState& /*state*/, Description& description
     if (damping_ > 0) description.add(fmt::format("damping {:.6g} s", damping_));
     if (bending_ == BeamBending::constant) description.add("bending constant along each element");
   }
-  const Matrix6& C = section_;
+  const Matrix6& C = section_.stiffness;
   const bool coupled = !C.isDiagonal(1e-12);
   std::string text =
       fmt::format("EA {:.6g}, GAy {:.6g}, GAz {:.6g} N, GJ {:.6g}, EIy {:.6g}, EIz {:.6g} N m^2{}", C(0, 0), C(1, 1),
@@ -245,15 +248,22 @@ void BeamElement::describe(const LocalState& /*state*/, Description& description
   description.add_each("section in the middle of", "element", text);
 }
 
+double BeamElement::largest_strain(const LocalState& state) const {
+  const Vector6 d = relative_motion(state, state.node(0).R * R_A_, state.node(1).R * R_B_);
+  return section_.largest_strain(to_middle_ * (d - d0_) / L_);
+}
+
+std::unique_ptr<Gatherer> BeamElement::make_gatherer() const { return std::make_unique<BeamStrainWatch>(*this); }
+
 std::vector<OutputField> BeamElement::output_fields() const {
   std::vector<OutputField> fields{
       {"strain", {6}, "1, 1/m", "stretch and shears [1], twist and curvatures [1/m] in the middle, section frame"},
       {"resultants", {6}, "N, N m", "forces [N] and moments [N m] in the middle, section frame"}};
-  if (!stress_.empty()) {
+  if (!section_.stress.empty()) {
     fields.push_back(
-        {"stress", {stress_.size(), 3}, "Pa", "sigma xx, tau xy, tau xz at the stress points, in the middle"});
+        {"stress", {section_.stress.size(), 3}, "Pa", "sigma xx, tau xy, tau xz at the stress points, in the middle"});
     fields.push_back(
-        {"von_mises", {stress_.size()}, "Pa", "sqrt(sigma^2 + 3 tau^2) at the stress points, in the middle"});
+        {"von_mises", {section_.stress.size()}, "Pa", "sqrt(sigma^2 + 3 tau^2) at the stress points, in the middle"});
   }
   return fields;
 }
@@ -267,10 +277,10 @@ void BeamElement::write_output(const LocalState& state, double* values) const {
   Eigen::Map<Vector12> out(values);
   out << flexibility_ * middle * stiffness_ * D.eps, f;
   double* stress = values + 12;
-  double* von_mises = stress + 3 * stress_.size();
-  for (std::size_t p = 0; p < stress_.size(); ++p) {
+  double* von_mises = stress + 3 * section_.stress.size();
+  for (std::size_t p = 0; p < section_.stress.size(); ++p) {
     Eigen::Map<Vector3> sigma(stress + 3 * p);
-    sigma = stress_[p] * f;
+    sigma = section_.stress[p] * f;
     von_mises[p] = std::sqrt(sigma[0] * sigma[0] + 3 * sigma.tail<2>().squaredNorm());
   }
 }

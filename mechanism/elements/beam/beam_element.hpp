@@ -29,6 +29,7 @@
 // enough for a linear law of the resultants.
 #pragma once
 
+#include <memory>
 #include <numbers>
 #include <string>
 
@@ -75,9 +76,13 @@ class BeamElement : public Component {
   void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
 
   const BeamPlace& place() const { return place_; }
-  double length() const { return L_; }                 ///< [m]
-  double mass() const { return mass_; }                ///< [kg]
-  const Matrix6& section() const { return section_; }  ///< stiffness of the section in the middle
+  double length() const { return L_; }                               ///< [m]
+  double mass() const { return mass_; }                              ///< [kg]
+  const Matrix6& section() const { return section_.stiffness; }      ///< of the section in the middle
+  bool knows_its_shape() const { return !section_.reach.isZero(); }  ///< else the section is given by constants
+  /// In the middle, see beam_strain.hpp; to first order in how far the element itself bends.
+  double largest_strain(const LocalState& state) const;
+  std::unique_ptr<Gatherer> make_gatherer() const override;
 
  private:
   struct Deformation;
@@ -95,10 +100,11 @@ class BeamElement : public Component {
   Vector6 d0_;
   double L_;
   BeamBending bending_;
-  Matrix6 stiffness_;                                ///< C_e
-  Matrix6 section_, flexibility_;                    ///< C and C^-1 in the middle
-  double mass_;                                      ///< [kg]
-  std::vector<Eigen::Matrix<double, 3, 6>> stress_;  ///< at the stress points, of unit resultants
+  Matrix6 stiffness_;    ///< C_e
+  BeamSection section_;  ///< in the middle
+  Matrix6 flexibility_;  ///< C^-1 in the middle
+  Matrix6 to_middle_;    ///< eps -> strain in the middle, at the reference
+  double mass_;          ///< [kg]
   double damping_;
   BeamInertia inertia_;
 };

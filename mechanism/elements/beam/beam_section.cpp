@@ -1,5 +1,8 @@
 #include "mechanism/elements/beam/beam_section.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "mechanism/math/so3.hpp"
 
 namespace bielle::mechanism {
@@ -29,6 +32,21 @@ void BeamSection::set_mass(const Matrix6& M) {
   mass = M.topLeftCorner<3, 3>().trace() / 3;
   mass_offset = mass > 0 ? Vector3(skew_vector(M.bottomLeftCorner<3, 3>()) / mass) : Vector3::Zero();
   inertia = M.bottomRightCorner<3, 3>() + mass * skew(mass_offset) * skew(mass_offset);
+}
+
+double BeamSection::largest_strain(const Vector6& strain) const {
+  const Matrix6& C = stiffness;
+  const Vector2 centroid = Vector2(-C(0, 5), C(0, 4)) / C(0, 0);
+  Vector2 farthest = reach;
+  if (farthest.isZero())
+    farthest = Vector2(std::sqrt(3 * std::max(0.0, C(5, 5) / C(0, 0) - centroid.x() * centroid.x())),
+                       std::sqrt(3 * std::max(0.0, C(4, 4) / C(0, 0) - centroid.y() * centroid.y())));
+  constexpr double young_over_shear = 2.6;
+  const double twist = twist_reach > 0 ? twist_reach : std::sqrt(2 * young_over_shear * C(3, 3) / C(0, 0));
+  const double axial = strain[0] + strain[4] * centroid.y() - strain[5] * centroid.x();
+  const double normal = std::abs(axial) + std::hypot(strain[4] * farthest.y(), strain[5] * farthest.x());
+  const double shear = std::hypot(strain[1], strain[2]) + std::abs(strain[3]) * twist;
+  return std::max(normal, 2.0 / 3 * shear);
 }
 
 BeamSection BeamSection::shifted(const Vector2& offset) const {

@@ -25,6 +25,8 @@ struct BeamSection {
   double mass = 0;                        ///< per length [kg/m]; zero: the beam has no inertia
   Vector3 mass_offset = Vector3::Zero();  ///< centre of mass from the node line [m], section frame
   Matrix3 inertia = Matrix3::Zero();      ///< about the centre of mass, per length [kg m]
+  Vector2 reach = Vector2::Zero();  ///< of the farthest fibre from the centroid along y and z [m]; zero: not known
+  double twist_reach = 0;           ///< largest shear strain per twist [m]; zero: not known
   /// At each stress point: sigma_xx, tau_xy, tau_xz [Pa] (rows) of unit resultants (columns).
   std::vector<Eigen::Matrix<double, 3, 6>> stress;
 
@@ -36,6 +38,10 @@ struct BeamSection {
   void set_mass(const Matrix6& M);
   /// The same section with its origin at `offset` from the node line [m].
   BeamSection shifted(const Vector2& offset) const;
+  /// The largest strain in the section: of a fibre along the beam, or two thirds of the largest shear
+  /// (beam_strain.hpp).
+  /// @param strain  (Gamma, Kappa)
+  double largest_strain(const Vector6& strain) const;
 };
 
 /// The sections of one element: at the three Gauss points (gauss.hpp) of its length. One section: the same everywhere.

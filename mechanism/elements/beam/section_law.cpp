@@ -76,6 +76,8 @@ BeamSection SectionLaw::evaluate(double s) const {
     SectionConstants k = values.constants;
     if (d.shear_factors.size() == 2) k.shear_area = k.A * d.shear_factors.asDiagonal().toDenseMatrix();
     section = BeamSection::homogeneous(k, d.material[0], d.material[1], d.material[2], d.offset);
+    section.reach = shape_reach(d.kind, d.numbers);
+    section.twist_reach = shear_of_twist(d.kind, d.numbers, values.constants);
     for (std::size_t p = 0; p < values.shear_stress.size(); ++p)
       section.stress.push_back(unit_stress(values.constants, d.points.segment<2>(static_cast<Eigen::Index>(2 * p)),
                                            d.offset, values.shear_stress[p]));

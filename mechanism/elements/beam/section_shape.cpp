@@ -229,6 +229,22 @@ bool shape_contains(const std::string& shape, const VectorX& d, const Vector2& p
   return is_made_of_walls(shape) ? wall_area(shape, d).contains(point) : make_section_shape(shape, d)->contains(point);
 }
 
+Vector2 shape_reach(const std::string& shape, const VectorX& d) {
+  if (shape == "rectangle") return d.head<2>() / 2;
+  if (!is_made_of_walls(shape)) return Vector2::Constant(d[0]);
+  Vector2 reach = Vector2::Zero();
+  for (const SectionRectangle& wall : wall_area(shape, d).rectangles)
+    reach = reach.cwiseMax(Vector2(std::max(-wall.y0, wall.y1), std::max(-wall.z0, wall.z1)));
+  return reach;
+}
+
+double shear_of_twist(const std::string& shape, const VectorX& d, const SectionConstants& k) {
+  if (is_made_of_walls(shape)) return std::sqrt(2 * k.J / k.A);
+  if (shape != "rectangle") return d[0];
+  const Vector2 middle_of_long_side = d[0] > d[1] ? Vector2(0, d[1] / 2) : Vector2(d[0] / 2, 0);
+  return k.J * Rectangle(d).shear_stress(middle_of_long_side).col(2).norm();
+}
+
 bool is_made_of_walls(const std::string& shape) {
   return shape == "i" || shape == "t" || shape == "l" || shape == "box";
 }

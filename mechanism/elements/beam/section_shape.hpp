@@ -70,6 +70,11 @@ std::unique_ptr<SectionShape> make_section_shape(const std::string& shape, const
 /// Whether a point from the centroid [m] lies in a shape, boundary included. Cheap.
 bool shape_contains(const std::string& shape, const VectorX& dimensions, const Vector2& point);
 
+/// The farthest point of a shape from its centroid along y and along z [m].
+Vector2 shape_reach(const std::string& shape, const VectorX& dimensions);
+/// Largest shear strain of a unit twist [m]: of shapes made of walls about sqrt(2 J/A).
+double shear_of_twist(const std::string& shape, const VectorX& dimensions, const SectionConstants& constants);
+
 /// True for i, t, l, box: made of rectangles, and computed by finite elements.
 bool is_made_of_walls(const std::string& shape);
 RectangleArea wall_area(const std::string& shape, const VectorX& dimensions);

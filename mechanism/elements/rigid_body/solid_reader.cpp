@@ -2,60 +2,74 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "mechanism/elements/rigid_body/solid_space.hpp"
 #include "mechanism/reading/read_frame.hpp"
 
 namespace bielle::mechanism {
 namespace {
 
-MassProperties read_tube(const YamlValue& value) {
-  const VectorX e = value.positive_numbers(3, "[outer radius, inner radius, length]");
-  if (e[1] >= e[0]) value.fail("the inner radius must be smaller than the outer one");
-  return tube(e[0], e[1], e[2]);
+/// A solid of density 1, and where it is.
+struct UnitSolid {
+  MassProperties properties;
+  SolidSpace space;
+};
+
+UnitSolid read_box(const YamlValue& value) {
+  const Vector3 edges = value.positive_numbers(3, "three edges [a, b, c]");
+  return {box(edges), box_space(edges)};
 }
 
-MassProperties read_cone(const YamlValue& value) {
+UnitSolid read_sphere(const YamlValue& value) {
+  const double radius = value.positive_number();
+  return {sphere(radius), sphere_space(radius)};
+}
+
+UnitSolid read_cylinder(const YamlValue& value) {
+  const VectorX e = value.positive_numbers(2, "[radius, length]");
+  return {cylinder(e[0], e[1]), tube_space(e[0], 0, e[1])};
+}
+
+UnitSolid read_tube(const YamlValue& value) {
+  const VectorX e = value.positive_numbers(3, "[outer radius, inner radius, length]");
+  if (e[1] >= e[0]) value.fail("the inner radius must be smaller than the outer one");
+  return {tube(e[0], e[1], e[2]), tube_space(e[0], e[1], e[2])};
+}
+
+UnitSolid read_cone(const YamlValue& value) {
   if (!value.is_sequence() || value.size() != 3) value.fail("expected [radius below, radius above, length]");
   const double below = value.at(std::size_t{0}).non_negative_number();
   const double above = value.at(std::size_t{1}).non_negative_number();
   if (below == 0 && above == 0) value.fail("one of the two radii must be greater than 0");
-  return cone(below, above, value.at(std::size_t{2}).positive_number());
+  const double length = value.at(std::size_t{2}).positive_number();
+  return {cone(below, above, length), cone_space(below, above, length)};
 }
 
-MassProperties read_ring(const YamlValue& value) {
+UnitSolid read_ring(const YamlValue& value) {
   const VectorX e = value.positive_numbers(2, "[radius of the centre line, radius of the section]");
   if (e[1] > e[0]) value.fail("the radius of the section must not exceed that of the centre line");
-  return ring(e[0], e[1]);
+  return {ring(e[0], e[1]), ring_space(e[0], e[1])};
 }
 
 struct Shape {
   const char* name;
-  std::function<MassProperties(const YamlValue&)> read;  ///< of density 1
+  UnitSolid (*read)(const YamlValue&);
 };
 
 const std::vector<Shape>& shapes() {
-  static const std::vector<Shape> all = {
-      {"box", [](const YamlValue& v) { return box(v.positive_numbers(3, "three edges [a, b, c]")); }},
-      {"sphere", [](const YamlValue& v) { return sphere(v.positive_number()); }},
-      {"cylinder",
-       [](const YamlValue& v) {
-         const VectorX e = v.positive_numbers(2, "[radius, length]");
-         return cylinder(e[0], e[1]);
-       }},
-      {"tube", read_tube},
-      {"cone", read_cone},
-      {"ring", read_ring},
-  };
+  static const std::vector<Shape> all = {{"box", read_box},   {"sphere", read_sphere}, {"cylinder", read_cylinder},
+                                         {"tube", read_tube}, {"cone", read_cone},     {"ring", read_ring}};
   return all;
 }
 
 struct Solid {
   MassProperties properties;  ///< of negative mass where it is cut out
   double density = 0;         ///< [kg/m^3]
+  PlacedSpace space;
 };
 
 Solid read_solid(const YamlValue& solid) {
@@ -77,15 +91,17 @@ Solid read_solid(const YamlValue& solid) {
   if (count != 1) solid.fail(fmt::format("expected exactly one of '{}'", fmt::join(names, "', '")));
   keys.insert(keys.end(), names.begin(), names.end());
   solid.check_keys(keys, "a solid");
-  const MassProperties unit = given->read(solid.at(given->name));
+  UnitSolid unit = given->read(solid.at(given->name));
   if (!solid.has("mass") && !solid.has("density")) solid.fail("a solid needs `density` or `mass`");
   if (solid.has("mass") && solid.has("density")) solid.at("mass").fail("give either `density` or `mass` of a solid");
-  if (!(unit.mass > 0 && std::isfinite(unit.mass)))
+  if (!(unit.properties.mass > 0 && std::isfinite(unit.properties.mass)))
     solid.at(given->name).fail("the volume is too large or too small for a number; lengths are in m");
-  const double density =
-      solid.has("mass") ? solid.at("mass").positive_number() / unit.mass : solid.at("density").positive_number();
+  const double density = solid.has("mass") ? solid.at("mass").positive_number() / unit.properties.mass
+                                           : solid.at("density").positive_number();
   const bool cut = solid.has("cut") && solid.at("cut").boolean();
-  return {placed(read_frame(solid), (cut ? -density : density) * unit), density};
+  const Frame frame = read_frame(solid);
+  const double signed_density = cut ? -density : density;
+  return {placed(frame, signed_density * unit.properties), density, {std::move(unit.space), frame, signed_density}};
 }
 
 /// What is taken out had the density of something that is there.
@@ -93,6 +109,23 @@ void check_cut(const YamlValue& cut, double density, const std::vector<double>& 
   const auto same = [&](double other) { return std::abs(other - density) <= 1e-9 * density; };
   if (std::none_of(densities.begin(), densities.end(), same))
     cut.fail(fmt::format("what is cut out has the density {:.6g} kg/m^3, and none of the solids has it", density));
+}
+
+/// What is cut out has to be there: it is subtracted from the mass, wherever it is.
+void check_empty_cuts(const YamlValue& value, const std::vector<PlacedSpace>& solids) {
+  constexpr double whole = 0.999;
+  for (const EmptyCut& empty : empty_cuts(solids)) {
+    const YamlValue cut = value.at(empty.solid);
+    const std::string why = empty.other >= 0 ? fmt::format("solid {} of the list has cut {} out already",
+                                                           empty.other + 1, empty.share > whole ? "it" : "that part")
+                                             : "no other solid of its density is there";
+    if (empty.share > whole) cut.fail(fmt::format("there is nothing here that could be cut out: {}", why));
+    cut.doubt(
+        fmt::format("about {:.2g} % of what this solid cuts out is not there ({}), and its mass is subtracted all the "
+                    "same: what is "
+                    "cut out lies inside of the other solids, and cuts do not overlap",
+                    100 * empty.share, why));
+  }
 }
 
 }  // namespace
@@ -105,12 +138,14 @@ MassProperties read_solids(const YamlValue& value) {
   }
   if (value.size() == 0) value.fail("expected at least one solid");
   std::vector<MassProperties> solids;
+  std::vector<PlacedSpace> spaces;
   std::vector<double> densities;  ///< of what has mass
   double mass = 0, solid_mass = 0;
   for (const YamlValue& item : value.items()) {
-    const auto [properties, density] = read_solid(item);
+    auto [properties, density, space] = read_solid(item);
     if (properties.mass > 0) densities.push_back(density);
     solids.push_back(properties);
+    spaces.push_back(std::move(space));
     mass += properties.mass;
     solid_mass += std::max(0.0, properties.mass);
   }
@@ -124,6 +159,7 @@ MassProperties read_solids(const YamlValue& value) {
   for (std::size_t k = 1; k < solids.size(); ++k) sum = sum + solids[k];
   const std::string fault = inertia_fault(sum.inertia);
   if (!fault.empty()) value.fail(fault + ". Is all that is cut out inside of the other solids?");
+  check_empty_cuts(value, spaces);
   return sum;
 }
 

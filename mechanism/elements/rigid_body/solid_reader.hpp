@@ -12,7 +12,9 @@ namespace bielle::mechanism {
 ///    ring: [radius, section], density: | mass:, position: [..], orientation key, cut: true}
 // clang-format on
 /// z is the axis of what turns about one; `position` is where the middle of the axis stands. The mass of what is `cut`
-/// is taken away. @throws InputError when nothing is left, or what is left is no body
+/// is taken away. Parts of it that are not
+/// there (cut twice, or sticking out) are doubted. @throws InputError when nothing is left, when what is left is no
+/// body, or when a whole cut finds nothing to cut
 MassProperties read_solids(const YamlValue& value);
 
 /// True when any of the solids says where it stands.

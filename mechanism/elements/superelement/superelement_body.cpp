@@ -8,6 +8,7 @@
 
 #include "mechanism/elements/superelement/frame_conditions.hpp"
 #include "mechanism/elements/superelement/recovery/stress_peaks.hpp"
+#include "mechanism/elements/superelement/stress_completeness.hpp"
 #include "mechanism/elements/superelement/superelement_body_tangent.hpp"
 #include "mechanism/elements/superelement/validity.hpp"
 #include "mechanism/model/description.hpp"
@@ -111,6 +112,7 @@ SuperelementBody::SuperelementBody(std::string name, const Superelement& superel
   frequencies_ = superelement.frequencies.head(superelement.fixed_boundary_modes());
   residual_vectors_ = superelement.residual_vectors;
   mode_turns_ = superelement.mode_turns;
+  inertia_answer_ = superelement.inertia_answer;
   for (std::size_t k = 0; k < placement.node_names.size(); ++k)
     attributes_.emplace_back("interface " + superelement.interfaces[k].name, placement.node_names[k]);
 }
@@ -120,9 +122,9 @@ void SuperelementBody::declare(Declaration& declaration) const {
   for (const Point& point : points_) {
     declaration.nodes.push_back(point.node);
     for (int k = 0; k < 6; ++k)
-      declaration.multipliers.push_back({fmt::format("{} {} at point '{}'", k < 3 ? "force" : "moment",
-                                                     "xyz"[k % 3], point.name),
-                                         k < 3 ? "N" : "N m"});
+      declaration.multipliers.push_back(
+          {fmt::format("{} {} at point '{}'", k < 3 ? "force" : "moment", "xyz"[k % 3], point.name),
+           k < 3 ? "N" : "N m"});
   }
   for (int k = 1; k <= matrices_->modes; ++k) declaration.amplitudes.push_back({fmt::format("mode {}", k), "m kg^0.5"});
   declaration.stiffness = declaration.damping = declaration.mass = true;
@@ -284,13 +286,35 @@ void SuperelementBody::gather_peaks(const std::vector<std::string>& quantities) 
   peaks_ = quantities;
 }
 
+void SuperelementBody::read_deformation(const LocalState& state, BodyDeformation& deformation) const {
+  const Loan work = evaluate_motion(state);
+  const SuperelementMotion& motion = work->motion;
+  deformation.eps = motion.coordinates.eps();
+  const Vector3 v_0 = motion.nu.head<3>(), Om = motion.nu.tail<3>(), Om_rate = motion.nu_rate.tail<3>();
+  const Matrix3 gradient = skew(Om_rate) + skew(Om) * skew(Om);
+  const Vector3 at_centre = motion.nu_rate.head<3>() + Om.cross(v_0) + gradient * matrices_->centre;
+  for (int i = 0; i < 3; ++i) deformation.acceleration.segment<4>(4 * i) << at_centre[i], gradient.row(i).transpose();
+  thread_local VectorX force;
+  force.noalias() = matrices_->K * deformation.eps;
+  deformation.elastic = 0.5 * deformation.eps.dot(force);
+}
+
 std::unique_ptr<Gatherer> SuperelementBody::make_gatherer() const {
   std::vector<std::unique_ptr<Gatherer>> all;
-  all.push_back(std::make_unique<Validity>(name(), frame_.points(), matrices_->gyration, mode_turns_, largest_error_));
+  auto reader = std::make_unique<DeformationReader>(
+      [this](const LocalState& state, BodyDeformation& deformation) { read_deformation(state, deformation); });
+  const std::shared_ptr<const BodyDeformation> now = reader->now();
+  all.push_back(std::move(reader));
+  all.push_back(std::make_unique<Validity>(
+      name(), frame_.points(),
+      ValidityMeasures{matrices_->gyration, mode_turns_, BodyStrain(*matrices_, frame_.points()), largest_error_},
+      now));
+  if (recovered_.has_stress() && inertia_answer_.whole.size() > 0)
+    all.push_back(std::make_unique<StressCompleteness>(name(), inertia_answer_, now));
   if (!peaks_.empty())
     all.push_back(
-        std::make_unique<StressPeaks>(name(), recovered_.stress(), peaks_, [this](const LocalState& state, double* q) {
-          matrices_->to_file(evaluate_motion(state)->motion.coordinates.eps(), Eigen::Map<VectorX>(q, coordinates()));
+        std::make_unique<StressPeaks>(name(), recovered_.stress(), peaks_, [this, now](const LocalState&, double* q) {
+          matrices_->to_file(now->eps, Eigen::Map<VectorX>(q, coordinates()));
         }));
   return std::make_unique<GathererList>(std::move(all));
 }
@@ -347,7 +371,8 @@ void SuperelementBody::describe_attachments(Description& description) const {
         "no geometric stiffness of interface loads in the file: no stiffening under tension, no buckling");
   else
     description.add_line(
-        "its own strains are small: errors below 0.1 % up to 0.2 rad between interfaces; cut into pieces what bends more");
+        "its own strains are small: errors below 0.1 % up to 0.2 rad between interfaces; cut into pieces what bends "
+        "more");
   constexpr std::size_t most = 12;  // free ties have one for each node of a surface
   for (std::size_t k = 0; k < std::min(interfaces_.size(), most); ++k)
     description.add_line(fmt::format("interface '{}' on node {}", interfaces_[k], description.node(nodes_[k])));

@@ -14,8 +14,8 @@
 // relation of eps to the positions of the interfaces, which makes V a potential of third order with no memory.
 //
 // Limits: strains and rotations within the body are small (to about 0.2 rad from the mean of its interfaces; what bends
-// more wants several superelements); load patterns do not prestress it; the membrane forces of a plate that bends by more
-// than its thickness are missing; damping acts on eps alone.
+// more wants several superelements); load patterns do not prestress it; the membrane forces of a plate that bends by
+// more than its thickness are missing; damping acts on eps alone.
 //
 // Reference: A. Cardona, M. Geradin, Modelling of superelements in mechanism analysis, IJNME 32 (1991) 1565, for the
 // place of a superelement among nodes; the inertia is not theirs (their nodal velocities are not Galilean invariant).
@@ -28,6 +28,7 @@
 #include <vector>
 
 #include "mechanism/elements/superelement/attached_point.hpp"
+#include "mechanism/elements/superelement/body_deformation.hpp"
 #include "mechanism/elements/superelement/recovery/recovered_outputs.hpp"
 #include "mechanism/elements/superelement/superelement_body_motion.hpp"
 #include "mechanism/model/model.hpp"
@@ -112,6 +113,7 @@ class SuperelementBody : public Component {
   /// Working memory with the motion, or with motion and forces, at a state.
   Loan evaluate_motion(const LocalState& state) const;
   Loan evaluate(const LocalState& state) const;
+  void read_deformation(const LocalState& state, BodyDeformation& deformation) const;
   Eigen::Index coordinates() const;  ///< number of local coordinates in the file's order
   /// What is recorded without the mesh. @returns the local coordinates among the values
   const double* write_small_outputs(const LocalState& state, double* values) const;
@@ -138,7 +140,8 @@ class SuperelementBody : public Component {
   std::vector<std::string> interfaces_;  ///< names, in the order of the nodes
   VectorX frequencies_;                  ///< of the fixed-boundary modes [Hz]
   Eigen::Index residual_vectors_ = 0;    ///< so many modes more
-  MatrixX mode_turns_;                   ///< Superelement::mode_turns
+  MatrixX mode_turns_;                   ///< as in Superelement
+  InertiaAnswer inertia_answer_;         ///< likewise
   RecoveredOutputs recovered_;
   std::vector<std::string> peaks_;  ///< that are wanted
   std::unique_ptr<Workspaces> workspaces_;

@@ -76,6 +76,7 @@ SuperelementMatrices::SuperelementMatrices(const Superelement& body) : modes(sta
   mean_turning = solve_symmetric(rigid, MU.transpose()).bottomRows<3>();
   set_inertia(body, P);
   set_load_stiffness(body, P);
+  if (body.strains.size() > 0) strains = columns_in_rows(body.strains);
   for (const auto& [name, load] : body.loads) {
     Pattern pattern(n, 9);
     pattern.setZero();
@@ -92,7 +93,8 @@ int SuperelementMatrices::add_points(const Superelement& body) {
     const auto& kept_directions = interface.kept;
     BodyPoint point;
     point.X = interface.position;
-    point.rotation = InterfaceRotation(interface.rotation, {kept_directions[3], kept_directions[4], kept_directions[5]});
+    point.rotation =
+        InterfaceRotation(interface.rotation, {kept_directions[3], kept_directions[4], kept_directions[5]});
     point.keeps_position = kept_directions[0] && kept_directions[1] && kept_directions[2];
     point.u = row;
     row += 3;

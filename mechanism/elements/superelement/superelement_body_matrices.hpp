@@ -8,12 +8,13 @@
 //     H_kl = sym(delta_kl sum_j S_jj - S_lk)                                      (symmetric),
 // so that a body whose frame moves with nu_0 = (v_0, Om_0) (body components) has, s = U nu_0 + epsdot,
 //     T = s^T M~ s / 2 + s^T G(Om_0) eps + eps^T H(Om_0) eps / 2,   G(Om) = Om_k G_k,   H(Om) = Om_k Om_l H_kl:
-// the exact kinetic energy of the reduced displacement field. The inertia of foreshortening, which that field lacks, takes
+// the exact kinetic energy of the reduced displacement field. The inertia of foreshortening, which that field lacks,
+// takes
 //     - eps^T K_sigma(Om_m) eps / 2,   K_sigma(Om) = Om_k Om_l K_sigma,kl,   Om_m = Lambda s,
-// from it: geometric stiffness of the free body under the centrifugal field of unit Om_k Om_l (the sum runs over all nine
-// pairs k, l). Lambda, the last three rows of (U^T M~ U)^-1 U^T M~, gives the mean angular velocity of the body; that of the
-// frame would do only where fast motions of the interfaces do not turn it: their small mass would become negative.
-// Nothing here depends on where the body is placed: bodies of one file share it.
+// from it: geometric stiffness of the free body under the centrifugal field of unit Om_k Om_l (the sum runs over all
+// nine pairs k, l). Lambda, the last three rows of (U^T M~ U)^-1 U^T M~, gives the mean angular velocity of the body;
+// that of the frame would do only where fast motions of the interfaces do not turn it: their small mass would become
+// negative. Nothing here depends on where the body is placed: bodies of one file share it.
 #pragma once
 
 #include <array>
@@ -42,9 +43,9 @@ struct SuperelementMatrices {
 
   int size() const { return static_cast<int>(K.rows()); }
   int modes = 0;
-  double gyration = 0;               ///< radius of gyration [m]
-  double mass = 0;                   ///< [kg] of the displacement field
-  Vector3 centre = Vector3::Zero();  ///< of mass, body axes
+  double gyration = 0;                ///< radius of gyration [m]
+  double mass = 0;                    ///< [kg] of the displacement field
+  Vector3 centre = Vector3::Zero();   ///< of mass, body axes
   Matrix3 inertia = Matrix3::Zero();  ///< about the centre
   /// Interfaces as the file has them: X, and R_ref of nodes with the body's axes.
   std::vector<BodyPoint> points;
@@ -57,9 +58,10 @@ struct SuperelementMatrices {
   std::array<MatrixX, 3> G;
   std::array<MatrixX6, 3> GU;  ///< G_k U
   std::array<MatrixX, 6> H;
-  std::array<MatrixX, 6> spin;                           ///< K_sigma; empty when the file has none
+  std::array<MatrixX, 6> spin;                            ///< K_sigma; empty when the file has none
   Eigen::Matrix<double, 3, Eigen::Dynamic> mean_turning;  ///< Lambda
-  MatrixX load_stiffness;  ///< [K_1 K_2 ..] (n, n rows); empty when the file has none
+  MatrixX load_stiffness;                                 ///< [K_1 K_2 ..] (n, n rows); empty when the file has none
+  MatrixX strains;  ///< (6 (q + 1), n) strain at places, then its mean, see Superelement; may be empty
   std::vector<std::string> pattern_names;
   std::vector<Pattern> patterns;
 

@@ -14,6 +14,7 @@ namespace {
 constexpr double error_per_square = 0.006, error_of_lines = 0.05;
 constexpr double error_of_free_end = 0.4, error_between = 0.03;  // over theta, bent in the modes
 constexpr double worth_a_line = 1e-3, worth_a_warning = 5e-3;
+constexpr double much_strain = 0.02;
 constexpr double turn_over_chord = 1.5;  // of a bar under a force at its end: theta L / deflection
 constexpr std::size_t most_chords = 12;  // points among which chords are compared
 
@@ -97,66 +98,93 @@ double largest_turn_of_modes(const MatrixX& mode_turns, const LocalState& state)
   return std::sqrt(largest);
 }
 
-Validity::Validity(std::string body, const std::vector<BodyPoint>& points, double gyration, const MatrixX& mode_turns,
-                   std::optional<double> most)
+Validity::Validity(std::string body, const std::vector<BodyPoint>& points, ValidityMeasures measures,
+                   std::shared_ptr<const BodyDeformation> deformation)
     : body_(std::move(body)),
       points_(points),
-      mode_turns_(mode_turns),
-      error_per_mode_turn_(leave_an_end_free(points, gyration) ? error_of_free_end : error_between),
-      most_(most) {}
+      measures_(std::move(measures)),
+      deformation_(std::move(deformation)),
+      error_per_mode_turn_(leave_an_end_free(points, measures_.gyration) ? error_of_free_end : error_between) {}
 
-std::string Validity::when() const {
-  return statics_ ? fmt::format("load factor {:.6g}", time_) : fmt::format("t = {:.6g} s", time_);
+std::string Validity::when(double time, bool statics) {
+  return statics ? fmt::format("load factor {:.6g}", time) : fmt::format("t = {:.6g} s", time);
 }
 
 std::string Validity::bends() const {
-  return fmt::format("bends by {:.2g} rad {}", turn_, in_modes_ ? "in its modes" : "between its interfaces");
+  if (cause_ == Cause::strains) return fmt::format("is strained by {:.2g} % in the mean", 100 * error_);
+  return fmt::format("bends by {:.2g} rad {}", turn_,
+                     cause_ == Cause::bends_in_modes ? "in its modes" : "between its interfaces");
 }
 
 void Validity::begin() {
-  error_ = turn_ = time_ = 0;
-  in_modes_ = statics_ = false;
+  error_ = turn_ = time_ = strain_ = time_of_strain_ = 0;
+  cause_ = Cause::bends;
+  statics_ = false;
+}
+
+void Validity::note(double error, double turn, Cause cause, const LocalState& state) {
+  if (!(error > error_)) return;
+  error_ = error;
+  turn_ = turn;
+  cause_ = cause;
+  time_ = statics_ ? state.environment().load_factor : state.time();
+  if (const auto most = measures_.most; most && error_ > *most)
+    throw ComputationError(
+        fmt::format("{}: superelement '{}' {}; its deformation is wrong by about {:.2g}, more than its "
+                    "`largest_error`, {:.2g}: {}",
+                    when(time_, statics_), body_, bends(), error_, *most,
+                    cause_ == Cause::strains ? "its elasticity is linear" : "cut it into pieces"));
 }
 
 void Validity::add(const LocalState& state) {
-  const BodyTurn turn = largest_turn(points_, state);
-  const double of_modes = largest_turn_of_modes(mode_turns_, state);
-  const double by_interfaces = error_per_square * turn.of_interfaces * turn.of_interfaces,
-               by_lines = error_of_lines * turn.of_lines * turn.of_lines, by_modes = error_per_mode_turn_ * of_modes;
-  const double error = std::max({by_interfaces, by_lines, by_modes});
-  if (!(error > error_)) return;
-  error_ = error;
-  in_modes_ = by_modes == error;
-  turn_ = in_modes_ ? of_modes : by_lines == error ? turn.of_lines : turn.of_interfaces;
   statics_ = state.environment().statics;
-  time_ = statics_ ? state.environment().load_factor : state.time();
-  if (most_ && error_ > *most_)
-    throw ComputationError(
-        fmt::format("{}: superelement '{}' {}; its deformation is wrong by about {:.2g}, more than its "
-                    "`largest_error`, {:.2g}: cut it "
-                    "into pieces",
-                    when(), body_, bends(), error_, *most_));
+  const BodyTurn turn = largest_turn(points_, state);
+  const double of_modes = largest_turn_of_modes(measures_.mode_turns, state);
+  const StrainSizes strain = measures_.strain.calc(deformation_->eps);
+  note(error_per_square * turn.of_interfaces * turn.of_interfaces, turn.of_interfaces, Cause::bends, state);
+  note(error_of_lines * turn.of_lines * turn.of_lines, turn.of_lines, Cause::bends, state);
+  note(error_per_mode_turn_ * of_modes, of_modes, Cause::bends_in_modes, state);
+  note(strain.mean, 0, Cause::strains, state);
+  if (!(strain.largest > strain_)) return;
+  strain_ = strain.largest;
+  time_of_strain_ = statics_ ? state.environment().load_factor : state.time();
 }
 
 void Validity::exchange(Archive& archive) {
-  for (double* value : {&error_, &turn_, &time_}) archive(*value);
-  archive(in_modes_);
+  for (double* value : {&error_, &turn_, &time_, &strain_, &time_of_strain_}) archive(*value);
+  bool in_modes = cause_ == Cause::bends_in_modes, strains = cause_ == Cause::strains;
+  archive(in_modes);
+  archive(strains);
+  cause_ = strains ? Cause::strains : in_modes ? Cause::bends_in_modes : Cause::bends;
   archive(statics_);
 }
 
 std::vector<ResultArray> Validity::results() {
   const std::string group = fmt::format("validity/{}/", body_);
   return {{group + "error", {}, {error_}, "-", "largest estimate of the relative error of the body's deformation"},
-          {group + "turn", {}, {turn_}, "rad", "of an interface, or a place in the modes, relative to another there"},
-          {group + "time", {}, {time_}, statics_ ? "-" : "s", statics_ ? "load factor" : "when it was reached"}};
+          {group + "turn",
+           {},
+           {turn_},
+           "rad",
+           "of an interface, or a place in the modes, relative to another there; 0 where strain is the cause"},
+          {group + "time", {}, {time_}, statics_ ? "-" : "s", statics_ ? "load factor" : "when it was reached"},
+          {group + "strain", {}, {strain_}, "-", "largest strain at places spread over the body"}};
 }
 
 std::string Validity::summary() {
-  if (error_ < worth_a_line) return {};
+  std::string text;
   const bool warns = error_ > worth_a_warning;
-  return fmt::format("  {}superelement '{}' {} at {}: its deformation is wrong by about {:.1g} %{}\n",
-                     warns ? "DOUBTFUL: " : "", body_, bends(), when(), 100 * error_,
-                     warns ? "; cut it into pieces" : "");
+  if (error_ >= worth_a_line)
+    text = fmt::format("  {}superelement '{}' {} at {}: its deformation is wrong by about {:.1g} %{}\n",
+                       warns ? "DOUBTFUL: " : "", body_, bends(), when(time_, statics_), 100 * error_,
+                       !warns                     ? ""
+                       : cause_ == Cause::strains ? ", since its elasticity is linear"
+                                                  : "; cut it into pieces");
+  if (strain_ >= much_strain && !(warns && cause_ == Cause::strains && error_ > 0.5 * strain_))
+    text += fmt::format(
+        "  DOUBTFUL: superelement '{}' is strained by {:.2g} % at {}: its elasticity is linear, for small strains\n",
+        body_, 100 * strain_, when(time_of_strain_, statics_));
+  return text;
 }
 
 }  // namespace bielle::mechanism

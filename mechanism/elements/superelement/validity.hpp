@@ -14,11 +14,18 @@
 // of the free end under a force there: 4/15 theta^2 L, deflection 2/3 theta L; under its weight 0.43 theta). Between
 // interfaces, whose distance does become smaller, 0.03 theta is left (bar with clamped ends that approach each other,
 // places at the quarters).
+//
+// Strained in the mean by e (stretched, sheared) it is wrong by about e, since elasticity is linear (a material whose
+// true stress is linear in the strain per present length differs by 1.1 e, one of Green's strain by 1.5 e). Strains of
+// 2 % anywhere are told too, whatever their mean: bending and twist of stout bodies strain far before they turn.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
+#include "mechanism/elements/superelement/body_deformation.hpp"
+#include "mechanism/elements/superelement/body_strain.hpp"
 #include "mechanism/elements/superelement/corotated_frame.hpp"
 #include "mechanism/model/gatherer.hpp"
 
@@ -34,16 +41,22 @@ BodyTurn largest_turn(const std::vector<BodyPoint>& points, const LocalState& st
 /// @param mode_turns  (3 q, amplitudes), see Superelement
 double largest_turn_of_modes(const MatrixX& mode_turns, const LocalState& state);
 
+/// What Validity compares a body with, beyond its interfaces.
+struct ValidityMeasures {
+  double gyration = 0;        ///< radius of gyration of the body [m]
+  const MatrixX& mode_turns;  ///< as above; may be empty
+  BodyStrain strain;
+  std::optional<double> most;  ///< relative error beyond which a run fails; or none
+};
+
 /// The largest estimate over all steps of an analysis, and when it was reached.
 class Validity final : public Gatherer {
  public:
-  /// @param body        name of the element
-  /// @param points      its interfaces, node k of the state being point k
-  /// @param gyration    radius of gyration of the body [m]
-  /// @param mode_turns  as above; may be empty
-  /// @param most        relative error beyond which a run fails; or none
-  Validity(std::string body, const std::vector<BodyPoint>& points, double gyration, const MatrixX& mode_turns,
-           std::optional<double> most);
+  /// @param body         name of the element
+  /// @param points       its interfaces, node k of the state being point k
+  /// @param deformation  renewed before each `add`
+  Validity(std::string body, const std::vector<BodyPoint>& points, ValidityMeasures measures,
+           std::shared_ptr<const BodyDeformation> deformation);
 
   void begin() override;
   /// @throws ComputationError where the estimate is beyond `most`
@@ -54,17 +67,20 @@ class Validity final : public Gatherer {
   std::string what() const override { return "validity of '" + body_ + "'"; }
 
  private:
-  std::string when() const;   ///< "t = 0.1 s"
-  std::string bends() const;  ///< "bends by 0.2 rad between its interfaces"
+  enum class Cause { bends, bends_in_modes, strains };
+  static std::string when(double time, bool statics);  ///< "t = 0.1 s"
+  std::string bends() const;                           ///< "bends by 0.2 rad between its interfaces"
+  void note(double error, double turn, Cause cause, const LocalState& state);
 
   std::string body_;
   const std::vector<BodyPoint>& points_;
-  const MatrixX& mode_turns_;
+  ValidityMeasures measures_;
+  std::shared_ptr<const BodyDeformation> deformation_;
   double error_per_mode_turn_;
-  std::optional<double> most_;
   double error_ = 0, turn_ = 0, time_ = 0;
-  bool in_modes_ = false;  ///< the turn is that of places in the modes
-  bool statics_ = false;   ///< the time is a load factor
+  Cause cause_ = Cause::bends;              ///< of the error
+  double strain_ = 0, time_of_strain_ = 0;  ///< the largest anywhere
+  bool statics_ = false;                    ///< times are load factors
 };
 
 }  // namespace bielle::mechanism

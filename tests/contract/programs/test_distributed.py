@@ -119,6 +119,12 @@ class Distributed(CommandTest):
         alone, shared = self.both(below, 3)
         self.assertGreater(len(shared["modes/frequencies"]), 4)
         numpy.testing.assert_allclose(shared["modes/frequencies"], alone["modes/frequencies"], rtol=1e-9)
+        alone, shared = self.both(BODY + "inertia_relief: true\n")
+        self.assertEqual(len(shared["modes/frequencies"]), 4 + 12)
+        numpy.testing.assert_allclose(shared["modes/frequencies"], alone["modes/frequencies"], rtol=1e-6)
+        answers = [numpy.abs(file["reduced/inertia_answer/missing"]).max() / numpy.abs(file["reduced/inertia_answer/whole"]).max()
+                   for file in (alone, shared)]
+        self.assertLess(max(answers), 1e-9)
         alone, shared = self.both(BODY + "pieces: {planes: {axis: x, at: 0.1}}\n")
         for piece in ("pieces/1", "pieces/2"):
             numpy.testing.assert_allclose(shared[piece + "/modes/frequencies"], alone[piece + "/modes/frequencies"], rtol=1e-9)

@@ -102,6 +102,24 @@ class ReducePoints(BarTest):
         (without,) = self.displacements(MODEL, pad=PAD_PLACE)
         self.assertGreater(numpy.linalg.norm(without - exact), 1e-3 * numpy.linalg.norm(exact))
 
+    def test_inertia_relief_makes_the_answer_to_accelerations_whole(self):
+        def missing():
+            with h5py.File(os.path.join(self.folder, "body.h5")) as file:
+                group = file["reduced/inertia_answer"]
+                return numpy.abs(group["missing"][()]).max() / numpy.abs(group["whole"][()]).max()
+
+        self.reduce(BODY)
+        self.assertGreater(missing(), 1e-3)
+        said = self.reduce(BODY + "inertia_relief: true\n").stdout
+        self.assertIn("28 coordinates, 12 of interfaces, 4 of modes and 12 of residual vectors", said)
+        self.assertIn("gives way by 100, 100 and 100 % of what the mesh does; spinning about them by 100, 100 and 100 %", said)
+        self.assertLess(missing(), 1e-9)
+        self.write("body.yaml", BODY + "inertia_relief: 12\n")
+        refused = self.run_program("body.yaml")
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("body.yaml:", refused.stderr)
+        self.assertIn("inertia_relief", refused.stderr)
+
     def test_points_that_were_changed_are_noticed(self):
         self.reduce(BODY + POINTS + "recovery: {displacement: none, stress: none}\n")
         path = os.path.join(self.folder, "body.h5")

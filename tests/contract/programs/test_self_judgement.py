@@ -123,6 +123,33 @@ class SelfJudgement(CommandTest):
         self.assertIn("(lost by errors of the steps; this scheme does not dissipate)",
                       self.summary(falling.format(duration=0.4, step=0.02, rho=1)))
 
+    def test_the_balance_is_judged_by_what_flows_through(self):
+        # A damper that is driven stores nothing; a brake takes 10 kJ from a drive, and the rotor stores 0.05 J.
+        damper = ('nodes: {m: {position: [1, 0, 0], fixed: [y, z, rx, ry, rz], motion: {x: "0.1*sin(2*pi*t)"}}}\n'
+                  "elements: {d: {type: spring_damper, nodes: [ground, m], damping: 1000}}\n"
+                  "analysis: [{type: dynamic, duration: 2, step: 1e-2}]\n")
+        brake = ("nodes: {r: {}}\nelements: {m: {type: rigid_body, node: r, mass: 1, inertia: [1e-3, 1e-3, 1e-3]}}\n"
+                 "joints: {h: {type: hinge, nodes: [ground, r], axis: [0, 0, 1], damping: 5}}\n"
+                 'drives: {d: {joint: h, rate: "10"}}\nanalysis: [{type: dynamic, duration: 20, step: 1e-2}]\n')
+        for model in (damper, brake):
+            text = self.summary(model)
+            self.assertIn(" of what flowed through (", text)
+            self.assertNotIn("nothing moved", text)
+            self.assertNotIn("DOUBTFUL", text)
+        # A pendulum that its steps do not resolve is not hidden by a brake next to it, which takes twenty times its energy ..
+        def with_rotor(inertia, damping, rate, drive):
+            model = PENDULUM.format(duration=0.4, step=0.1, rho=1).replace("nodes: {a:", f"nodes: {{r: {{position: [9, 0, 0]{rate}}}, a:")
+            model = model.replace("elements: {", f"elements: {{r: {{type: rigid_body, node: r, mass: 1, inertia: [1, 1, {inertia}]}}, ")
+            return model.replace("joints: {", f"joints: {{h: {{type: hinge, nodes: [ground, r], axis: [0, 0, 1], damping: {damping}}}, ") + drive
+
+        text = self.summary(with_rotor(1e-3, 10, "", 'drives: {d: {joint: h, rate: "10"}}\n'))
+        self.assertIn(" of what flowed through (", text)
+        self.assertIn("DOUBTFUL: so large errors in the balance", text)
+        # .. and next to a heavy flywheel it leaves little known of what is dissipated.
+        text = self.summary(with_rotor(10, 0.02, ", angular_velocity: [0, 0, 50]", ""))
+        self.assertIn(" of the largest energy (", text)
+        self.assertRegex(text, r"\n  that is 0\.\d+ of the 1\d\.?\d* J that went in or were dissipated: these are not known better\n")
+
     def test_dissipation_of_the_scheme_is_told_from_errors_of_the_steps(self):
         def parts(model):
             text = self.summary(model)

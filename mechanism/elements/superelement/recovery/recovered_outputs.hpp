@@ -20,6 +20,7 @@ class RecoveredOutputs {
   /// Reads the stress of all nodes, which everything that is made of it shares.
   void load_stress(const Superelement& body);
   std::shared_ptr<const StressRecovery> stress() const { return stress_; }
+  bool has_stress() const { return stress_ != nullptr; }  ///< stress or strain was asked for
 
   const std::vector<OutputField>& descriptions() const { return descriptions_; }
   /// Facts about the points: {"stress_at_root", "node 12 at [..] m"}.

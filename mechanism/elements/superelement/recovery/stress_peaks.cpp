@@ -22,14 +22,25 @@ struct PeakKind {
 
 /// In the order of StressPeaks::Kind.
 constexpr std::array<PeakKind, 3> peak_kinds = {{{"von_mises", "largest von Mises stress", 1},
-                                          {"largest_principal", "largest principal stress", 1},
-                                          {"least_principal", "least principal stress", -1}}};
+                                                 {"largest_principal", "largest principal stress", 1},
+                                                 {"least_principal", "least principal stress", -1}}};
 
 /// Of equal values the first in time, then the first node: no matter in which order they are seen.
 bool exceeds(const StressPeak& one, const StressPeak& other, double sign) {
   if (one.row < 0 || other.row < 0) return one.row >= 0 && other.row < 0;
   if (one.value != other.value) return sign * one.value > sign * other.value;
   return one.time != other.time ? one.time < other.time : one.row < other.row;
+}
+
+/// Of all nodes; a volume group may have this name too.
+constexpr const char* the_whole = "all";
+
+/// Of a group next to the whole body and the other groups.
+std::string own_name(std::string group, const std::vector<std::string>& groups) {
+  if (group != the_whole) return group;
+  do group += "_volume";
+  while (std::find(groups.begin(), groups.end(), group) != groups.end());
+  return group;
 }
 
 }  // namespace
@@ -47,14 +58,18 @@ StressPeaks::StressPeaks(std::string body, std::shared_ptr<const StressRecovery>
       von_mises_(wants("von_mises")),
       principal_(wants("principal_stress")),
       coordinates_(std::move(coordinates)),
-      regions_{"all"},
+      regions_{the_whole},
       q_(stress_->matrix.cols()),
       times_(together) {
-  regions_.insert(regions_.end(), stress_->groups.begin(), stress_->groups.end());
   std::vector<std::vector<int>> groups(stress_->nodes.size());
-  for (std::size_t g = 0; g < stress_->groups.size(); ++g)
+  for (std::size_t g = 0; g < stress_->groups.size(); ++g) {
+    const bool is_whole = stress_->group_rows[g].size() == stress_->nodes.size();
+    if (is_whole && stress_->groups[g] == the_whole) continue;  // as geometries without groups have it
     for (const int row : stress_->group_rows[g])
-      groups[static_cast<std::size_t>(row)].push_back(static_cast<int>(g) + 1);
+      groups[static_cast<std::size_t>(row)].push_back(static_cast<int>(regions_.size()));
+    regions_.push_back(own_name(stress_->groups[g], stress_->groups));
+    if (is_whole) said_with_whole_.push_back(regions_.size() - 1);
+  }
   group_begin_ = {0};
   for (const std::vector<int>& of_node : groups) {
     group_of_.insert(group_of_.end(), of_node.begin(), of_node.end());
@@ -151,6 +166,18 @@ void StressPeaks::exchange(Archive& archive) {
     }
 }
 
+std::string StressPeaks::group_of(std::size_t region, std::size_t kind) const {
+  return fmt::format("peaks/{}/{}/{}/", body_, link_name(regions_[region]), peak_kinds[kind].dataset);
+}
+
+std::vector<std::string> StressPeaks::datasets() {
+  std::vector<std::string> all;
+  for (std::size_t region = 0; region < regions_.size(); ++region)
+    for (std::size_t kind = 0; kind < kinds; ++kind)
+      for (const char* name : {"value", "time", "node", "position"}) all.push_back(group_of(region, kind) + name);
+  return all;
+}
+
 std::vector<ResultArray> StressPeaks::results() {
   look();
   std::vector<ResultArray> arrays;
@@ -158,8 +185,7 @@ std::vector<ResultArray> StressPeaks::results() {
     for (std::size_t kind = 0; kind < kinds; ++kind) {
       const StressPeak& peak = peaks_[region][kind];
       if (peak.row < 0) continue;
-      const std::string group =
-          fmt::format("peaks/{}/{}/{}/", body_, link_name(regions_[region]), peak_kinds[kind].dataset);
+      const std::string group = group_of(region, kind);
       const Vector3 point = stress_->points.col(peak.row);
       arrays.push_back({group + "value", {}, {peak.value}, "Pa", peak_kinds[kind].sentence});
       arrays.push_back(
@@ -178,7 +204,7 @@ std::string StressPeaks::summary() {
   look();
   std::string text;
   for (std::size_t region = 0; region < regions_.size(); ++region) {
-    if (region > 0 && stress_->group_rows[region - 1].size() == stress_->nodes.size()) continue;  // the whole again
+    if (std::find(said_with_whole_.begin(), said_with_whole_.end(), region) != said_with_whole_.end()) continue;
     const std::string where = region == 0 ? "" : fmt::format(" in '{}'", regions_[region]);
     for (std::size_t kind = 0; kind < kinds; ++kind) {
       const StressPeak& peak = peaks_[region][kind];

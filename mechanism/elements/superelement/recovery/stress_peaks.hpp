@@ -3,9 +3,9 @@
 //   von_mises         the largest equivalent stress
 //   principal_stress  the largest principal stress (most tensile) and the least (most compressive)
 //
-// of the whole body and of each volume group, each with its node, place and time; of equal ones the first in time, then
-// the first node. No field is stored: local coordinates are collected, and the stress of all nodes follows for several
-// steps at once. It has the bits of the fields that a results file holds, however the steps are collected.
+// of the whole body (`all`) and of each volume group, each with its node, place and time; of equal ones the first in
+// time, then the first node. No field is stored: local coordinates are collected, and the stress of all nodes follows
+// for several steps at once. It has the bits of the fields that a results file holds, however the steps are collected.
 #pragma once
 
 #include <array>
@@ -40,6 +40,7 @@ class StressPeaks : public Gatherer {
   void add(const LocalState& state) override;
   void exchange(Archive& archive) override;
   std::vector<ResultArray> results() override;
+  std::vector<std::string> datasets() override;
   std::string summary() override;
   std::string what() const override;
 
@@ -50,7 +51,8 @@ class StressPeaks : public Gatherer {
   static constexpr int together = 16;
 
   bool wants(const std::string& name) const;
-  void look();  ///< at the steps that wait
+  std::string group_of(std::size_t region, std::size_t kind) const;  ///< of the results, with a '/' at its end
+  void look();                                                       ///< at the steps that wait
   void look_at(int row, double time, const double* s, Peaks& peaks) const;
   void offer(int row, Kind kind, const StressPeak& peak, Peaks& peaks) const;
   bool may_raise(int row, double mean, double reach, const Peaks& peaks) const;
@@ -62,8 +64,9 @@ class StressPeaks : public Gatherer {
   std::vector<std::string> wanted_;
   bool von_mises_, principal_;  ///< wanted
   Coordinates coordinates_;
-  /// The whole body, then the volume groups.
+  /// The whole body, `all`, then the volume groups; one of the name `all` that is not the whole is `all_volume`.
   std::vector<std::string> regions_;
+  std::vector<std::size_t> said_with_whole_;  ///< groups of all nodes
   std::vector<int> group_begin_,
       group_of_;  ///< regions of each node besides the whole: from begin[row] to begin[row+1]
   Peaks peaks_;

@@ -1,5 +1,6 @@
 // Stresses of superelements in whole runs: fields, signals at points, and peaks over all steps.
 #include <filesystem>
+#include <numeric>
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
@@ -121,6 +122,30 @@ TEST_CASE("peaks are the largest of the fields at every step, by volume, also wh
                                     Contains("least principal stress of 'rod' in 'pad 1.5': ") &&
                                     Contains(" Pa at t = "));
     CHECK_FALSE(all.has("/peaks/other"));
+  }
+}
+
+TEST_CASE("a volume called all has its peaks, whether it is the whole body or a part of it") {
+  // Geometries without groups are one volume `all`.
+  const Rods rods;
+  Superelement rod = read_superelement(rods.folder / "rod.h5");
+  std::vector<int> every(nodes);
+  std::iota(every.begin(), every.end(), 0);
+  const std::string text = rods.text("peaks: {rod: [von_mises]}");
+  for (const bool whole : {true, false}) {
+    rod.stress_origin.groups = {{"all", whole ? every : std::vector<int>{3, 4, 5}}, {"web", {0, 1, 2, 3}}};
+    write_superelement(rod, rods.folder / "rod.h5");
+    rods.run(text, "peaks.h5");
+    const Hdf5File file = Hdf5File::open(rods.folder / "peaks.h5");
+    const std::vector<std::string> regions = file.names_in("/analysis_1/peaks/rod");
+    CHECK(regions ==
+          (whole ? std::vector<std::string>{"all", "web"} : std::vector<std::string>{"all", "all_volume", "web"}));
+    const double largest = file.read_number("/analysis_1/peaks/rod/all/von_mises/value");
+    CHECK(largest >= file.read_number("/analysis_1/peaks/rod/web/von_mises/value"));
+    if (whole) continue;
+    CHECK(largest > file.read_number("/analysis_1/peaks/rod/all_volume/von_mises/value"));
+    const double node = file.read_number("/analysis_1/peaks/rod/all_volume/von_mises/node");
+    CHECK((node >= 3 && node <= 5));
   }
 }
 

@@ -1,5 +1,8 @@
+#include <cmath>
+
 #include <catch2/catch.hpp>
 
+#include "reduce/fe/mean_strain.hpp"
 #include "reduce/reduction/mode_turns.hpp"
 #include "tests/unit/reduce/reduction/bodies.hpp"
 
@@ -29,4 +32,48 @@ TEST_CASE("Turns of modes are those of the displacement field at places from end
     most = std::max(most, turns(k + 1, 1));
   }
   CHECK(most - least == Approx(1).epsilon(0.1));  // elements of 0.05 m
+}
+
+TEST_CASE("Strains at places are those of the displacement field, and the last is the mean over the body") {
+  for (const bool quadratic : {true, false}) {
+    const Mesh mesh = test::box_mesh({{1, 0.1, 0.1}, {20, 2, 2}, quadratic});
+    const ReductionOptions options = test::steel_body(Tie::rigid, Tie::rigid, 0);
+    const Solid solid = make_solid(mesh, options.materials, options.regions);
+    Eigen::Matrix3d gradient;
+    gradient << 0.1, 0.2, -0.3, 0.05, -0.4, 0.7, 0.6, 0.15, 0.25;
+    Eigen::Matrix<double, 6, 1> strain;
+    strain << 0.1, -0.4, 0.25, 0.7 + 0.15, -0.3 + 0.6, 0.2 + 0.05;
+    RowMatrix fields(3 * solid.points(), 3);
+    for (Eigen::Index a = 0; a < solid.points(); ++a) {
+      const Eigen::Vector3d X = mesh.points.col(a);
+      fields.block<3, 1>(3 * a, 0) = gradient * X;
+      fields.block<3, 1>(3 * a, 1) = Eigen::Vector3d(0.3, -0.5, 0.2).cross(X);
+      const double z = X.z() - 0.05;  // from the axis
+      fields.block<3, 1>(3 * a, 2) = Eigen::Vector3d(-X.x() * z, 0, X.x() * X.x() / 2);
+    }
+    const Eigen::MatrixXd strains = place_strains(solid, fields, "bar");
+    REQUIRE(strains.rows() >= 6 * 9);
+    double largest = 0;
+    for (Eigen::Index k = 0; k < strains.rows(); k += 6) {
+      CHECK((strains.block<6, 1>(k, 0) - strain).norm() < 1e-10);
+      CHECK(strains.block<6, 1>(k, 1).norm() < 1e-10);
+      largest = std::max(largest, std::abs(strains(k, 2)));
+    }
+    CHECK(largest > (quadratic ? 0.035 : 0.02));  // at the outermost fibres, less half an element or so
+    CHECK(largest < 0.05 * (1 + 1e-9));
+    if (quadratic) CHECK(std::abs(strains(strains.rows() - 6, 2)) < 1e-12);  // bending cancels
+  }
+}
+
+TEST_CASE("The mean strain of a body with curved cells is exact for linear fields") {
+  const Mesh mesh = test::twisted_block();
+  const Solid solid = make_solid(mesh, {{"steel", test::steel()}}, {{"all", "steel"}});
+  RowMatrix fields = RowMatrix::Zero(3 * solid.points(), 2);
+  for (Eigen::Index a = 0; a < solid.points(); ++a) {
+    fields(3 * a, 0) = mesh.points(0, a);
+    fields(3 * a + 1, 1) = mesh.points(2, a);
+  }
+  const Eigen::MatrixXd mean = mean_strain(solid, fields);
+  CHECK((mean.col(0) - Eigen::VectorXd::Unit(6, 0)).norm() < 1e-12);
+  CHECK((mean.col(1) - Eigen::VectorXd::Unit(6, 3)).norm() < 1e-12);
 }

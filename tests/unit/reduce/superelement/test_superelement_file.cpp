@@ -312,6 +312,40 @@ TEST_CASE("Points are read without the rest of the file, and wrong ones are refu
              Contains("of 3 modes, 4 cannot be residual vectors"));
 }
 
+TEST_CASE("What a run judges a body by stands in its file, which may do without") {
+  const TemporaryFolder folder;
+  Superelement body = sample();
+  const Superelement without = read_superelement(written(folder, body));
+  CHECK(without.strains.size() == 0);
+  CHECK(without.inertia_answer.whole.size() == 0);
+  body.strains = Eigen::MatrixXd::Random(12, body.size());
+  body.inertia_answer = {Eigen::MatrixXd::Random(12, 12), Eigen::MatrixXd::Random(12, 12)};
+  const std::string path = written(folder, body);
+  const Superelement back = read_superelement(path);
+  CHECK(back.strains == body.strains);
+  CHECK(back.inertia_answer.whole == body.inertia_answer.whole);
+  CHECK(back.inertia_answer.missing == body.inertia_answer.missing);
+  const auto refused_with = [&](const std::function<void(Hdf5File&)>& damage) {
+    write_superelement(body, path);
+    Hdf5File file = Hdf5File::open_to_extend(path);
+    damage(file);
+    file.close();
+    return message_of<InputError>([&] { read_superelement(path); });
+  };
+  CHECK_THAT(refused_with([](Hdf5File& file) { file.remove("/reduced/inertia_answer/missing"); }),
+             Contains("/reduced/inertia_answer/missing: is not in this file"));
+  CHECK_THAT(refused_with([](Hdf5File& file) {
+               file.remove("/reduced/inertia_answer/whole");
+               file.write("/reduced/inertia_answer/whole", Eigen::MatrixXd(Eigen::MatrixXd::Zero(6, 6)), "-");
+             }),
+             Contains("/reduced/inertia_answer/whole"));
+  CHECK_THAT(refused_with([](Hdf5File& file) {
+               file.remove("/reduced/strain");
+               file.write("/reduced/strain", Eigen::MatrixXd(Eigen::MatrixXd::Zero(12, 1)), "-");
+             }),
+             Contains("/reduced/strain"));
+}
+
 TEST_CASE("What a superelement is good for stands in its file, which may do without") {
   const TemporaryFolder folder;
   Superelement body = sample();

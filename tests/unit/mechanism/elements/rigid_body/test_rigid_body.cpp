@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/elements/rigid_body/rigid_body.hpp"
+#include "mechanism/elements/rigid_body/solid_reader.hpp"
 #include "tests/support/dense_model.hpp"
 #include "tests/support/model_text.hpp"
 #include "tests/support/random.hpp"
@@ -287,4 +288,79 @@ TEST_CASE("a mass distribution that no body has is refused") {
   CHECK_NOTHROW(body("mass: 1, inertia: [0.5, 0.5, 1, 0.5, 0, 0]"));
   // A thin disk lies on the bound and is rounded by its user.
   CHECK_NOTHROW(body("mass: 1, inertia: [0.333, 0.333, 0.6662]"));
+}
+
+namespace {
+
+/// Mass of a list of solids, and what is doubted about them.
+struct ReadSolids {
+  double mass;
+  std::string doubts;
+  explicit ReadSolids(const std::string& list) {
+    const bielle::YamlValue root = bielle::YamlValue::parse("solid: [" + list + "]", "m.yaml");
+    mass = read_solids(root.at("solid")).mass;
+    for (const std::string& doubt : root.doubts()) doubts += doubt + "\n";
+  }
+};
+
+const std::string plate = "{box: [0.2, 0.2, 0.1], density: 1000}";
+
+std::string hole(double radius, double length, const std::string& place) {
+  return fmt::format("{{cylinder: [{}, {}], density: 1000, position: {}, cut: true}}", radius, length, place);
+}
+
+}  // namespace
+
+TEST_CASE("a hole that is cut twice is refused") {
+  const std::string once = hole(0.03, 0.1, "[0, 0, 0]");
+  CHECK(ReadSolids(plate + ", " + once).mass == Approx(1000 * (0.004 - M_PI * 0.0009 * 0.1)));
+  CHECK(ReadSolids(plate + ", " + once).doubts.empty());
+  CHECK_THROWS_WITH(ReadSolids(plate + ", " + once + ", " + once),
+                    Contains("solid[3]") && Contains("solid 2 of the list has cut it out already"));
+  // Also where it is drawn otherwise, or lies inside of the other.
+  CHECK_THROWS_WITH(ReadSolids(plate + ", " + once + ", {tube: [0.03, 1e-6, 0.1], density: 1000, cut: true}"),
+                    Contains("has cut it out already"));
+  CHECK_THROWS_WITH(ReadSolids(plate + ", " + once + ", " + hole(0.01, 0.02, "[0.01, 0, 0.03]")),
+                    Contains("has cut it out already"));
+  CHECK_THROWS_WITH(ReadSolids(plate + ", " + hole(0.03, 0.1, "[0.15, 0, 0]")),
+                    Contains("no other solid of its density is there"));
+}
+
+TEST_CASE("holes that overlap or project are told with their share") {
+  // A counterbore that is drawn through the hole below it.
+  const ReadSolids bore(plate + ", " + hole(0.02, 0.1, "[0, 0, 0]") + ", " + hole(0.04, 0.05, "[0, 0, 0.025]"));
+  CHECK_THAT(bore.doubts, Contains("solid[3]") && Contains("about 25 % of what this solid cuts out is not there") &&
+                              Contains("solid 2 of the list has cut that part out already"));
+  CHECK_THAT(ReadSolids(plate + ", " + hole(0.02, 0.2, "[0, 0, 0]")).doubts,
+             Contains("about 50 % of what this solid cuts out is not there") &&
+                 Contains("no other solid of its density is there"));
+  // Two holes that meet: one ends where the other begins.
+  CHECK(ReadSolids(plate + ", " + hole(0.02, 0.05, "[0, 0, -0.025]") + ", " + hole(0.04, 0.05, "[0, 0, 0.025]"))
+            .doubts.empty());
+  // What fills a hole can be cut again.
+  const ReadSolids filled(plate + ", " + hole(0.03, 0.1, "[0, 0, 0]") + ", {cylinder: [0.02, 0.1], density: 1000}, " +
+                          hole(0.01, 0.1, "[0, 0, 0]"));
+  CHECK(filled.doubts.empty());
+  CHECK(filled.mass == Approx(1000 * (0.004 - M_PI * 0.1 * (0.0009 - 0.0004 + 0.0001))));
+}
+
+TEST_CASE("the share of each shape that projects is that of its volume") {
+  // Material above the plane z = 0 alone; of the cone (radii 0.1, in the middle 0.2, 0.3) 7 of 26
+  // parts lie below, by a^2 + a b + b^2.
+  const std::string material = "{box: [2, 2, 1], density: 1, position: [0, 0, 0.5]}";
+  for (const auto& [shape, share] : {std::pair{"box: [0.1, 0.2, 0.3]", "50"},
+                                     {"sphere: 0.2", "50"},
+                                     {"cylinder: [0.2, 0.3]", "50"},
+                                     {"tube: [0.2, 0.19, 0.3]", "50"},
+                                     {"cone: [0.1, 0.3, 0.4]", "27"},
+                                     {"ring: [0.3, 0.1]", "50"}}) {
+    CAPTURE(shape);
+    CHECK_THAT(ReadSolids(material + ", {" + shape + ", density: 1, cut: true}").doubts,
+               Contains(fmt::format("about {} % of what", share)));
+    CHECK(ReadSolids(material + ", {" + shape + ", density: 1, position: [0, 0, 0.5], cut: true}").doubts.empty());
+    // Turned over: the cone's other end projects.
+    const std::string turned = ", density: 1, rotation_vector: [3.141592653589793, 0, 0], cut: true}";
+    CHECK_THAT(ReadSolids(material + ", {" + shape + turned).doubts,
+               Contains(fmt::format("about {} % of what", share == std::string("27") ? "73" : share)));
+  }
 }

@@ -32,6 +32,25 @@ TEST_CASE("residual and tangents of a superelement allocate nothing after the fi
   CHECK(calls == 0);
 }
 
+TEST_CASE("what is gathered of a superelement's deformation allocates nothing after the first step") {
+  Random random(2);
+  bielle::Superelement body = bent_chain().reduced().body;
+  body.strains = MatrixX::Random(6 * 9, body.size());
+  const SuperelementAlone alone(body);
+  const State first = alone.random_state(random, 0.02, 2), second = alone.random_state(random, 0.02, 2);
+  const auto gatherer = alone.body().make_gatherer();
+  gatherer->begin();
+  gatherer->add(alone.local(first));
+  const LocalState local = alone.local(second);
+  int calls = 0;
+  {
+    const AllocationCount count;
+    gatherer->add(local);
+    calls = count.calls();
+  }
+  CHECK(calls == 0);
+}
+
 TEST_CASE("peaks allocate nothing once the first steps have been looked at") {
   bielle::Superelement body;
   constexpr int coordinates = 20, nodes = 50;

@@ -1,0 +1,41 @@
+// What the gatherers of a superelement look at, computed once for all of them in each step.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <utility>
+
+#include "mechanism/math/types.hpp"
+#include "mechanism/model/gatherer.hpp"
+
+namespace bielle::mechanism {
+
+/// A superelement's deformation and what accelerates it, at one state.
+struct BodyDeformation {
+  VectorX eps;         ///< linear coordinates, in the layout of corotated_frame.hpp
+  double elastic = 0;  ///< energy [J]
+  /// Acceleration less gravity as a field that is linear in space: (4 i + j), direction i in body axes times 1 [m/s^2],
+  /// x, y, z [1/s^2] from the centre of mass. Of the body's frame, and of points that move rigidly with it.
+  Eigen::Matrix<double, 12, 1> acceleration = Eigen::Matrix<double, 12, 1>::Zero();
+};
+
+/// First among the gatherers of a body: computes the deformation that the others look at.
+class DeformationReader final : public Gatherer {
+ public:
+  using Read = std::function<void(const LocalState& state, BodyDeformation& deformation)>;
+  explicit DeformationReader(Read read) : read_(std::move(read)), now_(std::make_shared<BodyDeformation>()) {}
+  std::shared_ptr<const BodyDeformation> now() const { return now_; }
+
+  void begin() override {}
+  void add(const LocalState& state) override { read_(state, *now_); }
+  void exchange(Archive&) override {}
+  std::vector<ResultArray> results() override { return {}; }
+  std::string summary() override { return {}; }
+  std::string what() const override { return "deformation"; }
+
+ private:
+  Read read_;
+  std::shared_ptr<BodyDeformation> now_;
+};
+
+}  // namespace bielle::mechanism

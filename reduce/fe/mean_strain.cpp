@@ -1,0 +1,49 @@
+#include "reduce/fe/mean_strain.hpp"
+
+#include "reduce/fe/cell_geometry.hpp"
+
+namespace bielle::reduce {
+
+namespace {
+
+/// The mean of the gradient of each node's shape function: (3, points).
+template <int N>
+Eigen::Matrix3Xd mean_gradients(const Solid& solid) {
+  // Gradient times Jacobian is a product of local gradients, three of them on a curved cell.
+  const CellRules<N> rules({1, 3});
+  Eigen::Matrix3Xd result = Eigen::Matrix3Xd::Zero(3, solid.points());
+  Eigen::Matrix<double, N, 3> gradients;
+  double volume = 0;
+  for (Eigen::Index cell = 0; cell < solid.cells(); ++cell) {
+    const CellPoints<N> x = cell_points<N>(solid.mesh.points, solid.nodes, cell);
+    const CellRule<N>& rule = rules.of(x);
+    for (std::size_t p = 0; p < rule.size(); ++p) {
+      const double part = map_point(rule, p, x, gradients);
+      volume += part;
+      for (int a = 0; a < N; ++a) result.col(solid.nodes(a, cell)) += part * gradients.row(a).transpose();
+    }
+  }
+  return result / volume;
+}
+
+}  // namespace
+
+Eigen::MatrixXd mean_strain(const Solid& solid, const RowMatrix& fields) {
+  const Eigen::Matrix3Xd gradients =
+      solid.type == CellType::tet4 ? mean_gradients<4>(solid) : mean_gradients<10>(solid);
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(6, fields.cols());
+  for (Eigen::Index a = 0; a < solid.points(); ++a) {
+    const auto x = fields.row(3 * a), y = fields.row(3 * a + 1), z = fields.row(3 * a + 2);
+    const Eigen::Vector3d g = gradients.col(a);
+    if (g.isZero(0)) continue;
+    result.row(0) += g.x() * x;
+    result.row(1) += g.y() * y;
+    result.row(2) += g.z() * z;
+    result.row(3) += g.z() * y + g.y() * z;
+    result.row(4) += g.z() * x + g.x() * z;
+    result.row(5) += g.y() * x + g.x() * y;
+  }
+  return result;
+}
+
+}  // namespace bielle::reduce

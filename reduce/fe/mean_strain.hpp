@@ -1,0 +1,13 @@
+// The mean strain of a body: what of its deformation does not cancel over the whole, as bending and twist do.
+#pragma once
+
+#include "reduce/fe/solid.hpp"
+#include "reduce/spectral/symmetric_matrix.hpp"
+
+namespace bielle::reduce {
+
+/// The integral of the strain xx yy zz yz xz xy (engineering shears) over the volume, divided by it.
+/// @param fields  (3 points, k) displacements @returns (6, k)
+Eigen::MatrixXd mean_strain(const Solid& solid, const RowMatrix& fields);
+
+}  // namespace bielle::reduce

@@ -1,0 +1,58 @@
+// What components gather: their names in a results file, and who speaks for a beam.
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include "mechanism/session/gatherers.hpp"
+#include "reduce/common/error.hpp"
+#include "tests/support/beam_superelement.hpp"
+#include "tests/support/messages.hpp"
+#include "tests/support/run_model.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+using namespace bielle;
+using namespace bielle::mechanism;
+using namespace bielle::test;
+using Catch::Contains;
+
+TEST_CASE("components whose results would have one name are refused before anything is computed") {
+  TemporaryFolder folder;
+  write_superelement(straight_beam({1, 1e6, 1e3, 1e3, 1e3, 1e-3}, 4).reduced().body, folder / "arm.h5");
+  const auto begin = [&](const std::string& second) {
+    const ReadyModel model(fmt::format(
+        "nodes: {{r: {{fixed: true}}}}\nelements:\n  arm: {{type: superelement, file: {0}/arm.h5, nodes: {{a: r}}}}\n"
+        "  {1}: {{type: superelement, file: {0}/arm.h5, nodes: {{a: r}}}}\n",
+        folder.path(), second));
+    Gatherers(model.file.model).begin();
+  };
+  CHECK_THAT(message_of<InputError>([&] { begin("arm/error"); }),
+             Contains("'arm' and 'arm/error' cannot both have results") && Contains("rename"));
+  begin("arm/upper");
+  begin("other");
+}
+
+TEST_CASE("of a beam's elements the one that is strained most speaks") {
+  // A cantilever of 1 m with a circle of radius 10 mm: curvature M/EI under a moment alone, the same everywhere.
+  const ReadyModel model(
+      "nodes: {a: {fixed: true}, b: {position: [1, 0, 0]}, c: {position: [0, 1, 0]}}\n"
+      "elements:\n"
+      "  one: {type: beam, nodes: [a, b], elements: 4, section: {circle: 0.01, young: 2e11, poisson: 0.3, density: "
+      "7800}}\n"
+      "  two: {type: beam, nodes: [a, c], elements: 4, section: {circle: 0.01, young: 2e11, poisson: 0.3, density: "
+      "7800}}\n");
+  Gatherers gatherers(model.file.model);
+  gatherers.begin();
+  State state = model.system.start(0);
+  Environment environment = model.environment();
+  gatherers.add(state, model.system.slots(), environment);
+  CHECK(gatherers.summary().empty());
+  // The last element of `one` is stretched by 3 %, the third by 2.5 %.
+  const auto moved = [&](const std::string& name, double x) {
+    state.nodes[static_cast<std::size_t>(*model.file.model.find_node(name))].x.x() += x;
+  };
+  moved("one.3", 0.25 * 0.025);
+  moved("b", 0.25 * 0.055);
+  gatherers.add(state, model.system.slots(), environment);
+  const std::string text = gatherers.summary();
+  CHECK_THAT(text, Contains("DOUBTFUL: beam 'one' is strained by 3 %, most in element 4 of 4, at t = 0 s"));
+  CHECK(std::count(text.begin(), text.end(), '\n') == 1);
+}
