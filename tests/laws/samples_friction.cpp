@@ -104,11 +104,13 @@ std::vector<Sample> friction_samples() {
   const std::string sticks = "model: stick_slip, coefficient: 0.3, static: 0.5, viscous: 0.1, stribeck_velocity: 0.9";
   const std::string bearing = ", radius: 0.7, arm: 0.6, preload: 0.8";
   const std::vector<BadValue> law = {{"friction.static", "0.2", "no smaller"},
-                                     {"friction.stribeck_velocity", "0", ""},
+                                     {"friction.stribeck_velocity", "-1", ""},
                                      {"friction.viscous", "-1", ""}},
                               of_creeping = {{"friction.velocity", "0", ""},
+                                             {"friction.stribeck_velocity", "0", ""},
                                              {"friction.bristle_stiffness", "5", "model: lugre"}},
                               of_bristles = {{"friction.bristle_stiffness", "0", ""},
+                                             {"friction.stribeck_velocity", "0", ""},
                                              {"friction.bristle_damping", "-1", ""},
                                              {"friction.velocity", "1", "model: coulomb"}},
                               of_bearing = {{"friction.radius", "-1", ""},
