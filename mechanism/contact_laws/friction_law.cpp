@@ -7,6 +7,8 @@
 namespace bielle::mechanism {
 namespace {
 
+constexpr double usual_width = 1e-3;  // v_0 [m/s]
+
 /// tanh(x)/x and the derivative of that over x, even in x.
 FrictionLaw::Level tanh_over(double x) {
   if (std::abs(x) < 0.02) {  // terms left out are below 1e-16
@@ -37,6 +39,12 @@ FrictionLaw::Level FrictionLaw::bristle_damping_at(double speed) const {
   return {bristle_damping / root, -bristle_damping * c * c / (root * root * root)};
 }
 
+void FrictionLaw::forget_dry_friction() {
+  if (model != Model::coulomb) velocity = usual_width;
+  model = Model::coulomb;
+  stribeck_velocity = 0;
+}
+
 std::string FrictionLaw::describe() const {
   std::string text = fmt::format("friction {:.6g}", kinetic);
   if (sticking != kinetic) text += fmt::format(", {:.6g} at rest", sticking);
@@ -63,15 +71,17 @@ FrictionLaw read_friction_law(const YamlValue& entry, const std::vector<std::str
   law.model = name == "lugre"        ? FrictionLaw::Model::lugre
               : name == "stick_slip" ? FrictionLaw::Model::stick_slip
                                      : FrictionLaw::Model::coulomb;
-  law.kinetic = entry.at("coefficient").positive_number();
+  law.kinetic = entry.at("coefficient").non_negative_number();
   law.sticking = law.kinetic;
   if (const auto at_rest = entry.find("static")) {
-    law.sticking = at_rest->positive_number();
+    law.sticking = at_rest->non_negative_number();
     if (law.sticking < law.kinetic) at_rest->fail("friction at rest is no smaller than when it slides (`coefficient`)");
   }
   if (const auto speed = entry.find("stribeck_velocity")) {
     if (!entry.has("static")) speed->fail("is where friction falls from `static`, which is missing");
-    law.stribeck_velocity = speed->positive_number();
+    law.stribeck_velocity = law.sticking > law.kinetic && law.model != FrictionLaw::Model::stick_slip
+                                ? speed->positive_number()
+                                : speed->non_negative_number();
   } else if (law.sticking > law.kinetic && law.model != FrictionLaw::Model::stick_slip) {
     entry.at("static").fail("say over which speed friction falls to `coefficient`: `stribeck_velocity` [m/s]");
   }
@@ -88,12 +98,18 @@ FrictionLaw read_friction_law(const YamlValue& entry, const std::vector<std::str
     const auto width = entry.find("velocity");
     if (width && law.stribeck_velocity > 0 && width->number() >= law.stribeck_velocity)
       width->fail("the force is made smooth within far less than `stribeck_velocity`: a tenth of it, say");
-    law.velocity = width ? width->positive_number() : law.stribeck_velocity > 0 ? law.stribeck_velocity / 10 : 1e-3;
+    law.velocity = width                       ? width->positive_number()
+                   : law.stribeck_velocity > 0 ? law.stribeck_velocity / 10
+                                               : usual_width;
   }
   if (law.model == FrictionLaw::Model::lugre) {
     law.bristle_stiffness = entry.at("bristle_stiffness").positive_number();
     law.bristle_damping = entry.has("bristle_damping") ? entry.at("bristle_damping").non_negative_number() : 0;
+    if (law.kinetic == 0 && law.sticking > 0)
+      entry.at("coefficient")
+          .fail("expected a number greater than 0: bristles that are to let go slide against friction");
   }
+  if (law.sticking == 0) law.forget_dry_friction();
   return law;
 }
 

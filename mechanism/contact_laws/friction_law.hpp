@@ -51,6 +51,10 @@ struct FrictionLaw {
   /// Of `lugre`: sigma_1(s), and its slope over s.
   Level bristle_damping_at(double speed) const;
 
+  /// To be called when nothing sticks, or when whatever sticks has no arm: bristles and sticking have no part in it
+  /// then, all models are the same, and this becomes the plainest of them.
+  void forget_dry_friction();
+
   /// The law in words, for --check.
   std::string describe() const;
 };

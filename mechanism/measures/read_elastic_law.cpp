@@ -68,11 +68,11 @@ MaxwellBranch read_branch(const YamlValue& entry, const Matrix6& K) {
     entry.fail("a branch takes either its `stiffness` or a `factor` of that of the whole");
   if (const auto factor = entry.find("factor")) {
     if (K.isZero(0)) factor->fail("multiplies the `stiffness`, which is missing");
-    branch.K = factor->positive_number() * K;
+    branch.K = factor->non_negative_number() * K;
   } else {
     branch.K = read_stiffness(entry.at("stiffness"));
   }
-  branch.time = entry.at("time").positive_number();
+  branch.time = entry.at("time").non_negative_number();
   return branch;
 }
 
@@ -144,7 +144,9 @@ std::vector<CurveFormula> read_elastic_law(const YamlValue& entry, ElasticLaw& l
   if (maxwell) {
     const auto branches = maxwell->items();
     if (branches.empty()) maxwell->fail("expected at least one branch {stiffness or factor, time}");
-    for (const YamlValue& branch : branches) law.add(read_branch(branch, law.K));
+    // A branch that relaxes in no time bears nothing.
+    for (const YamlValue& each : branches)
+      if (const MaxwellBranch branch = read_branch(each, law.K); branch.time > 0) law.add(branch);
   }
   if (!stiffness && !damping && !curves && !maxwell)
     entry.fail("expected `stiffness`, `damping`, `curves` or `maxwell`: nothing else joins the nodes");

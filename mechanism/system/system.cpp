@@ -1,8 +1,11 @@
 #include "mechanism/system/system.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
+
+#include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
 
@@ -109,6 +112,37 @@ void System::constraint_rates(const State& state, const Environment& environment
   }
 }
 
+namespace {
+
+bool is_finite(const Energy& e) {
+  return std::isfinite(e.kinetic + e.elastic + e.gravity) && std::isfinite(e.dissipation) && std::isfinite(e.input);
+}
+
+/// Energies that are no numbers would leave a balance that says nothing: the first component that has one.
+[[noreturn]] void throw_without_energy(const System& system, const State& state, const Environment& environment) {
+  const auto& members = system.model().members();
+  for (std::size_t m = 0; m < members.size(); ++m) {
+    Energy energy;
+    members[m].component->add_energy(LocalState(state, system.slots()[m], environment), energy);
+    if (is_finite(energy)) continue;
+    const auto bad = [](double value) { return !std::isfinite(value); };
+    const char* what = bad(energy.kinetic)       ? "kinetic energy"
+                       : bad(energy.elastic)     ? "stored energy"
+                       : bad(energy.gravity)     ? "energy of gravity"
+                       : bad(energy.dissipation) ? "dissipated power"
+                                                 : "power";
+    throw ComputationError(
+        fmt::format("t = {:.6g} s: the {} of {} is beyond all numbers (overflow): what it is made of is of sizes that "
+                    "do not go together; look at its values, and at their units",
+                    state.time, what, describe(members[m])));
+  }
+  throw ComputationError(fmt::format(
+      "t = {:.6g} s: the energy of the whole is beyond all numbers (overflow), though that of each part is not",
+      state.time));
+}
+
+}  // namespace
+
 Energy System::energy(const State& state, const Environment& environment) const {
   thread_local std::vector<Energy> costly;
   costly.assign(work_.costly().size(), {});
@@ -124,6 +158,7 @@ Energy System::energy(const State& state, const Environment& environment) const 
   work_.share([&](std::size_t k) { add_one(work_.costly()[k], parts[k]); }, add_small);
   for (const Energy& part : parts) energy += part;
   if (kinematics_.any_prescribed()) energy.input += residual_.support_power(state, environment);
+  if (!is_finite(energy)) throw_without_energy(*this, state, environment);
   return energy;
 }
 

@@ -141,8 +141,9 @@ std::vector<Sample> coupling_samples() {
   Sample roller = coupling(
       "cam", "roller on its pin",
       "joints: [one, three], profile: profile.csv, follower: roller, radius: 0.2" + creeps + ", radius: 0.1}",
-      both(rollers,
-           {{"friction.radius", "", "radius"}, {"friction.arm", "1", "no moment"}, {"friction.coefficient", "0", ""}}));
+      both(
+          rollers,
+          {{"friction.radius", "", "radius"}, {"friction.arm", "1", "no moment"}, {"friction.coefficient", "-1", ""}}));
   for (Sample* sample : {&edge, &roller}) {
     sample->scales.amplitude = 0.1;
     sample->scales.smooth_within = 0.25;

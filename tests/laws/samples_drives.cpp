@@ -48,7 +48,7 @@ std::vector<Sample> controllers() {
                  {"pid.limit", "0", "greater than 0"},
                  {"pid.limit", "", "tracking_time"},
                  {"pid.tracking_time", "-1", ""},
-                 {"pid.filter", "0", "greater than 0"},
+                 {"pid.filter", "-1", "at least 0"},
                  {"pid.measure", "axle.angle", "rate that is not known"},
                  {"pid.coordinate", "angel", "did you mean 'angle'"},
                  {"pid", "{target: 1}", "pid"},

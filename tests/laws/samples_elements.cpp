@@ -110,7 +110,7 @@ Sample point_mass() {
 elements:
   it: {type: point_mass, node: b, mass: 2, centre: [0.3, 0.1, -0.2]}
 )yaml",
-          {{"mass", "-2", "greater than 0"}, {"centre", "[1, 2]", ""}, {"node", "c", "no node 'c'"}}};
+          {{"mass", "-2", "at least 0"}, {"centre", "[1, 2]", ""}, {"node", "c", "no node 'c'"}}};
 }
 
 const std::vector<BadValue> bad_beam = {{"nodes", "[a, a]", "two different nodes"},

@@ -65,8 +65,8 @@ Sample bushing_of_matrices() {
            {"preload", "5", ""},
            {"preload", "[1, 2, 3]", "six numbers"},
            {"maxwell", "[]", "at least one"},
-           {"maxwell.0.factor", "0", "greater than 0"},
-           {"maxwell.0.time", "0", "greater than 0"},
+           {"maxwell.0.factor", "-1", "at least 0"},
+           {"maxwell.0.time", "-1", "at least 0"},
            {"maxwell.0.stiffness", "[1, 1, 1, 1, 1, 1]", "either"},
            {"maxwell.1.stiffness", "[1, 1]", "six numbers"}}};
 }
@@ -162,7 +162,7 @@ Sample plain_bearing() {
 Sample clearance(const std::string& type, const std::string& variant, const std::string& keys,
                  std::vector<BadValue> bad) {
   bad.insert(bad.end(), {{"nodes", "[a, a]", "two different nodes"},
-                         {"radial_gap", "0", "greater than 0"},
+                         {"radial_gap", "-1e-3", "at least 0"},
                          {"radial_gap", "", "radial_gap"},
                          {"contact", "", "contact"}});
   Sample sample{Section::joints, type, variant, flexible_joint("type: " + type + ", " + keys), std::move(bad)};
@@ -184,10 +184,10 @@ std::vector<Sample> clearances() {
           {{"position", "[1, 2]", ""},
            {"axis", "", "axis"},
            {"second_axis", "[1, 2, 3]", ""},
-           {"axial_gap", "-1", "greater than 0"},
+           {"axial_gap", "-1", "at least 0"},
            {"axial_gap", "", "which is missing"},
-           {"length", "0", "greater than 0"},
-           {"radius", "0", "greater than 0"},
+           {"length", "-1", "at least 0"},
+           {"radius", "-1", "at least 0"},
            {"radius", "", "which is missing"},
            {"contact.stiffness", "0", "greater than 0"},
            {"contact.exponent", "0.5", "at least 1"},
@@ -195,7 +195,7 @@ std::vector<Sample> clearances() {
            {"axial_contact.stiffness", "-1", "greater than 0"},
            {"axial_contact.exponent", "0", "at least 1"},
            {"axial_contact.restitution", "2", "up to 1"},
-           {"friction.coefficient", "-1", "greater than 0"},
+           {"friction.coefficient", "-1", "at least 0"},
            {"friction.static", "0.1", "no smaller"},
            {"friction.stribeck_velocity", "-1", ""},
            {"friction.viscous", "-1", ""},
@@ -222,14 +222,14 @@ std::vector<Sample> clearances() {
                  {"contact.exponent", "0.5", "at least 1"},
                  {"contact.damping", "-1", "at least 0"},
                  {"friction.velocity", "0", "greater than 0"},
-                 {"friction.coefficient", "0", "greater than 0"},
+                 {"friction.coefficient", "-1", "at least 0"},
                  {"stiffness.x", "-1", ""}}),
       clearance("clearance_hinge", "bristles",
                 "axis: [1, 2, 3], radial_gap: 0.01, length: 0.6, radius: 0.3, contact: {stiffness: 3, exponent: 2, "
                 "damping: 0.1}, friction: {model: lugre, coefficient: 0.3, static: 0.4, stribeck_velocity: 3, viscous: "
                 "0.1, bristle_stiffness: 1.5, bristle_damping: 0.4}",
                 {{"axis", "", "axis"},
-                 {"length", "0", "greater than 0"},
+                 {"length", "-1", "at least 0"},
                  {"radius", "", "which is missing"},
                  {"contact.stiffness", "-1", "greater than 0"},
                  {"contact.exponent", "0", "at least 1"},
@@ -250,7 +250,7 @@ std::vector<Sample> clearances() {
                  {"contact.stiffness", "-1", "greater than 0"},
                  {"contact.exponent", "0", "at least 1"},
                  {"friction.model", "stick_slip", "lugre"},
-                 {"friction.coefficient", "-1", "greater than 0"},
+                 {"friction.coefficient", "-1", "at least 0"},
                  {"friction.bristle_stiffness", "-1", "greater than 0"},
                  {"friction.bristle_damping", "-1", "at least 0"}}),
       clearance("clearance_spherical", "materials",

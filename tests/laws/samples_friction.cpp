@@ -12,7 +12,7 @@ using mechanism::Section;
 Sample rubbing(const std::string& type, const std::string& variant, const std::string& keys,
                const std::string& friction, std::vector<BadValue> bad) {
   const char* const second_axis = type == "universal" ? ", second_axis: [3, 0, -1]" : "";
-  bad.push_back({"friction.coefficient", "0", ""});
+  bad.push_back({"friction.coefficient", "-1", ""});
   bad.push_back({"friction.coefficient", "", "coefficient"});
   bad.push_back({"friction.model", "dry", "a model of friction"});
   bad.push_back({"friction", "0.3", "expected a map"});
@@ -36,7 +36,7 @@ Sample rubbing(const std::string& type, const std::string& variant, const std::s
 
 /// A point that rubs along a curve.
 Sample rubbing_point(const std::string& variant, bool closed, const std::string& friction, std::vector<BadValue> bad) {
-  bad.push_back({"friction.coefficient", "0", ""});
+  bad.push_back({"friction.coefficient", "-1", ""});
   bad.push_back({"friction.radius", "1", "does not turn"});
   bad.push_back({"friction.model", "dry", "a model of friction"});
   bad.push_back({"nodes", "[a, a]", "two different nodes"});
@@ -65,7 +65,7 @@ Sample rubbing_point(const std::string& variant, bool closed, const std::string&
 /// A slider that rubs on a beam.
 Sample rubbing_slider(const std::string& variant, const std::string& orientation, const std::string& friction,
                       std::vector<BadValue> bad) {
-  bad.push_back({"friction.coefficient", "0", ""});
+  bad.push_back({"friction.coefficient", "-1", ""});
   bad.push_back({"friction.model", "dry", "a model of friction"});
   bad.push_back({"node", "a", "slide on itself"});
   bad.push_back({"beam", "shft", "did you mean 'shaft'"});
@@ -104,14 +104,16 @@ std::vector<Sample> friction_samples() {
   const std::string sticks = "model: stick_slip, coefficient: 0.3, static: 0.5, viscous: 0.1, stribeck_velocity: 0.9";
   const std::string bearing = ", radius: 0.7, arm: 0.6, preload: 0.8";
   const std::vector<BadValue> law = {{"friction.static", "0.2", "no smaller"},
-                                     {"friction.stribeck_velocity", "0", ""},
+                                     {"friction.stribeck_velocity", "-1", ""},
                                      {"friction.viscous", "-1", ""}},
                               of_creeping = {{"friction.velocity", "0", ""},
+                                             {"friction.stribeck_velocity", "0", ""},
                                              {"friction.bristle_stiffness", "5", "model: lugre"}},
                               of_bristles = {{"friction.bristle_stiffness", "0", ""},
+                                             {"friction.stribeck_velocity", "0", ""},
                                              {"friction.bristle_damping", "-1", ""},
                                              {"friction.velocity", "1", "model: coulomb"}},
-                              of_bearing = {{"friction.radius", "0", ""},
+                              of_bearing = {{"friction.radius", "-1", ""},
                                             {"friction.radius", "", "radius"},
                                             {"friction.arm", "0", ""},
                                             {"friction.preload", "-1", ""}};
@@ -134,20 +136,20 @@ std::vector<Sample> friction_samples() {
   list.push_back(rubbing("cylindrical", "bristles", axis, bristles + bearing, all({law, of_bristles, of_bearing})));
   list.push_back(rubbing("planar", "without widths", axis, "coefficient: 0.3, radius: 0.7", {}));
   list.back().bad.push_back({"friction.model", "stick_slip", "one coordinate"});
-  list.back().bad.push_back({"friction.radius", "0", ""});
+  list.back().bad.push_back({"friction.radius", "-1", ""});
   list.push_back(rubbing("spherical", "friction", axis, creeps + ", radius: 0.7",
-                         all({law, of_creeping, {{"friction.radius", "0", ""}}})));
+                         all({law, of_creeping, {{"friction.radius", "-1", ""}}})));
   list.push_back(rubbing("spherical", "bristles", axis, bristles + ", radius: 0.7",
-                         all({law, of_bristles, {{"friction.radius", "0", ""}}})));
+                         all({law, of_bristles, {{"friction.radius", "-1", ""}}})));
   list.push_back(rubbing("screw", "friction", axis + ", pitch: 0.8", creeps + bearing,
-                         all({law, of_creeping, of_bearing, {{"pitch", "0", "hinge"}}})));
+                         all({law, of_creeping, of_bearing, {{"pitch", "0", "hinge"}, {"friction.radius", "0", ""}}})));
   list.push_back(rubbing("universal", "friction", axis, creeps + bearing, all({law, of_creeping, of_bearing})));
   list.push_back(rubbing("screw", "stick and slip", axis + ", pitch: 0.8", sticks + bearing,
-                         all({law, of_bearing, {{"pitch", "0", "hinge"}}})));
+                         all({law, of_bearing, {{"pitch", "0", "hinge"}, {"friction.radius", "0", ""}}})));
   list.push_back(rubbing("universal", "friction in one bearing", axis,
                          "angle_2: {coefficient: 0.3, radius: 0.4, velocity: 0.5}", {}));
   std::erase_if(list.back().bad, [](const BadValue& each) { return each.key.starts_with("friction."); });
-  for (const BadValue& each : std::vector<BadValue>{{"friction.angle_2.coefficient", "0", ""},
+  for (const BadValue& each : std::vector<BadValue>{{"friction.angle_2.coefficient", "-1", ""},
                                                     {"friction.angle_2.radius", "-1", ""},
                                                     {"friction.angle_2.velocity", "0", ""},
                                                     {"friction.angle_2", "{coefficient: 0.3}", "radius"}})

@@ -90,8 +90,8 @@ std::vector<Sample> higher_pair_samples() {
                                       {"radius", "-1", ""}}),
                          "off its node"));
   for (const std::string friction : {"", ", friction: 0.7"}) {
-    std::vector<BadValue> bad = {{"normal", "[1, 2]", ""}, {"axis", "[1, 2]", ""},         {"radius", "-1", ""},
-                                 {"slip", "some", "none"}, {"slip.longitudinal", "0", ""}, {"slip.lateral", "-1", ""},
+    std::vector<BadValue> bad = {{"normal", "[1, 2]", ""}, {"axis", "[1, 2]", ""},          {"radius", "-1", ""},
+                                 {"slip", "some", "none"}, {"slip.longitudinal", "-1", ""}, {"slip.lateral", "-1", ""},
                                  {"slip.speed", "0", ""}};
     if (!friction.empty()) bad.push_back({"slip.friction", "-1", ""});
     Sample tyre =

@@ -63,7 +63,7 @@ std::vector<Sample> joint_samples() {
   std::vector<BadValue> of_hinge = bad_actions();
   for (const BadValue& each : std::vector<BadValue>{{"stops", "{range: [1, -1], stiffness: 5}", "lower end first"},
                                                     {"stops.range", "[1]", "[lower, upper]"},
-                                                    {"stops.stiffness", "0", ""},
+                                                    {"stops.stiffness", "-1", ""},
                                                     {"stops.damping", "-1", ""},
                                                     {"locked", "{to: 1, until: 2}", "until"},
                                                     {"locked.from", "-1", ""},

@@ -79,7 +79,7 @@ Sample state_space() {
 std::vector<Sample> state_samples() {
   return {rate(),
           filter("filter of first order", "time_constant: 0.2",
-                 {{"time_constant", "0", "greater than 0"},
+                 {{"time_constant", "-1", "at least 0"},
                   {"time_constant", "", "time_constant"},
                   {"frequency", "3", "one of the two"},
                   {"damping", "0.5", "frequency"}}),

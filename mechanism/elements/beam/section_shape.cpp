@@ -216,7 +216,9 @@ VectorX read_shape_dimensions(const std::string& shape, const YamlValue& value) 
   if (shape == "rectangle") return value.positive_numbers(2, "[width_y, height_z]");
   if (shape == "circle") return VectorX::Constant(1, value.positive_number());
   if (shape == "tube") {
-    VectorX radii = value.positive_numbers(2, "[outer radius, inner radius]");
+    if (!value.is_sequence() || value.size() != 2) value.fail("expected [outer radius, inner radius]");
+    VectorX radii(2);
+    radii << value.at(std::size_t{0}).positive_number(), value.at(std::size_t{1}).non_negative_number();
     if (radii[1] >= radii[0]) value.fail("the inner radius must be smaller than the outer one");
     return radii;
   }

@@ -28,6 +28,13 @@ LinearBlock first_order_filter(double time_constant) {
   return block;
 }
 
+LinearBlock no_filter() {
+  LinearBlock block = first_order_filter(1);
+  block.C(0, 0) = 0;
+  block.D(0, 0) = 1;
+  return block;
+}
+
 LinearBlock second_order_filter(double frequency, double damping) {
   const double w = 2 * M_PI * frequency;
   LinearBlock block{MatrixX(2, 2), MatrixX(2, 1), MatrixX(2, 2), MatrixX::Zero(2, 1)};

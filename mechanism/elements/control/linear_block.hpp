@@ -19,6 +19,8 @@ struct LinearBlock {
 LinearBlock integrator();
 /// y' = (u - y)/T. @param time_constant  T > 0 [s]
 LinearBlock first_order_filter(double time_constant);
+/// The same with T = 0: y = u. Its one state follows by itself, and nothing reads it.
+LinearBlock no_filter();
 /// y'' + 2 d w y' + w^2 y = w^2 u, w = 2 pi frequency. States y, y'/w; outputs y, y'.
 /// @param frequency  > 0 [Hz] @param damping  d >= 0 [-]
 LinearBlock second_order_filter(double frequency, double damping);

@@ -60,8 +60,8 @@ StateSetup read_filter(const std::string& name, const YamlValue& entry) {
   StateSetup setup{"filter", "", {}, {entry.at("filter")}, {"value"}, VectorX::Zero(1)};
   if (const auto time = entry.find("time_constant")) {
     if (const auto damping = entry.find("damping")) damping->fail("belongs to a filter with a `frequency`");
-    const double T = time->positive_number();
-    setup.block = first_order_filter(T);
+    const double T = time->non_negative_number();
+    setup.block = T > 0 ? first_order_filter(T) : no_filter();
     setup.about = fmt::format("first-order filter, {:.6g} s, of", T);
   } else {
     const double frequency = entry.at("frequency").positive_number();
@@ -72,7 +72,8 @@ StateSetup read_filter(const std::string& name, const YamlValue& entry) {
     setup.start = VectorX::Zero(2);
   }
   for (Eigen::Index k = 0; k < setup.block.C.rows(); ++k)
-    setup.outputs.push_back({k == 0 ? name : name + ".rate", setup.block.C.row(k).transpose(), {}, k == 0});
+    setup.outputs.push_back({k == 0 ? name : name + ".rate", setup.block.C.row(k).transpose(),
+                             setup.block.D.isZero(0) ? VectorX() : VectorX(setup.block.D.row(k).transpose()), k == 0});
   const auto start = entry.find("start");
   setup.starts_at_rest = !start || says_equilibrium(start);
   if (!setup.starts_at_rest) setup.start[0] = start->number();

@@ -141,9 +141,9 @@ void read_rigid_body(const std::string& name, const YamlValue& entry, Model& mod
 void read_point_mass(const std::string& name, const YamlValue& entry, Model& model) {
   entry.check_keys({"type", "node", "mass", "centre"}, "a point_mass");
   MassProperties p;
-  p.mass = entry.at("mass").positive_number();
+  p.mass = entry.at("mass").non_negative_number();
   if (const auto centre = entry.find("centre")) p.centre = centre->vector3();
-  check_representable(entry, p);
+  if (p.mass > 0) check_representable(entry, p);
   const int node = node_named_by(entry.at("node"), model);
   model.add(std::make_unique<RigidBody>("point_mass", name, node, p, model.node(node).name),
             Entry{Section::elements, name});

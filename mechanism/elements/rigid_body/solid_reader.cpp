@@ -35,7 +35,10 @@ UnitSolid read_cylinder(const YamlValue& value) {
 }
 
 UnitSolid read_tube(const YamlValue& value) {
-  const VectorX e = value.positive_numbers(3, "[outer radius, inner radius, length]");
+  if (!value.is_sequence() || value.size() != 3) value.fail("expected [outer radius, inner radius, length]");
+  VectorX e(3);
+  for (const Eigen::Index k : {0, 2}) e[k] = value.at(static_cast<std::size_t>(k)).positive_number();
+  e[1] = value.at(std::size_t{1}).non_negative_number();
   if (e[1] >= e[0]) value.fail("the inner radius must be smaller than the outer one");
   return {tube(e[0], e[1], e[2]), tube_space(e[0], e[1], e[2])};
 }

@@ -18,7 +18,8 @@ void Cushion::calc_flow(const LocalState& state, std::size_t /*path*/, FlowJet& 
   constexpr double check_range = 0.5e5;  // [Pa]
   const PairMeasure l = cylinder_.length(state.of(reference_));
   const double D = ports().pressure(state, 0) - ports().pressure(state, 1), rest = data_.port_area - data_.area;
-  const Opening cushion = poppet_opening(data_.side * (l.value - data_.end) / data_.length),
+  const Opening cushion = data_.length > 0 ? poppet_opening(data_.side * (l.value - data_.end) / data_.length)
+                                           : Opening{1, 0},
                 check = poppet_opening(-D / check_range);
   // Closed by the share that neither leaves open.
   const double closed = (1 - cushion.value) * (1 - check.value);
@@ -27,6 +28,7 @@ void Cushion::calc_flow(const LocalState& state, std::size_t /*path*/, FlowJet& 
   const double by_difference = law.Q_D - law.Q_A * rest * (1 - cushion.value) * check.slope / check_range;
   add_by_pressure(state, 0, by_difference, flow);
   add_by_pressure(state, 1, -by_difference, flow);
+  if (data_.length == 0) return;
   flow.by.position().segment<12>(state.slots().reference_row(reference_)) +=
       law.Q_A * rest * (1 - check.value) * cushion.slope * data_.side / data_.length * l.gradient;
 }

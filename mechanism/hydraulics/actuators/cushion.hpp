@@ -14,7 +14,7 @@ class Cushion final : public Line {
  public:
   struct Data {
     double port_area, area;  ///< A_port, A_c [m^2]
-    double length;           ///< x_c [m]
+    double length;           ///< x_c [m]; 0: none
     double end;              ///< length of the cylinder where the chamber is smallest [m]
     double side;             ///< +1: the way left is l - end, -1: end - l
   };

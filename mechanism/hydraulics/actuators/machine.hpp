@@ -3,9 +3,10 @@
 //     Q = x D rate + G (p_a - p_b)         from port a to port b [m^3/s]
 //     T = x D (e_a - e_b) - d rate         on the coordinate [N m]
 // D displacement [m^3/rad], x(t, measures) its setting (1: full; a variable machine has -1 to 1), G leakage, d drag.
-// With the heads e of the fluid in place of pressures (fluid.hpp; they differ by p/(2 B)) the machine itself loses
-// nothing. As a pump it moves fluid from a to b while it turns in the positive sense; as a motor it is turned so where
-// p_a > p_b. Along a displacement (a prismatic joint) D is an area.
+// With the heads e of the fluid in place of pressures (fluid.hpp; they are larger by p/(2 B) where volumes are
+// conserved, smaller by as much where mass is) the machine itself loses nothing. As a pump it moves fluid from a to b
+// while it turns in the positive sense; as a motor it is turned so where p_a > p_b. Along a displacement (a prismatic
+// joint) D is an area.
 #pragma once
 
 #include <optional>

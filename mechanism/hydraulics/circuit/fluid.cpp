@@ -16,7 +16,10 @@ constexpr double least = 1e-6;  // absolute pressure [Pa] down to which the work
 constexpr PlausibleRange plausible_bulk_modulus{1e8, 1e10, "Oils have 1.2e9 to 2e9 Pa, water 2.2e9"};
 constexpr PlausibleRange plausible_viscosity{1e-4, 10, "Dynamic, in Pa s: water has 0.001, hydraulic oil 0.01 to 0.1"};
 constexpr PlausibleRange plausible_fluid_density{500, 2000, "Oils have 850 kg/m^3, water 1000"};
-constexpr PlausibleRange plausible_ambient{0, 1e6, "In Pa; the atmosphere has 101325, and 0 makes all pressures gauge"};
+constexpr double nearly_none = 1000;  // [Pa]: a hundredth of the atmosphere
+constexpr double bar = 1e5;           // [Pa]
+constexpr PlausibleRange plausible_ambient{1e3, 1e6,
+                                           "In Pa; the atmosphere has 101325, and 0 makes all pressures gauge"};
 
 }  // namespace
 
@@ -26,8 +29,8 @@ Fluid::Ratio Fluid::ratio(double p) const {
     const double air = air_fraction * std::pow(atmosphere / P, 1 / air_exponent), oil = (1 - air_fraction) * E;
     return {oil + air, -oil / bulk_modulus - air / (air_exponent * P)};
   }
-  const double vapour = std::sqrt(vapour_pressure / P) * std::exp(-P / vapour_pressure);
-  return {E + vapour, -E / bulk_modulus - vapour * (0.5 / P + 1 / vapour_pressure)};
+  const double p_v = vapour(), cavity = std::sqrt(p_v / P) * std::exp(-P / p_v);
+  return {E + cavity, -E / bulk_modulus - cavity * (0.5 / P + 1 / p_v)};
 }
 
 // Newton's method on ln v, which is straight in p for oil, and in ln p for air; kept between bounds on either side.
@@ -65,8 +68,8 @@ double Fluid::work(double p) const {
     h += air_fraction * atmosphere *
          (n == 0 ? log_ratio : std::pow(P_a / atmosphere, n) * std::expm1(n * log_ratio) / n);
   } else {
-    h += vapour_pressure * std::sqrt(M_PI) *
-         (std::erfc(std::sqrt(P_a / vapour_pressure)) - std::erfc(std::sqrt((P_a + away) / vapour_pressure)));
+    const double p_v = vapour();
+    h += p_v * std::sqrt(M_PI) * (std::erfc(std::sqrt(P_a / p_v)) - std::erfc(std::sqrt((P_a + away) / p_v)));
   }
   return h;
 }
@@ -122,7 +125,7 @@ void read_fluid(const YamlValue& entry, Fluid& fluid) {
       exponent->fail("expected 1 (isothermal) to 1.67; air has 1.4 where it has no time to exchange heat");
   }
   if (const auto vapour = entry.find("vapour_pressure")) {
-    fluid.vapour_pressure = vapour->positive_number();
+    fluid.vapour_pressure = vapour->non_negative_number();
     constexpr double most = 3500;  // beyond, vapour would be felt at the atmosphere's pressure
     if (fluid.vapour_pressure > most)
       vapour->fail("expected an absolute pressure up to 3500 Pa; oils have less than 100, water at 20 degrees 2340");
@@ -136,7 +139,28 @@ void read_ambient_pressure(const YamlValue& entry, Fluid& fluid) {
   const auto ambient = entry.find("ambient_pressure");
   if (!ambient) return;
   fluid.ambient = ambient->non_negative_number();
-  doubt_outside(*ambient, fluid.ambient, plausible_ambient);
+  if (fluid.ambient > 0) doubt_outside(*ambient, fluid.ambient, plausible_ambient);
+}
+
+void doubt_pressure(const YamlValue& place, double p, const Fluid& fluid) {
+  const bool gauge = fluid.ambient == 0;
+  if (gauge && (p <= 0 || p >= nearly_none)) return;
+  const double least = std::max(fluid.vapour_pressure, nearly_none);
+  if (!gauge && p >= least) return;
+  place.doubt(
+      gauge ? fmt::format(
+                  "are {:.6g} Pa meant? Pressures are in Pa, relative to the atmosphere; {:.6g} bar are {:.6g} Pa", p,
+                  p, p * bar)
+            : fmt::format(
+                  "are {:.6g} Pa meant? Pressures are in Pa, absolute, and this is {}; {:.6g} bar are {:.6g} Pa", p,
+                  fluid.vapour_pressure > p ? fmt::format("below the vapour pressure, {:.6g} Pa", fluid.vapour_pressure)
+                                            : std::string("nearly vacuum"),
+                  p, p * bar));
+}
+
+void doubt_setting(const YamlValue& place, double p) {
+  if (p <= 0 || p >= nearly_none) return;
+  place.doubt(fmt::format("are {:.6g} Pa meant? Pressures are in Pa; {:.6g} bar are {:.6g} Pa", p, p, p * bar));
 }
 
 }  // namespace bielle::mechanism

@@ -17,6 +17,15 @@ Declaration::Scalar pressure_unknown(double start) {
   return pressure;
 }
 
+constexpr double highest_pressure = 1e12;  // of a junction [Pa]: no fluid comes near it
+constexpr double below_vacuum = 1e3;       // that a junction may be [Pa]
+constexpr const char *pumped_in =
+                         "more fluid is pumped in than its lines let out, whatever its pressure; give it a way out (a "
+                         "relief valve, a line that is open), or list it under `volumes`, where fluid is compressed",
+                     *drawn_out =
+                         "more fluid is drawn out than its lines let in, down to vacuum; open its lines, or list it "
+                         "under `volumes`, where fluid may cavitate";
+
 OutputField pressure_field(const Fluid& fluid) {
   return {"pressure", {}, "Pa", fluid.ambient == 0 ? "gauge" : "absolute"};
 }
@@ -31,6 +40,10 @@ void Junction::declare(Declaration& declaration) const {
   declaration.memory = {start_};
 }
 
+FlowBalance::Range Junction::balance_range() const {
+  return {0, fluid().vacuum() - below_vacuum, highest_pressure, drawn_out, pumped_in};
+}
+
 void Junction::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
   r[0] += holding * (pressure(state) - state.memory()[0]);
 }
@@ -40,13 +53,11 @@ void Junction::add_tangent(const LocalState& /*state*/, LocalTangent& tangent) c
 }
 
 void Junction::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {
-  constexpr double little = 1e3;  // [Pa]
   const double p = pressure(state);
-  if (p < fluid().vacuum() - little)
-    throw ComputationError(fmt::format(
-        "t = {:.6g} s: the junction '{}' would have {:.4g} Pa, which is below vacuum: what is drawn from it does "
-        "not come in; list it under `volumes`, where fluid may cavitate, or open its lines",
-        state.time(), name(), p));
+  const Range range = balance_range();
+  if (p < range.least || p > range.most)  // its net flow out grows with its pressure
+    throw ComputationError(fmt::format("t = {:.6g} s: the junction '{}' has no pressure: {}", state.time(), name(),
+                                       p < range.least ? range.when_below : range.when_beyond));
   memory[0] = p;
 }
 
@@ -60,6 +71,7 @@ void Junction::describe(const LocalState& /*state*/, Description& description) c
 
 void PressureSource::read(const YamlValue& formula, Model& model) {
   formula_ = read_state_formula(formula, {"t"}, model, references_);
+  if (formula_.is_constant() && !formula_.reads_state()) doubt_pressure(formula, formula.number(), fluid());
 }
 
 void PressureSource::declare(Declaration& declaration) const {

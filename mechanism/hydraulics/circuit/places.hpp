@@ -3,6 +3,7 @@
 
 #include "mechanism/hydraulics/circuit/pressure_node.hpp"
 #include "mechanism/measures/state_formula.hpp"
+#include "mechanism/model/flow_balance.hpp"
 #include "mechanism/model/model.hpp"
 #include "mechanism/model/references.hpp"
 #include "reduce/common/yaml_file.hpp"
@@ -12,11 +13,12 @@ namespace bielle::mechanism {
 /// Lines meet, nothing is stored: the sum of flows is zero. Its pressure is an algebraic unknown. While all lines are
 /// closed it keeps its pressure p_0 of the last step: the sum of flows is g (p - p_0) in fact, with g too small to
 /// matter (1e-22 m^3/(s Pa): a drop in a year under 100 bar).
-class Junction final : public PressureNode {
+class Junction final : public PressureNode, public FlowBalance {
  public:
   Junction(std::string name, const Fluid& fluid, double pressure)
       : PressureNode("junction", std::move(name), fluid, {0, 0, -1}), start_(pressure) {}
   void declare(Declaration& declaration) const override;
+  Range balance_range() const override;
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;

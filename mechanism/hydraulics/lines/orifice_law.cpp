@@ -14,6 +14,7 @@ constexpr PlausibleRange plausible_area{0, 0.1, "Areas are in m^2: a hole of 2 m
 }  // namespace
 
 OrificeLaw::Flow OrificeLaw::calc(double A, double D) const {
+  if (discharge == 0) return {0, 0, 0};
   const double k = discharge * std::sqrt(2 / density);
   if (transition > 0) {
     const double s = D * D + transition * transition, root = std::sqrt(std::sqrt(s));
@@ -44,7 +45,7 @@ OrificeLaw read_orifice_law(const YamlValue& entry, const Fluid& fluid) {
   law.density = fluid.density;
   law.viscosity = fluid.viscosity;
   if (const auto coefficient = entry.find("coefficient")) {
-    law.discharge = coefficient->positive_number();
+    law.discharge = coefficient->non_negative_number();
     if (law.discharge > 1) coefficient->fail("expected a discharge coefficient up to 1; sharp edges have 0.6 to 0.7");
   }
   if (const auto density = entry.find("density")) law.density = density->positive_number();
@@ -60,7 +61,7 @@ double read_area(const YamlValue& entry) {
   if (area && diameter) diameter->fail("give `area` or `diameter`, not both");
   if (!area && !diameter) entry.fail("needs an `area` [m^2] or a `diameter` [m]");
   const YamlValue& given = area ? *area : *diameter;
-  const double number = given.positive_number(), size = area ? number : 0.25 * M_PI * number * number;
+  const double number = given.non_negative_number(), size = area ? number : 0.25 * M_PI * number * number;
   doubt_outside(given, size, plausible_area);
   return size;
 }

@@ -38,7 +38,7 @@ const std::vector<std::string>& orifice_law_keys();
 /// @param fluid  whose density and viscosity are the default
 /// @throws InputError  other keys are the caller's to check
 OrificeLaw read_orifice_law(const YamlValue& entry, const Fluid& fluid);
-/// `area` [m^2] or `diameter` [m]: a number. @throws InputError
+/// `area` [m^2] or `diameter` [m]: a number; 0: nothing flows. @throws InputError
 double read_area(const YamlValue& entry);
 
 }  // namespace bielle::mechanism

@@ -1,5 +1,6 @@
 #include "mechanism/hydraulics/lines/pipe_segment.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -34,6 +35,11 @@ PipeLoss pipe_loss(const PipeData& pipe, double density, double viscosity, doubl
   return {k * factor.f * q * std::abs(q), k * std::abs(q) * (2 * factor.f + factor.slope * Re)};
 }
 
+double inertia_factor(const Fluid& fluid, double pressure) {
+  const double p = std::max(pressure, fluid.vacuum() + Fluid::atmosphere);
+  return fluid.content(p).f * fluid.ratio(p).v * fluid.head(p).e_p;
+}
+
 PipeSegment::PipeSegment(std::string name, const PressureNode& from, const PressureNode& to, const PipeData& data)
     : Line("pipe", std::move(name)), data_(data) {
   const int a = add_port(from), b = add_port(to);
@@ -41,7 +47,8 @@ PipeSegment::PipeSegment(std::string name, const PressureNode& from, const Press
 }
 
 double PipeSegment::inertia() const {
-  return ports().node(0).fluid().density * data_.length / (0.25 * M_PI * data_.diameter * data_.diameter);
+  return data_.inertia * ports().node(0).fluid().density * data_.length /
+         (0.25 * M_PI * data_.diameter * data_.diameter);
 }
 
 PipeLoss PipeSegment::loss(double q) const {

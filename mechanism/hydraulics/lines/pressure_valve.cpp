@@ -47,8 +47,10 @@ double PoppetValve::wanted(const LocalState& state, MeasureGradient& gradient) c
   return open.value;
 }
 
+// A valve that follows its pressures has come to where they want it when a motion begins and in statics, which both
+// look for pressures and opening at once.
 double PoppetValve::opening(const LocalState& state, MeasureGradient& gradient) const {
-  if (!follows()) return wanted(state, gradient);
+  if (!follows() || state.environment().statics || state.memory()[0] == 0) return wanted(state, gradient);
   gradient.position()[state.slots().first_order_row()] += 1;
   return state.first_order()[0];
 }

@@ -6,7 +6,7 @@
 // check valve:           s = 1; r = 0; only from a to b
 // relief valve:          s = 1 (or 0, where its spring room is vented), r = 0
 // counterbalance valve:  a the load, x the pilot, r its ratio; and a check valve lets the fluid back from b to a
-// With a time constant T the opening follows: T ydot = y(x) - y.
+// With a time constant T the opening follows: T ydot = y(x) - y. A motion begins where y = y(x); statics find it there.
 //
 // A flow valve with compensator passes Q_set as long as D = p_a - p_b is larger than D_min; below it is an orifice. The
 // way back is an orifice of the same area:

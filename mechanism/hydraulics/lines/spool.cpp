@@ -23,8 +23,8 @@ void Spool::read_dynamics(const YamlValue& entry) {
     frequency->fail("give `time_constant` (first order) or `frequency` (second order), not both");
   if (damping && !frequency) damping->fail("belongs to a `frequency` (second order)");
   if (constant) {
-    order_ = 1;
-    time_constant_ = constant->positive_number();
+    time_constant_ = constant->non_negative_number();
+    order_ = time_constant_ > 0 ? 1 : 0;
   }
   if (frequency) {
     order_ = 2;

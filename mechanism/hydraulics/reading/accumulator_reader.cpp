@@ -11,10 +11,11 @@
 namespace bielle::mechanism {
 
 void add_accumulator(const std::string& name, const YamlValue& entry, Volume& volume, const Entry& own, Model& model) {
-  const double gas_volume = entry.at("gas_volume").positive_number();
+  const double gas_volume = entry.at("gas_volume").non_negative_number();
   const YamlValue given = entry.at("precharge");
   const double precharge = given.number(), vacuum = volume.fluid().vacuum();
   if (!(precharge > vacuum)) given.fail(fmt::format("expected a pressure above {:.6g} Pa, which is vacuum", vacuum));
+  doubt_pressure(given, precharge, volume.fluid());
   double exponent = 1.4;
   if (const auto n = entry.find("exponent")) {
     exponent = n->number();

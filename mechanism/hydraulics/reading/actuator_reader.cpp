@@ -97,8 +97,10 @@ class ActuatorReader {
       stroke.fail(fmt::format("the attachment points are drawn {:.6g} m apart, which is outside", drawn_));
     if (const auto stops = entry_.find("end_stops")) {
       stops->check_keys({"stiffness", "damping"}, "the end_stops");
-      geometry.stop_stiffness = stops->at("stiffness").positive_number();
+      geometry.stop_stiffness = stops->at("stiffness").non_negative_number();
       if (const auto damping = stops->find("damping")) geometry.stop_damping = damping->non_negative_number();
+      if (geometry.stop_stiffness == 0 && geometry.stop_damping > 0)
+        stops->at("damping").fail("belongs to stops with a `stiffness` greater than 0: one of 0 is none");
     }
     if (const auto friction = entry_.find("friction")) geometry.friction = read_friction(*friction);
     return geometry;
@@ -119,8 +121,9 @@ class ActuatorReader {
     const auto speed = entry.find("stribeck_velocity");
     if (law.sticking > law.kinetic && !speed)
       entry.at("static").fail("needs a `stribeck_velocity` over which it falls");
-    law.stribeck_velocity = speed ? speed->positive_number() : 0;
-    constexpr double usual_velocity = 1e-3;  // [m/s]
+    law.stribeck_velocity = speed ? speed->non_negative_number() : 0;
+    if (speed && law.sticking > law.kinetic) speed->positive_number();  // over which it falls
+    constexpr double usual_velocity = 1e-3;                             // [m/s]
     const auto velocity = entry.find("velocity");
     law.velocity = velocity ? velocity->positive_number() : usual_velocity;
     return law;
@@ -234,7 +237,10 @@ class ActuatorReader {
     keys.insert(keys.end(), orifice_law_keys().begin(), orifice_law_keys().end());
     cushions->check_keys(keys, "the cushions");
     const auto list = [&](const char* key) {
-      return cushions->at(key).positive_numbers(chambers_, "a number for each chamber");
+      const YamlValue given = cushions->at(key);
+      if (!given.is_sequence() || given.size() != chambers_) given.fail("expected a number for each chamber");
+      for (const YamlValue& item : given.items()) item.non_negative_number();
+      return given.vector();
     };
     const Eigen::VectorXd lengths = list("lengths"), areas = list("areas");
     const double port_area = cushions->at("port_area").positive_number();
@@ -318,6 +324,7 @@ class ActuatorReader {
         start[k] = list[static_cast<Eigen::Index>(k)];
         if (!(*start[k] > vacuum))
           pressures->fail(fmt::format("expected pressures above {:.6g} Pa, which is vacuum", vacuum));
+        doubt_pressure(pressures->at(k), *start[k], fluid_);
       }
     }
     const std::array<double, 2> compliances = read_two("compliances");

@@ -121,6 +121,7 @@ class CircuitReader {
   void check_pressure(const YamlValue& place, double p) const {
     const double least = fluid_.vacuum();
     if (!(p > least)) place.fail(fmt::format("expected a pressure above {:.6g} Pa, which is vacuum", least));
+    doubt_pressure(place, p, fluid_);
   }
 
   void read_junction(const YamlValue& item) {
@@ -174,7 +175,7 @@ class CircuitReader {
 
   void read_machine(const std::string& name, const YamlValue& entry) {
     entry.check_keys({"joint", "from", "to", "displacement", "setting", "leakage", "drag"}, "a machine");
-    Machine::Data data{entry.at("displacement").positive_number()};
+    Machine::Data data{entry.at("displacement").non_negative_number()};
     if (const auto leakage = entry.find("leakage")) data.leakage = leakage->non_negative_number();
     if (const auto drag = entry.find("drag")) data.drag = drag->non_negative_number();
     const YamlValue to = entry.at("to");

@@ -53,9 +53,9 @@ void read_laminar(const LineEntry& line) {
   if (given) {
     for (const char* key : {"length", "diameter"})
       if (const auto other = line.data.find(key)) other->fail("give `conductance`, or `length` and `diameter`");
-    conductance = given->positive_number();
+    conductance = given->non_negative_number();
   } else {  // Hagen and Poiseuille
-    const double d = line.data.at("diameter").positive_number();
+    const double d = line.data.at("diameter").non_negative_number();
     conductance = M_PI * d * d * d * d / (128 * line.fluid.viscosity * line.data.at("length").positive_number());
   }
   line.model.add(std::make_unique<Leakage>(line.name, line.from, &line.to, conductance), line.own());
@@ -72,7 +72,7 @@ double read_range(const YamlValue& entry, double setting) {
 
 double read_time_constant(const YamlValue& entry) {
   const auto constant = entry.find("time_constant");
-  return constant ? constant->positive_number() : 0;
+  return constant ? constant->non_negative_number() : 0;
 }
 
 const std::vector<std::string> poppet_keys = {"area", "diameter", "range", "time_constant"};
@@ -99,12 +99,13 @@ void read_counterbalance(const LineEntry& line) {
       joined(joined({"pressure", "pilot", "pilot_ratio", "check_pressure"}, poppet_keys), orifice_law_keys()),
       "a counterbalance valve");
   PoppetValve::Setting setting;
-  setting.pressure = line.data.at("pressure").positive_number();
+  setting.pressure = line.data.at("pressure").non_negative_number();
+  doubt_setting(line.data.at("pressure"), setting.pressure);
   setting.range = read_range(line.data, setting.pressure);
   setting.area = read_area(line.data);
   setting.back = 0;
   setting.time_constant = read_time_constant(line.data);
-  setting.pilot_ratio = line.data.at("pilot_ratio").positive_number();
+  setting.pilot_ratio = line.data.at("pilot_ratio").non_negative_number();
   const auto check = line.data.find("check_pressure");
   setting.check_pressure = check ? check->non_negative_number() : 0;
   line.model.add(std::make_unique<PoppetValve>("counterbalance", line.name, line.from, line.to,
@@ -115,7 +116,9 @@ void read_counterbalance(const LineEntry& line) {
 
 void read_flow_valve(const LineEntry& line) {
   line.data.check_keys({"flow", "pressure"}, "a flow valve");
-  auto valve = std::make_unique<FlowValve>(line.name, line.from, line.to, line.data.at("pressure").positive_number());
+  const double least = line.data.at("pressure").positive_number();
+  doubt_setting(line.data.at("pressure"), least);
+  auto valve = std::make_unique<FlowValve>(line.name, line.from, line.to, least);
   line.model.when_read(Model::Stage::formulas, [valve = valve.get(), formula = line.data.at("flow"),
                                                 &model = line.model] { valve->read(formula, model); });
   line.model.add(std::move(valve), line.own());
@@ -162,6 +165,7 @@ void read_pipe(const LineEntry& line) {
   const double pressure = data.at("pressure").number(), vacuum = line.fluid.vacuum();
   if (!(pressure > vacuum))
     data.at("pressure").fail(fmt::format("expected a pressure above {:.6g} Pa, which is vacuum", vacuum));
+  doubt_pressure(data.at("pressure"), pressure, line.fluid);
   const std::array<const PressureNode*, 2> ends{&line.from, &line.to};
   std::array<bool, 2> holds{};
   for (std::size_t end : {0, 1}) holds[end] = ends[end]->type() == pipe_junction;
@@ -184,9 +188,10 @@ void read_pipe(const LineEntry& line) {
       line.model.add(std::move(volume), line.own(), Recorded::stacked);
     }
     const bool half = (i == 0 && !holds[0]) || (i == n && !holds[1]);
-    line.model.add(
-        std::make_unique<PipeSegment>(line.name, *before, *after, PipeData{half ? 0.5 * cell : cell, diameter, k}),
-        segments, Recorded::stacked);
+    line.model.add(std::make_unique<PipeSegment>(
+                       line.name, *before, *after,
+                       PipeData{half ? 0.5 * cell : cell, diameter, k, inertia_factor(line.fluid, pressure)}),
+                   segments, Recorded::stacked);
     before = after;
   }
 }
@@ -246,8 +251,9 @@ SpoolValve& add_servo_valve(const std::string& name, const YamlValue& entry,
   if (const auto each = entry.find("areas")) {
     for (const char* key : {"area", "diameter"})
       if (const auto other = entry.find(key)) other->fail("give `areas` of the four edges, or one for all");
-    const Eigen::VectorXd list = each->positive_numbers(4, "the areas of P-A, B-T, P-B and A-T at full opening");
-    for (std::size_t k = 0; k < 4; ++k) areas[k] = list[static_cast<Eigen::Index>(k)];
+    if (!each->is_sequence() || each->size() != areas.size())
+      each->fail("expected the areas of P-A, B-T, P-B and A-T at full opening");
+    for (std::size_t k = 0; k < areas.size(); ++k) areas[k] = each->at(k).non_negative_number();
   } else {
     areas.fill(read_area(entry));
   }
@@ -260,7 +266,8 @@ void add_relief(const std::string& name, const YamlValue& entry, const PressureN
                 const Fluid& fluid, const Entry& own, Model& model) {
   entry.check_keys(joined(joined({"pressure", "vented"}, poppet_keys), orifice_law_keys()), "a relief valve");
   PoppetValve::Setting setting;
-  setting.pressure = entry.at("pressure").positive_number();
+  setting.pressure = entry.at("pressure").non_negative_number();
+  doubt_setting(entry.at("pressure"), setting.pressure);
   setting.range = read_range(entry, setting.pressure);
   setting.area = read_area(entry);
   setting.time_constant = read_time_constant(entry);

@@ -106,8 +106,9 @@ std::unique_ptr<Drive> make_pid(const std::string& name, const YamlValue& entry,
   if (gains.proportional == 0 && gains.integral == 0 && gains.derivative == 0)
     entry.fail("a controller needs at least one of the gains kp, ki, kd");
   if (const auto filter = entry.find("filter")) {
-    gains.filter = filter->positive_number();
-    if (gains.derivative == 0) filter->fail("is that of the derivative, which has no gain: give `kd`, too");
+    gains.filter = filter->non_negative_number();
+    if (gains.derivative == 0 && gains.filter > 0)
+      filter->fail("is that of the derivative, which has no gain: give `kd`, too");
   }
   const ForceLimit limit = entry.has("limit") ? read_force_limit(entry.at("limit")) : ForceLimit{};
   if (const auto tracking = entry.find("tracking_time")) {

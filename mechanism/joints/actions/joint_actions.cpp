@@ -81,7 +81,7 @@ StopRange read_stop_range(const YamlValue& entry) {
   // One end may be left open: `~`.
   const auto end = [&](std::size_t k, double open) { return range.at(k).is_null() ? open : range.at(k).number(); };
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  StopRange stops{end(0, -infinity), end(1, infinity), entry.at("stiffness").positive_number(), 0};
+  StopRange stops{end(0, -infinity), end(1, infinity), entry.at("stiffness").non_negative_number(), 0};
   if (!(stops.lower < stops.upper)) range.fail("expected the lower end first, and a range between the two");
   if (stops.lower == -infinity && stops.upper == infinity) range.fail("both ends are open: these are no stops");
   if (const auto damping = entry.find("damping")) stops.damping = damping->non_negative_number();

@@ -1,8 +1,16 @@
 #include "mechanism/joints/flexible/clearance_contact.hpp"
 
+#include <cmath>
+
 namespace bielle::mechanism {
 
 using Place = ClearancePlace::Kind;
+
+namespace {
+
+constexpr double least_way = 1e-12;  // [m]: far below any gap, far above the rounding of its square
+
+}  // namespace
 
 //   n = rho/l,   dn = (I - n n^T) drho/l,   dp = n . drho,   second derivatives n . d2rho + drho . (I - n n^T) drho/l
 ClearanceContact::ClearanceContact(const NodeState& first, const NodeState& second, const JointFrames& frames,
@@ -22,7 +30,8 @@ ClearanceContact::ClearanceContact(const NodeState& first, const NodeState& seco
   const int dimensions = place.kind == Place::bore ? 2 : 3;
   Vector3 rho = Vector3::Zero();
   for (int k = 0; k < dimensions; ++k) rho[k] = s_[static_cast<std::size_t>(k)].value;
-  const double l = rho.norm();
+  // Without a gap the middle itself is in contact: there the push has no direction, but its stiffness has a limit.
+  const double l = place.gap > 0 ? rho.norm() : std::hypot(rho.norm(), least_way);
   p_.value = l - place.gap;
   if (p_.value <= 0) return;
   n_ = rho / l;

@@ -67,7 +67,7 @@ std::optional<FrictionLaw> read_clearance_friction(const YamlValue& entry) {
 
 double read_radius(const YamlValue& entry) {
   const auto radius = entry.find("radius");
-  return radius ? radius->positive_number() : 0;
+  return radius ? radius->non_negative_number() : 0;
 }
 
 void check_clearance_keys(const YamlValue& entry, std::initializer_list<const char*> own, const char* words) {
@@ -91,16 +91,17 @@ void read_clearance_hinge(const std::string& name, const YamlValue& entry, Model
   check_clearance_keys(entry, {"radial_gap", "axial_gap", "length", "radius", "contact", "axial_contact", "friction"},
                        "a clearance_hinge");
   JointFrames frames = read_joint_frames(entry, model, AxisNeed::required);
-  const double gap = entry.at("radial_gap").positive_number(), radius = read_radius(entry);
+  const double gap = entry.at("radial_gap").non_negative_number(), radius = read_radius(entry);
   const auto length = entry.find("length"), axial_gap = entry.find("axial_gap"),
              axial_contact = entry.find("axial_contact");
-  const double l = length ? length->positive_number() : 0;
+  const double l = length ? length->non_negative_number() : 0;
   const YamlValue contact = entry.at("contact");
-  if (contact.is_map() && contact.has("young") && !length)
-    contact.at("young").fail("the stiffness of a cylinder follows from its `length`, which is missing");
+  if (contact.is_map() && contact.has("young") && l == 0)
+    contact.at("young").fail(
+        fmt::format("the stiffness of a cylinder follows from its `length`, which is {}", length ? "0" : "missing"));
   const NormalLaw law = read_contact_law(contact, MaterialStiffness{M_PI / 4 * l / 2, 1}, 1.5);
   std::vector<ClearanceJoint::Place> places;
-  if (length) {
+  if (l > 0) {
     places.push_back({"at the end at -z", {ClearancePlace::Kind::bore, gap, -l / 2, 1, radius}, law});
     places.push_back({"at the end at +z", {ClearancePlace::Kind::bore, gap, l / 2, 1, radius}, law});
   } else {
@@ -109,7 +110,7 @@ void read_clearance_hinge(const std::string& name, const YamlValue& entry, Model
   if (axial_contact && !axial_gap)
     axial_contact->fail("is the contact of collars with an `axial_gap`, which is missing");
   if (axial_gap) {
-    const double play = axial_gap->positive_number();
+    const double play = axial_gap->non_negative_number();
     if (!axial_contact && contact.has("young"))
       axial_gap->fail("give the stiffness of the collars, too: `axial_contact: {stiffness: ..}`");
     const NormalLaw of_faces = axial_contact ? read_contact_law(*axial_contact, std::nullopt, 1.5) : law;
@@ -128,10 +129,14 @@ void read_clearance_hinge(const std::string& name, const YamlValue& entry, Model
 void read_clearance_spherical(const std::string& name, const YamlValue& entry, Model& model) {
   check_clearance_keys(entry, {"radial_gap", "radius", "contact", "friction"}, "a clearance_spherical joint");
   JointFrames frames = read_joint_frames(entry, model, AxisNeed::optional);
-  const double gap = entry.at("radial_gap").positive_number(), radius = read_radius(entry);
+  const double gap = entry.at("radial_gap").non_negative_number(), radius = read_radius(entry);
   const YamlValue contact = entry.at("contact");
   if (contact.is_map() && contact.has("young") && radius == 0)
-    contact.at("young").fail("the stiffness of a ball follows from its `radius`, which is missing");
+    contact.at("young").fail(fmt::format("the stiffness of a ball follows from its `radius`, which is {}",
+                                         entry.has("radius") ? "0" : "missing"));
+  if (contact.is_map() && contact.has("young") && gap == 0)
+    entry.at("radial_gap")
+        .fail("a ball that fills its socket is stiffer than any number: give the contact a `stiffness`");
   const NormalLaw law =
       read_contact_law(contact, MaterialStiffness{4.0 / 3 * std::sqrt(radius * (radius + gap) / gap), 1.5}, 1.5);
   add_clearance(

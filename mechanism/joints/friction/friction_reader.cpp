@@ -34,7 +34,8 @@ FrictionSurface read_surface(const YamlValue& entry, const Joint& joint, const S
     radius->fail(fmt::format("a {} joint does not turn: it rubs without a radius", joint.type()));
   if (!radius && any_turns)
     entry.fail(fmt::format("a {} joint turns: give the `radius` of the surface that rubs [m]", joint.type()));
-  const double r = radius ? radius->positive_number() : 0;
+  // On a thread the axial force presses by the torque over the radius: there is no limit of none.
+  const double r = !radius ? 0 : slides.lead != 0 ? radius->positive_number() : radius->non_negative_number();
   FrictionSurface surface;
   for (const std::size_t k : slides.coordinates)
     surface.parts.push_back({k, static_cast<int>(surface.parts.size()), turns(k) ? r : 1.0});
@@ -65,7 +66,9 @@ FrictionSurface read_surface(const YamlValue& entry, const Joint& joint, const S
 
 void add_friction(const YamlValue& entry, const Joint& joint, const SlidingSurface& slides, Model& model) {
   FrictionSurface surface = read_surface(entry, joint, slides);
-  const FrictionLaw law = read_friction_law(entry, {"coulomb", "lugre", "stick_slip"});
+  FrictionLaw law = read_friction_law(entry, {"coulomb", "lugre", "stick_slip"});
+  const auto has_arm = [](const FrictionSurface::Part& part) { return part.arm != 0; };
+  if (std::none_of(surface.parts.begin(), surface.parts.end(), has_arm)) law.forget_dry_friction();
   std::unique_ptr<Component> friction;
   switch (law.model) {
     case FrictionLaw::Model::coulomb:

@@ -122,8 +122,8 @@ std::optional<TyreLaw> read_tyre_law(const YamlValue& entry) {
     return {};
   }
   slip->check_keys({"longitudinal", "lateral", "friction", "speed"}, "`slip`");
-  TyreLaw law{slip->at("longitudinal").positive_number(), slip->at("lateral").positive_number(), {}, 0.1};
-  if (const auto friction = slip->find("friction")) law.friction = friction->positive_number();
+  TyreLaw law{slip->at("longitudinal").non_negative_number(), slip->at("lateral").non_negative_number(), {}, 0.1};
+  if (const auto friction = slip->find("friction")) law.friction = friction->non_negative_number();
   if (const auto speed = slip->find("speed")) law.speed = speed->positive_number();
   return law;
 }

@@ -50,6 +50,8 @@ void StepNewton::begin(const State& state) {
 void StepNewton::evaluate(SchemeStep& step, StepReport& report) {
   ++report.evaluations;
   step.show();
+  // There may be no balance while the other unknowns are not yet what they will be: then the trial is taken as it is.
+  if (searches_) search_->find(environment_, step.trial());
   h_ = step.trial_size();
   ResidualScale scale;
   reactions_.balance(environment_, step.trial());
@@ -83,11 +85,11 @@ void StepNewton::move_and_follow(SchemeStep& step, double part) {
 
 void StepNewton::solve(SchemeStep& step, StepReport& report) {
   for (;; improve(step, report)) {
-    if (reached(step, report)) break;
-    if (report.iterations == options_.iterations || !finite(report)) {
+    const bool there = reached(step, report);
+    if (there && !beyond_bounds(step.trial())) break;
+    if (there || report.iterations == options_.iterations || !finite(report)) {
       within_tolerance();
-      report.refusal = fmt::format("t = {:.6g} s: Newton did not converge (iterations: {}); largest residual: {}",
-                                   step.trial().time, report.iterations, convergence_.worst());
+      report.refusal = refusal(step, report);
       factored_for_ = 0;
       break;
     }
@@ -102,6 +104,25 @@ void StepNewton::solve(SchemeStep& step, StepReport& report) {
   report.worst_equation = convergence_.worst_equation();
   report.worst_residual = convergence_.worst_residual();
   report.worst_ratio = convergence_.worst_ratio();
+}
+
+std::string StepNewton::refusal(const SchemeStep& step, const StepReport& report) const {
+  if (searches_ && !search_->why().empty()) return fmt::format("t = {:.6g} s: {}", step.trial().time, search_->why());
+  return fmt::format("t = {:.6g} s: Newton did not converge (iterations: {}); largest residual: {}", step.trial().time,
+                     report.iterations, convergence_.worst());
+}
+
+bool StepNewton::beyond_bounds(const State& trial) {
+  if (system_.algebraic().empty()) return false;
+  if (!search_) search_ = std::make_unique<BalanceSearch>(system_);
+  return search_->beyond_bounds(trial);
+}
+
+bool StepNewton::search_balances(bool wanted) {
+  if (!search_) search_ = std::make_unique<BalanceSearch>(system_);
+  searches_ = wanted && !search_->empty();
+  factored_for_ = 0;
+  return searches_;
 }
 
 /// Factors have served their time when a step with them takes more than steps have taken on the average since they were

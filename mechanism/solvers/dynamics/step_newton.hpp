@@ -13,6 +13,7 @@
 #include "mechanism/solvers/constraints/reaction_norm.hpp"
 #include "mechanism/solvers/dynamics/step_equations.hpp"
 #include "mechanism/solvers/dynamics/step_report.hpp"
+#include "mechanism/solvers/newton/balance_search.hpp"
 #include "mechanism/solvers/newton/convergence.hpp"
 
 namespace bielle::mechanism {
@@ -35,6 +36,10 @@ class StepNewton {
   void solve(SchemeStep& step, StepReport& report);
   /// What a refusal adds: where the iteration stood before it went astray.
   void explain(SchemeStep& step, StepReport& report);
+  /// From here on, and until it is called with false: balances that may be flat (FlowBalance) are searched for at each
+  /// iterate. Slower, and the only way where they are.
+  /// @returns whether there are any
+  bool search_balances(bool wanted);
   /// The next iteration needs a tangent of its own.
   void forget_factors() { factored_for_ = 0; }
   /// What comes next owes nothing to what was before: pivots, factors, rounding.
@@ -57,6 +62,8 @@ class StepNewton {
   bool reached(const SchemeStep& step, const StepReport& report);
   bool within_tolerance();
   bool finite(const StepReport& report) const;
+  bool beyond_bounds(const State& trial);
+  std::string refusal(const SchemeStep& step, const StepReport& report) const;
 
   const System& system_;
   const Environment& environment_;
@@ -70,11 +77,13 @@ class StepNewton {
   double h_ = 0;                       ///< of the trial that r_ belongs to
   double size_ = 0, size_before_ = 0;  ///< of the residual, now and an iteration before: Convergence::size_of
   bool measures_ = false;
-  double factored_for_ = 0;             ///< the step size that the factors belong to; 0: none that serve
-  double spent_ = 0;                    ///< iterations since, and what the factors took in iterations
-  int served_ = 0;                      ///< steps since
-  double factors_serve_within_ = same;  ///< relative difference of sizes that factors serve
-  int floor_age_ = never_measured;      ///< steps since the rounding floor was measured
+  double factored_for_ = 0;                ///< the step size that the factors belong to; 0: none that serve
+  double spent_ = 0;                       ///< iterations since, and what the factors took in iterations
+  int served_ = 0;                         ///< steps since
+  double factors_serve_within_ = same;     ///< relative difference of sizes that factors serve
+  std::unique_ptr<BalanceSearch> search_;  ///< made when it is first wanted
+  bool searches_ = false;
+  int floor_age_ = never_measured;  ///< steps since the rounding floor was measured
 };
 
 }  // namespace bielle::mechanism

@@ -223,17 +223,30 @@ StepReport TimeIntegration::attempt_from(double h, double end, bool extrapolated
 StepReport TimeIntegration::attempt(double h, double end, bool kink) {
   end_ = end;
   const double trial_end = kink ? end - just_off(end, h) : end;
+  const StepReport report = attempt_plainly(h, trial_end);
+  if (report.converged() || system_.algebraic().empty() || !newton_.search_balances(true)) return report;
+  const StepReport searched = attempt_again(report, h, trial_end);
+  newton_.search_balances(false);
+  return searched;
+}
+
+StepReport TimeIntegration::attempt_plainly(double h, double trial_end) {
   const StepReport first = attempt_from(h, trial_end, true);
   if (first.converged() || first.order == 0) return first;
   // What is extrapolated may lead astray where unchanged values do not.
   extrapolation_.choose(0, std::numeric_limits<double>::infinity());
-  StepReport second = attempt_from(h, trial_end, false);
-  second.iterations += first.iterations;
-  second.factorisations += first.factorisations;
-  second.evaluations += first.evaluations;
-  second.solutions += first.solutions;
-  second.shortened += first.shortened;
-  return second;
+  return attempt_again(first, h, trial_end);
+}
+
+/// From unchanged values. @param before  of attempts that failed
+StepReport TimeIntegration::attempt_again(const StepReport& before, double h, double end) {
+  StepReport report = attempt_from(h, end, false);
+  report.iterations += before.iterations;
+  report.factorisations += before.factorisations;
+  report.evaluations += before.evaluations;
+  report.solutions += before.solutions;
+  report.shortened += before.shortened;
+  return report;
 }
 
 bool TimeIntegration::accept() {

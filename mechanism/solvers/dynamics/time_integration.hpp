@@ -105,6 +105,8 @@ class TimeIntegration {
   void extrapolate_from_here();
   double begin_trial(double h, double end, int order, StepReport& report);
   void choose_start(double h, double end, StepReport& report);
+  StepReport attempt_plainly(double h, double trial_end);
+  StepReport attempt_again(const StepReport& before, double h, double end);
   StepReport attempt_from(double h, double end, bool extrapolated);
 
   const System& system_;

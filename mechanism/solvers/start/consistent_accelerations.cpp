@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <exception>
 #include <limits>
 
 #include <fmt/format.h>
 
 #include "mechanism/solvers/constraints/reaction_norm.hpp"
+#include "mechanism/solvers/newton/balance_search.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
 #include "reduce/common/counted.hpp"
 
@@ -65,19 +67,27 @@ class AccelerationEquations {
   }
 
   void solve_for_algebraic() {
-    constexpr int most = 50;
-    constexpr double accurate = 1e-9;  // the step: what is left after it is its square
-    saddle_.factor(environment_, state_);
-    solve();
-    for (int iteration = 0;; ++iteration) {
-      measure();
-      const double size = size_of_step();
-      if (size <= accurate) return move(1);
-      if (iteration == most || !std::isfinite(size)) throw_unsolved(iteration);
-      shorten(size);
-      saddle_.factor(environment_, state_);
-      solve();
+    const State begun = state_;
+    const VectorX a_begun = a_;
+    int left = -1;
+    std::exception_ptr refusal;
+    try {
+      left = iterate_for_algebraic(nullptr);
+    } catch (const ComputationError&) {
+      refusal = std::current_exception();  // singular, or refused by a component
     }
+    BalanceSearch search(system_);
+    if (left == 0 && !search.beyond_bounds(state_)) return;
+    if (search.empty()) {
+      if (refusal) std::rethrow_exception(refusal);
+      throw_unsolved(left, {});
+    }
+    // Once more, with the balances that may be flat searched for at each iterate.
+    state_ = begun;
+    a_ = a_begun;
+    evaluate();
+    left = iterate_for_algebraic(&search);
+    if (left > 0 || search.beyond_bounds(state_)) throw_unsolved(left, search.why());
   }
 
   /// Forces depend on multipliers: from the solution of a state nearby, with the factors of where it begins.
@@ -115,6 +125,10 @@ class AccelerationEquations {
     const int without = saddle_.determinant_sign();
     solve();
     move(1);
+    if (!system_.algebraic().empty()) {
+      BalanceSearch search(system_);
+      if (!search.empty()) balance(search);
+    }
     const VectorX guess = state_.multiplier;
     const State first = state_;
     const VectorX a_first = a_;
@@ -264,6 +278,40 @@ class AccelerationEquations {
     return weights;
   }
 
+  /// Newton's method for the algebraic unknowns and all that depends on them.
+  /// @param search  of balances, or nullptr: none
+  /// @returns 0 when it has converged, else the number of iterations
+  int iterate_for_algebraic(BalanceSearch* search) {
+    constexpr int most = 50;
+    constexpr double accurate = 1e-9;  // the step: what is left after it is its square
+    if (search) balance(*search);
+    saddle_.factor(environment_, state_);
+    solve();
+    for (int iteration = 0;; ++iteration) {
+      measure();
+      const double size = size_of_step();
+      if (size <= accurate) {
+        move(1);
+        return 0;
+      }
+      if (iteration == most || !std::isfinite(size)) return iteration + 1;
+      if (search) {
+        move(1);
+        balance(*search);
+      } else {
+        shorten(size);
+      }
+      saddle_.factor(environment_, state_);
+      solve();
+    }
+  }
+
+  /// There may be no balance while the other unknowns are not yet what they will be: then the state is taken as it is.
+  void balance(BalanceSearch& search) {
+    search.find(environment_, state_);
+    evaluate();
+  }
+
   /// What steps of the algebraic unknowns are compared with: their scales, where the search began, where it is. (From
   /// zero, without a scale, the step is no smaller than itself.)
   void measure() {
@@ -309,7 +357,9 @@ class AccelerationEquations {
     evaluate();
   }
 
-  [[noreturn]] void throw_unsolved(int iterations) {
+  /// @param why  a balance that was searched for in vain, or nothing
+  [[noreturn]] void throw_unsolved(int iterations, const std::string& why) {
+    if (!why.empty()) throw ComputationError(fmt::format("t = {:.6g} s: {}", state_.time, why));
     evaluate();
     throw ComputationError(
         fmt::format("t = {:.6g} s: no value was found for {} that satisfies its equation; {:.2g} {} are left after {} "

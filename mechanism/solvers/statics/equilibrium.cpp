@@ -27,6 +27,7 @@ Equilibrium::Equilibrium(const LoadRamp& ramp, const NewtonOptions& options)
       tangent_(system_),
       convergence_(system_, options),
       reactions_(system_),
+      search_(system_),
       r_(system_.size()),
       delta_(system_.size()) {}
 
@@ -46,9 +47,25 @@ int Equilibrium::relax(double factor, State& state) {
 template <class Iterations>
 int Equilibrium::attempt(double factor, State& state, const Iterations& iterations) {
   start_ = state;
+  environment_ = ramp_.environment(factor);
+  int count = attempt_once(state, iterations);
+  if (count < 0 && !falls_ && !search_.empty()) {
+    state = start_;
+    searches_ = true;
+    count = attempt_once(state, iterations);
+    searches_ = false;
+    if (count < 0 && !search_.why().empty()) why_ = search_.why();
+  }
+  if (count >= 0) return count;
+  state = start_;
+  why_ += what_is_open(state);
+  return -1;
+}
+
+template <class Iterations>
+int Equilibrium::attempt_once(const State& state, const Iterations& iterations) {
   judged_ = stepped_ = falls_ = false;
   why_.clear();
-  environment_ = ramp_.environment(factor);
   int count = -1;
   try {
     count = iterations();
@@ -56,11 +73,10 @@ int Equilibrium::attempt(double factor, State& state, const Iterations& iteratio
     why_ = error.what();
     if (judged_) why_ += fmt::format("; largest residual before: {}", convergence_.worst());
   }
-  if (count >= 0) return count;
-  if (why_.empty()) why_ = fmt::format("Newton did not converge; largest residual: {}", convergence_.worst());
-  state = start_;
-  why_ += what_is_open(state);
-  return -1;
+  if (count >= 0 && search_.beyond_bounds(state)) count = -1;
+  if (count < 0 && why_.empty())
+    why_ = fmt::format("Newton did not converge; largest residual: {}", convergence_.worst());
+  return count;
 }
 
 /// Contacts that bear nothing yet: where something lacks a support, they may be why.
@@ -246,6 +262,8 @@ void Equilibrium::move(State& state, const State& base, double part) const {
 
 void Equilibrium::evaluate(State& state) {
   reactions_.balance(environment_, state);
+  // There may be no balance while the other unknowns are not yet what they will be: then the state is taken as it is.
+  if (searches_) search_.find(environment_, state);
   residual_at_rest(system_, environment_, state, r_, &scale_);
   if (push_.size() > 0) r_.head(push_.size()) -= push_;
 }

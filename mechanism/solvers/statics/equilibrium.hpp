@@ -4,6 +4,7 @@
 #include <string>
 
 #include "mechanism/solvers/constraints/reaction_norm.hpp"
+#include "mechanism/solvers/newton/balance_search.hpp"
 #include "mechanism/solvers/newton/convergence.hpp"
 #include "mechanism/solvers/statics/load_ramp.hpp"
 #include "mechanism/solvers/statics/static_tangent.hpp"
@@ -46,6 +47,8 @@ class Equilibrium {
   void accept(double factor, State& state) const;
 
  private:
+  template <class Iterations>
+  int attempt_once(const State& state, const Iterations& iterations);
   int iterate(double factor, State& state, void (Equilibrium::*improve)(State&));
   int iterate_relaxing(double factor, State& state);
   template <class Iterations>
@@ -71,6 +74,8 @@ class Equilibrium {
   StaticTangent tangent_;
   Convergence convergence_;
   ReadReactions reactions_;
+  BalanceSearch search_;
+  bool searches_ = false;    ///< balances that may be flat are searched for at each iterate
   Environment environment_;  ///< of the load factor in hand
   State start_;              ///< of the attempt in hand
   double promised_ = 0;
