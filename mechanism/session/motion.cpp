@@ -4,9 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "mechanism/session/interrupted.hpp"
 #include "mechanism/session/session.hpp"
 #include "mechanism/session/time_grid.hpp"
 #include "mechanism/solvers/start/assemble_positions.hpp"
@@ -38,6 +40,16 @@ StepOptions stepping_of(const DynamicsOptions& options, const System& system, do
     stepping.break_points.clear();
   }
   return stepping;
+}
+
+/// To the bit.
+bool same_motion(const State& a, const State& b) {
+  const auto same = [](const NodeState& one, const NodeState& other) {
+    return one.x == other.x && one.R == other.R && one.v == other.v && one.Omega == other.Omega;
+  };
+  return a.time == b.time && std::equal(a.nodes.begin(), a.nodes.end(), b.nodes.begin(), b.nodes.end(), same) &&
+         a.amplitude == b.amplitude && a.amplitude_rate == b.amplitude_rate && a.first_order == b.first_order &&
+         a.multiplier == b.multiplier;
 }
 
 }  // namespace
@@ -77,24 +89,23 @@ Motion::Motion(Session& session, const DynamicsOptions& options) : session_(&ses
   session.gather(this->state(), environment);
   session.report_ = row;
   show();  // last: a motion that could not be made is not to be seen
+  if (session.recording_.checkpoint > 0) save_for_sinks();
 }
 
 Motion::Motion(Session& session, const DynamicsOptions& options, Archive& archive, ResultSink* sink,
                const std::optional<StepRecord>& report)
     : session_(&session), options_(options) {
-  bool whole = true;
+  std::string why;
   try {
-    parts_ = read(archive, sink);
-  } catch (const std::out_of_range&) {
-    whole = false;
+    go_on(archive, sink);
+  } catch (const std::out_of_range& error) {
+    why = error.what();
   }
-  if (!whole || !archive.exhausted())
+  if (!why.empty())
     throw InputError(
-        "the last checkpoint holds other numbers than this program goes on from: it was written by another version, "
-        "or is damaged");
-  session.gatherers_.set(parts_.gathered);
-  session.at_rest();
-  session.stopping_ = false;
+        "what is to be gone on from (the last checkpoint, or what was saved) holds other numbers than this program "
+        "goes on from: it was written by another version, or is damaged: " +
+        why);
   end_ = parts_.begin + options.duration;
   saved_ = true;
   show();
@@ -132,43 +143,103 @@ void Motion::make_march(Parts& parts, StepOptions stepping) {
   parts.march->on_jump([books = &parts_.books](const Jump& jump) { books->jump(jump.before, jump.after, jump.work); });
   if (!session_->on_attempt_.empty())
     parts.march->observe([session = session_](const Attempt& attempt) {
+      if (session->going_again_) return;
       for (const auto& callback : session->on_attempt_) callback(attempt);
     });
 }
 
 // -- saving
 
-void Motion::exchange_books(Archive& archive, Parts& parts, ResultSink* sink) {
+void Motion::exchange_books(Archive& archive, Parts& parts) {
+  archive.within(parts.steps, 0, 1e15);
+  archive.within(parts.saves, 0, 1e15);
   archive(parts.begin);
-  archive(parts.grid_steps);
+  archive.within(parts.grid_steps, 0, 1e15);
   parts.books.exchange(archive);
-  archive(parts.gathered);
-  if (sink) sink->exchange(archive);
+  archive.of_any_length(parts.gathered);
 }
 
+/// What belongs to the sink stands last.
 void Motion::write(Archive& archive, ResultSink* sink) {
   parts_.gathered = session_->gatherers_.numbers();
-  exchange_books(archive, parts_, sink);
+  exchange_books(archive, parts_);
   parts_.integration->exchange(archive);
   parts_.march->exchange(archive);
+  if (sink) sink->exchange(archive);
   session_->norm_.reset();  // recorded reactions owe nothing to pivots of before
 }
 
-Motion::Parts Motion::read(Archive& archive, ResultSink* sink) {
+Motion::Parts Motion::read(Archive& archive, Notes* notes) {
   session_->norm_.reset();
   Parts parts;
-  exchange_books(archive, parts, sink);
-  StepOptions stepping = stepping_of(options_, session_->system_, parts.begin, session_->notes_);
+  exchange_books(archive, parts);
+  StepOptions stepping = stepping_of(options_, session_->system_, parts.begin, notes);
   parts.integration = std::make_unique<TimeIntegration>(session_->system_, session_->environment_, options_.scheme,
                                                         archive, options_.form, options_.newton);
+  if (!(parts.begin <= parts.integration->state().time))
+    throw std::out_of_range("the motion stands before its beginning");
   make_march(parts, std::move(stepping));
   parts.march->exchange(archive);
   return parts;
 }
 
+/// From a point at which tangents were made anew, or from one of an interruption, which the former follows.
+/// @throws std::out_of_range, InputError
+void Motion::go_on(Archive& archive, ResultSink* sink) {
+  Session& session = *session_;
+  Parts now = read(archive, session.notes_);
+  if (sink) sink->exchange(archive);
+  Parts anchor;
+  const bool interrupted = now.steps > 0 && !archive.exhausted();
+  if (interrupted)
+    anchor = read(archive, nullptr);
+  else if (!archive.exhausted())
+    throw std::out_of_range("there are more numbers than are needed");
+  session.gatherers_.set(now.gathered);
+  session.at_rest();
+  session.stopping_ = false;
+  parts_ = std::move(now);
+  if (interrupted && arrives(std::move(anchor))) return;
+  parts_.steps = parts_.saves = 0;
+}
+
+/// Goes the steps again from the point at which tangents were made anew to that of the interruption: the motion then
+/// has the tangents, pivots and rounding of one that was not interrupted. @returns false where it does not come to the
+/// same state (steps or scheme are others now); it then stands where it was interrupted
+bool Motion::arrives(Parts anchor) {
+  Session& session = *session_;
+  Parts interrupted = std::exchange(parts_, std::move(anchor));
+  const long steps = interrupted.steps;
+  bool arrived = false;
+  session.going_again_ = true;
+  try {
+    session.gatherers_.set(parts_.gathered);
+    while (parts_.steps < steps && !parts_.march->done()) take_step(false);
+    arrived = same_motion(state(), interrupted.integration->state());
+  } catch (const ComputationError&) {
+    // Other steps than before.
+  }
+  session.going_again_ = false;
+  if (!arrived) {
+    session.gatherers_.set(interrupted.gathered);
+    parts_ = std::move(interrupted);
+    return false;
+  }
+  parts_.march->count_as_before();
+  parts_.saves = interrupted.saves;
+  anchored_ = true;
+  return true;
+}
+
 /// Also where nobody listens: what follows does not depend on who does.
 void Motion::save_for_sinks() {
   if (saved_) return;
+  parts_.steps = parts_.saves = 0;
+  anchored_ = session_->open_ && !session_->sinks_.empty();
+  write_to_sinks();
+}
+
+void Motion::write_to_sinks() {
   const auto save = [&](ResultSink* sink) {
     Archive archive;
     write(archive, sink);
@@ -179,6 +250,17 @@ void Motion::save_for_sinks() {
   else
     save(nullptr);
   saved_ = true;
+}
+
+/// A point to go on from makes tangents anew, here and where the run goes on. Where the user has asked for points every
+/// so many steps, an uninterrupted run does so at these alone: the last of them is then gone on from, up to here again
+/// (`arrives`). So what follows is the same to the bit.
+void Motion::save_where_interrupted() {
+  if (!session_ || saved_) return;
+  if (!anchored_ || session_->recording_.checkpoint == 0) return save_for_sinks();
+  ++parts_.saves;
+  write_to_sinks();
+  anchored_ = false;  // tangents are made anew, should this program go on
 }
 
 // -- moving
@@ -218,13 +300,27 @@ void Motion::record_step(const MarchStep& step, double before, const EnergyBalan
 bool Motion::step() {
   Session& session = alive();
   if (done()) return false;
+  take_step(true);
+  if (const int every = session.recording_.checkpoint; every > 0 && last_on_grid_ && parts_.grid_steps % every == 0)
+    save_for_sinks();
+  if (session.notes_)
+    session.notes_->progress((time() - begin()) / (end() - begin()), fmt::format("t = {:.4g} s", time()));
+  session.call_back();
+  return true;
+}
+
+/// @param seen  sinks, notes and listeners see it
+void Motion::take_step(bool seen) {
+  Session& session = *session_;
   const double before = time();
   last_begin_ = std::numeric_limits<double>::infinity();  // should it fail
   const EnergyBalance books_before = parts_.books;
   const MarchStep step = parts_.march->advance();
+  ++parts_.steps;
   last_begin_ = before;
+  last_on_grid_ = step.on_grid;
   saved_ = false;
-  if (!cautioned_)
+  if (!cautioned_ && seen)
     if (const std::string caution = parts_.integration->caution(); !caution.empty()) {
       session.note(caution);
       cautioned_ = true;
@@ -237,14 +333,8 @@ bool Motion::step() {
   const auto& crossings = session.system_.crossings();
   for (const Passed& passed : step.passed) {
     last_event_ = crossings[static_cast<std::size_t>(passed.crossing)].name;
-    session.note(Event{passed.time, passed.crossing, last_event_});
+    if (seen) session.note(Event{passed.time, passed.crossing, last_event_});
   }
-  if (const int every = session.recording_.checkpoint; every > 0 && step.on_grid && parts_.grid_steps % every == 0)
-    save_for_sinks();
-  if (session.notes_)
-    session.notes_->progress((time() - begin()) / (end() - begin()), fmt::format("t = {:.4g} s", time()));
-  session.call_back();
-  return true;
 }
 
 State Motion::interpolated(double at) const {
@@ -259,7 +349,7 @@ State Motion::interpolated(double at) const {
 void Motion::set_memory(int place, double value, bool smooth) {
   parts_.integration->set_memory(place, value);
   if (!smooth) parts_.march->begin_branch();
-  saved_ = false;
+  saved_ = anchored_ = false;
 }
 
 bool Motion::advance_to(double until) {
@@ -278,8 +368,14 @@ bool Motion::finish() {
   session.stopping_ = false;
   try {
     while (!session.stopping_ && step()) alive();
-  } catch (...) {
+  } catch (const Interrupted&) {
+    save_where_interrupted();
+    throw;
+  } catch (const ComputationError&) {
     if (session_) save_for_sinks();
+    throw;
+  } catch (...) {
+    save_where_interrupted();
     throw;
   }
   if (session.stopping_ && !last_recorded_ && session.recording_.times.empty()) {

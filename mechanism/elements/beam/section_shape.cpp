@@ -212,7 +212,17 @@ const std::vector<std::string>& section_shape_names() {
   return names;
 }
 
-VectorX read_shape_dimensions(const std::string& shape, const YamlValue& value) {
+namespace {
+
+/// Between an atom and a country: the fourth powers of such lengths are numbers that can be computed with.
+void check_sizes(const YamlValue& value, const VectorX& dimensions) {
+  constexpr double least = 1e-12, most = 1e6;
+  for (const double size : dimensions)
+    if (size != 0 && !(size >= least && size <= most))
+      value.fail(fmt::format("expected lengths in metres from {:.0e} to {:.0e}, found {:.6g}", least, most, size));
+}
+
+VectorX read_sizes(const std::string& shape, const YamlValue& value) {
   if (shape == "rectangle") return value.positive_numbers(2, "[width_y, height_z]");
   if (shape == "circle") return VectorX::Constant(1, value.positive_number());
   if (shape == "tube") {
@@ -220,8 +230,15 @@ VectorX read_shape_dimensions(const std::string& shape, const YamlValue& value) 
     if (radii[1] >= radii[0]) value.fail("the inner radius must be smaller than the outer one");
     return radii;
   }
-  const VectorX dimensions = read_walls(shape, value);
-  check_thin_parts(value, wall_area(shape, dimensions));
+  return read_walls(shape, value);
+}
+
+}  // namespace
+
+VectorX read_shape_dimensions(const std::string& shape, const YamlValue& value) {
+  VectorX dimensions = read_sizes(shape, value);
+  check_sizes(value, dimensions);
+  if (is_made_of_walls(shape)) check_thin_parts(value, wall_area(shape, dimensions));
   return dimensions;
 }
 
