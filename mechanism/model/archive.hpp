@@ -85,7 +85,7 @@ class Archive {
     // As many numbers whether there are such reactions or not: checkpoints are rows of one length.
     bool balanced = state.reaction.size() > 0;
     (*this)(balanced);
-    VectorX reaction = balanced ? state.reaction : VectorX(VectorX::Zero(state.multiplier.size()));
+    VectorX reaction = balanced && !restoring() ? state.reaction : VectorX(VectorX::Zero(state.multiplier.size()));
     (*this)(reaction);
     if (restoring()) state.reaction = balanced ? reaction : VectorX();
   }

@@ -214,12 +214,12 @@ const std::vector<std::string>& section_shape_names() {
 
 namespace {
 
-/// Between an atom and a country: the fourth powers of such lengths are numbers that can be computed with.
-void check_sizes(const YamlValue& value, const VectorX& dimensions) {
-  constexpr double least = 1e-12, most = 1e6;
-  for (const double size : dimensions)
-    if (size != 0 && !(size >= least && size <= most))
-      value.fail(fmt::format("expected lengths in metres from {:.0e} to {:.0e}, found {:.6g}", least, most, size));
+/// Between an atom and a country: fourth powers of such lengths can be computed with. [m]
+constexpr double least_size = 1e-12, most_size = 1e6;
+
+[[noreturn]] void refuse_size(const YamlValue& value, double size) {
+  value.fail(
+      fmt::format("expected lengths in metres from {:.0e} to {:.0e}, found {:.6g}", least_size, most_size, size));
 }
 
 VectorX read_sizes(const std::string& shape, const YamlValue& value) {
@@ -237,8 +237,10 @@ VectorX read_sizes(const std::string& shape, const YamlValue& value) {
 
 VectorX read_shape_dimensions(const std::string& shape, const YamlValue& value) {
   VectorX dimensions = read_sizes(shape, value);
-  check_sizes(value, dimensions);
+  if (dimensions.maxCoeff() > most_size) refuse_size(value, dimensions.maxCoeff());
   if (is_made_of_walls(shape)) check_thin_parts(value, wall_area(shape, dimensions));
+  for (const double size : dimensions)
+    if (size != 0 && size < least_size) refuse_size(value, size);  // (zero: a shape with fewer sizes)
   return dimensions;
 }
 
