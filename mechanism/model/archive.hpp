@@ -102,7 +102,7 @@ class Archive {
     value = values_[next_++];
   }
   [[noreturn]] void refuse(const char* why) const {
-    throw std::out_of_range(fmt::format("number {}, {}, {}", next_, values_[next_ - 1], why));
+    throw std::out_of_range(fmt::format("number {} (from 0), {}, {}", next_ - 1, values_[next_ - 1], why));
   }
   template <class Number>
   void whole(Number& value, double least, double most) {
