@@ -59,8 +59,10 @@ std::string format_loose(const std::string& unknown) {
 std::string format_start(const StartReport& start) {
   std::string text;
   if (start.largest_displacement > 1e-9 || start.largest_rotation > 1e-9)
-    text += fmt::format("  assembly moved node '{}' by {:.3g} m; largest rotation {:.3g} rad\n", start.displaced_node,
-                        start.largest_displacement, start.largest_rotation);
+    text += start.displaced_node.empty()
+                ? fmt::format("  assembly turned nodes in place: largest rotation {:.3g} rad\n", start.largest_rotation)
+                : fmt::format("  assembly moved node '{}' by {:.3g} m; largest rotation {:.3g} rad\n",
+                              start.displaced_node, start.largest_displacement, start.largest_rotation);
   text += format_moved(start);
   if (start.settled > 0)
     text += fmt::format("  static equilibrium moved node '{}' by {:.3g} m\n", start.settled_node, start.settled);

@@ -8,9 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "mechanism/model/gatherer.hpp"
-#include "mechanism/solvers/newton/model_length.hpp"
-#include "mechanism/system/system.hpp"
+#include "mechanism/io/model_difference.hpp"
+#include "mechanism/model/model.hpp"
 #include "reduce/common/checksum.hpp"
 #include "reduce/common/counted.hpp"
 #include "reduce/common/hdf5_file.hpp"
@@ -20,8 +19,8 @@ namespace {
 
 const std::string root = "/checkpoints";
 
-/// Of the numbers in a checkpoint: one more whenever what is exchanged with the Archive, or its order, changes.
-constexpr int format = 7;
+/// Sums have 52 bits.
+constexpr double most_of_sums = 4503599627370495;
 
 std::string analysis_name(int analysis) { return fmt::format("/analysis_{}", analysis); }
 
@@ -35,51 +34,6 @@ void for_each_dataset(const Hdf5File& file, const std::string& group,
     else
       act(object);
   }
-}
-
-/// A little off the start, and moving: what forces depend on shows.
-State displaced(const System& system, const State& start) {
-  const double length = model_length(start);
-  State state = start;
-  state.time = 0.01;
-  const auto pattern = [](int size, double scale) {
-    VectorX v(size);
-    for (int i = 0; i < size; ++i) v[i] = scale * std::cos(1 + 2.4 * i);
-    return v;
-  };
-  const int n = system.dofs();
-  VectorX dq = pattern(n, 1e-3);
-  for (int i = 0; i < n; ++i)
-    if (system.kind(i) == Kind::translation) dq[i] *= length;
-  system.displace(state, start, dq);
-  system.set_rates(state, 100 * dq, 1e4 * dq);
-  for (int i = 0; i < system.first_orders(); ++i)
-    state.first_order[i] = 1.01 * state.first_order[i] + 0.01 * system.scale(n + i) * std::cos(2 + 2.4 * i);
-  state.multiplier.setOnes();
-  return state;
-}
-
-/// What a component's forces are in short.
-std::string forces(const Component& component, const LocalState& state) {
-  VectorX r = VectorX::Zero(state.slots().size());
-  try {
-    component.add_residual(state, r);
-  } catch (const ComputationError&) {
-    return "refuses";
-  }
-  std::string text = fmt::format("{:.10g}", r.norm());
-  // What forces do not show yet: crossings to come, and times at which something begins.
-  Declaration declaration;
-  component.declare(declaration);
-  if (!declaration.crossings.empty()) {
-    VectorX values(static_cast<Eigen::Index>(declaration.crossings.size()));
-    component.calc_crossings(state, values);
-    for (const double value : values) text += fmt::format(" {:.10g}", value);
-  }
-  std::vector<double> times;
-  component.add_break_points(times);
-  for (const double time : times) text += fmt::format(" {:.10g}", time);
-  return text;
 }
 
 /// The first thing of a model that differs between two fingerprints: "rigid_body 'rod'".
@@ -96,9 +50,16 @@ std::string difference(const std::string& one, const std::string& other) {
   }
 }
 
-/// @throws InputError when a checkpoint with the fingerprint `found` cannot go on with the model of `wanted`
-void check_fingerprint(const std::string& file, const std::string& found, const std::string& wanted) {
-  if (found == wanted) return;
+/// The component that differs by its forces, otherwise the entry that was read.
+std::string named_difference(const std::string& wanted, const std::string& found, const std::string& entry) {
+  const std::string component = found == wanted ? entry : difference(wanted, found);
+  return component.find('\'') == std::string::npos && !entry.empty() ? entry : component;
+}
+
+/// @throws InputError when a checkpoint with this fingerprint and source cannot go on with the model
+void check_same_model(const std::string& file, const std::string& found, const std::string& source,
+                      const Model& model) {
+  const std::string wanted = fingerprint(model);
   const auto first_line = [](const std::string& text) { return text.substr(0, text.find('\n')); };
   if (first_line(found) != first_line(wanted))
     throw InputError(fmt::format(
@@ -106,51 +67,24 @@ void check_fingerprint(const std::string& file, const std::string& found, const 
         "cannot go on from: run the model anew, or go on with the version that wrote them (`created_by` in the file)",
         file, first_line(found).rfind("checkpoint format", 0) == 0 ? first_line(found) : "no format",
         first_line(wanted)));
+  const ModelDifference differs = difference_from(source, model);
+  if (found == wanted && differs.values.empty()) return;
   throw InputError(
-      fmt::format("{}: is of another model: {} differs; gravity, parameters, nodes, elements, joints, drives and loads "
-                  "have to be the same",
-                  file, difference(wanted, found)));
+      fmt::format("{}: is of another model: {} differs{}. All but `analysis`, `output` and `mechanism` has to be the "
+                  "same to go on: go on with the model that the file keeps under /input, or run the new one from its "
+                  "start",
+                  file, named_difference(wanted, found, differs.entry),
+                  differs.values.empty() ? ", or stands in another place" : ": " + differs.values));
 }
-
-}  // namespace
-
-std::string fingerprint(const Model& model) {
-  const System system(model);
-  const State start = system.start(0);
-  std::string text = fmt::format(
-      "checkpoint format {}\nstate nodes {}, dofs {}, first-order unknowns {}, multipliers {}, memory {}\n", format,
-      start.nodes.size(), system.dofs(), system.first_orders(), system.multipliers(), start.memory.size());
-  const auto numbers = [](const auto& matrix) {
-    std::string list;
-    for (const double value : matrix.reshaped()) list += fmt::format(" {}", value);
-    return list;
-  };
-  text += fmt::format("gravity{}\n", numbers(model.environment.gravity));
-  for (const auto& [name, value] : model.parameters) text += fmt::format("parameter '{}' {}\n", name, value);
-  for (const Node& node : model.nodes())
-    text += fmt::format("node '{}'{}{}\n", node.name, numbers(node.frame.x), numbers(node.frame.R));
-  const State probe = displaced(system, start);
-  for (std::size_t m = 0; m < model.members().size(); ++m) {
-    const Component& component = *model.members()[m].component;
-    text += fmt::format("{} '{}' {}\n", component.type(), component.name(),
-                        forces(component, LocalState(probe, system.slots()[m], model.environment)));
-  }
-  for (const Member& member : model.members())
-    if (const auto gatherer = member.component->make_gatherer()) text += gatherer->what() + "\n";
-  return text;
-}
-
-namespace {
 
 [[noreturn]] void fail_damaged(const Hdf5File& file, const std::string& what) {
   throw InputError(
       fmt::format("{}: {}: the checkpoints are damaged, and no run can go on from them", file.path(), what));
 }
 
-/// How many rows of its analysis the last checkpoint counts.
-std::size_t recorded_rows(const Hdf5File& file, int analysis, const std::vector<double>& rows) {
+/// How many rows of its analysis a checkpoint counts.
+std::size_t recorded_rows(const Hdf5File& file, int analysis, double last) {
   const std::string time = analysis_name(analysis) + "/time";
-  const double last = rows.back();
   const Shape shape = file.has(time) ? file.shape(time) : Shape{0};
   if (shape.size() != 1) fail_damaged(file, time + " is no list of numbers");
   const auto there = static_cast<double>(shape[0]);
@@ -159,12 +93,13 @@ std::size_t recorded_rows(const Hdf5File& file, int analysis, const std::vector<
   return static_cast<std::size_t>(last);
 }
 
-std::vector<double> last_state(const Hdf5File& file, const std::string& group, std::size_t count) {
+/// @param n  from 1
+std::vector<double> nth_state(const Hdf5File& file, const std::string& group, std::size_t n) {
   const Shape shape = file.shape(group + "/state");
-  if (shape.size() != 2 || shape[0] < count)
-    fail_damaged(file, fmt::format("{}/state has not one row for each of {}", group, counted(count, "checkpoint")));
+  if (shape.size() != 2 || shape[0] < n)
+    fail_damaged(file, fmt::format("{}/state has not one row for each of {}", group, counted(n, "checkpoint")));
   const std::vector<double> states = file.read(group + "/state");
-  const auto begin = states.begin() + static_cast<std::ptrdiff_t>((count - 1) * shape[1]);
+  const auto begin = states.begin() + static_cast<std::ptrdiff_t>((n - 1) * shape[1]);
   return {begin, begin + static_cast<std::ptrdiff_t>(shape[1])};
 }
 
@@ -181,6 +116,21 @@ void check_sum(const Hdf5File& file, const std::string& group, std::size_t count
   const std::vector<double> sums = file.read(group + "/checksum");
   if (sums.size() < count || sums[count - 1] != static_cast<double>(sum_of(checkpoint)))
     fail_damaged(file, group + "/state does not hold the numbers that were written");
+}
+
+/// Of a point at which a run was interrupted: that at which it made its tangents anew (Motion::save_where_interrupted).
+void append_anchor(const Hdf5File& file, const std::string& group, const std::vector<double>& rows,
+                   Checkpoint& checkpoint) {
+  const std::vector<double>& values = checkpoint.values;
+  if (values.size() < 2 || !(values[0] > 0)) return;
+  const double back = values[1];
+  if (!(back >= 1 && back == std::floor(back) && back < static_cast<double>(rows.size())))
+    fail_damaged(file, group + "/state tells of a checkpoint that is not there");
+  const std::size_t n = rows.size() - static_cast<std::size_t>(back);
+  Checkpoint anchor{checkpoint.analysis, recorded_rows(file, checkpoint.analysis, rows[n - 1]),
+                    nth_state(file, group, n)};
+  check_sum(file, group, n, anchor);
+  checkpoint.values.insert(checkpoint.values.end(), anchor.values.begin(), anchor.values.end());
 }
 
 }  // namespace
@@ -200,16 +150,21 @@ Checkpoint read_checkpoint(const std::string& results_path, const Model& model) 
         fmt::format("{}: holds no checkpoint to go on from; a run writes them with `output: {{checkpoint: "
                     "STEPS}}`, when it is interrupted and at the end of each dynamic analysis",
                     results_path));
-  check_fingerprint(results_path, file.read_text(root + "/model"), fingerprint(model));
+  check_same_model(results_path, file.read_text(root + "/model"),
+                   file.has(root + "/source") ? file.read_text(root + "/source") : "", model);
   const std::string group = root + analysis_name(checkpoint.analysis);
   const std::vector<double> rows = file.read(group + "/rows");
-  checkpoint.rows = recorded_rows(file, checkpoint.analysis, rows);
-  checkpoint.values = last_state(file, group, rows.size());
+  checkpoint.rows = recorded_rows(file, checkpoint.analysis, rows.back());
+  checkpoint.values = nth_state(file, group, rows.size());
   check_sum(file, group, rows.size(), checkpoint);
+  append_anchor(file, group, rows, checkpoint);
   if (file.has(group + "/rows_checksum")) {
     const std::vector<double> sums = file.read(group + "/rows_checksum");
     if (sums.size() < rows.size()) fail_damaged(file, group + "/rows_checksum is too short");
-    checkpoint.rows_sum = static_cast<std::int64_t>(sums[rows.size() - 1]);
+    const double sum = sums[rows.size() - 1];
+    if (!(sum >= 0 && sum <= most_of_sums && sum == std::floor(sum)))
+      fail_damaged(file, group + "/rows_checksum is none");
+    checkpoint.rows_sum = static_cast<std::int64_t>(sum);
   }
   return checkpoint;
 }
@@ -217,7 +172,10 @@ Checkpoint read_checkpoint(const std::string& results_path, const Model& model) 
 void append_checkpoint(Hdf5File& file, const Model& model, const Checkpoint& checkpoint) {
   const std::string group = root + analysis_name(checkpoint.analysis), state = group + "/state", rows = group + "/rows",
                     sums = group + "/checksum", rows_sums = group + "/rows_checksum";
-  if (!file.has(root + "/model")) file.write_text(root + "/model", fingerprint(model));
+  if (!file.has(root + "/model")) {
+    file.write_text(root + "/source", source_lines(model));
+    file.write_text(root + "/model", fingerprint(model));
+  }
   if (!file.has(rows)) {
     constexpr std::size_t together = 16;
     file.create_rows(state, {checkpoint.values.size()}, "-", "all that a run goes on from", together);

@@ -1,5 +1,8 @@
 #include "mechanism/io/component_table.hpp"
 
+#include <optional>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "mechanism/elements/beam/beam.hpp"
@@ -77,6 +80,29 @@ const std::vector<ComponentType>& component_table() {
   return table;
 }
 
+namespace {
+
+/// The clause that sends what belongs to another section there, or nothing.
+std::optional<std::string> where_it_belongs(Section section, const std::string& wanted) {
+  for (const ComponentType& type : component_table())
+    if (type.section != section && wanted == type.name) {
+      const bool has_types = type.section == Section::elements || type.section == Section::joints;
+      return has_types ? fmt::format("; it is one of the {}: write it there", section_name(type.section))
+                       : fmt::format("; `{}` is a section of its own: write it there, without a type",
+                                     section_name(type.section));
+    }
+  // What a user may call by its section: hydraulics, measures, ..
+  static const std::vector<std::pair<std::string, std::string>> others = {
+      {"measure", "measures"},   {"input", "inputs"},           {"event", "events"},        {"node", "nodes"},
+      {"line", "hydraulics"},    {"volume", "hydraulics"},      {"junction", "hydraulics"}, {"supply", "hydraulics"},
+      {"orifice", "hydraulics"}, {"accumulator", "hydraulics"}, {"valve", "hydraulics"},    {"pump", "hydraulics"}};
+  for (const auto& [name, home] : others)
+    if (wanted == name) return fmt::format("; it stands in the section `{}`", home);
+  return {};
+}
+
+}  // namespace
+
 void read_component(Section section, const std::string& name, const YamlValue& entry, Model& model) {
   std::vector<std::string> names;
   for (const ComponentType& type : component_table())
@@ -85,8 +111,8 @@ void read_component(Section section, const std::string& name, const YamlValue& e
   const std::string wanted = has_types ? entry.at("type").text() : names.front();
   for (const ComponentType& type : component_table())
     if (type.section == section && wanted == type.name) return type.read(name, entry, model);
-  entry.at("type").fail(
-      fmt::format("'{}' is not a type of the {}{}", wanted, section_name(section), did_you_mean(wanted, names)));
+  entry.at("type").fail(fmt::format("'{}' is not a type of the {}{}", wanted, section_name(section),
+                                    where_it_belongs(section, wanted).value_or(did_you_mean(wanted, names))));
 }
 
 }  // namespace bielle::mechanism

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "reduce/common/error.hpp"
+#include "mechanism/session/interrupted.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -31,7 +31,7 @@ InterruptGuard::~InterruptGuard() {
 
 void InterruptGuard::check(double time, const std::string& advice) const {
   if (interrupted)
-    throw ComputationError(
+    throw Interrupted(
         fmt::format("interrupted at t = {:.6g} s; the results file holds all steps up to there{}", time, advice));
 }
 

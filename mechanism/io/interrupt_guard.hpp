@@ -5,7 +5,8 @@
 
 namespace bielle::mechanism {
 
-/// While it lives, an interrupt (Ctrl-C), a termination request or the end of the terminal lets the current step finish; then the run stops.
+/// While it lives, an interrupt (Ctrl-C), a termination request or the end of the terminal lets the current step
+/// finish; then the run stops.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -14,7 +15,7 @@ class InterruptGuard {
   InterruptGuard& operator=(const InterruptGuard&) = delete;
   /// @param time    that the run has come to [s]
   /// @param advice  how to go on, for the message
-  /// @throws ComputationError once an interrupt has come
+  /// @throws Interrupted once an interrupt has come
   void check(double time, const std::string& advice = "") const;
 
  private:

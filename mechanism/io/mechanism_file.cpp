@@ -210,6 +210,7 @@ MechanismFile read_mechanism(YamlValue root, const std::map<std::string, std::st
   }
   if (const auto output = root.find("output")) file.output = read_output(*output, end, statics, file.model);
   file.doubts = root.doubts();
+  file.model.source = root.digest({"mechanism", "parameters", "analysis", "output"});
   return file;
 }
 

@@ -6,6 +6,7 @@
 
 #include "mechanism/io/results_datasets.hpp"
 #include "mechanism/io/results_stream.hpp"
+#include "mechanism/io/step_log.hpp"
 #include "mechanism/system/system.hpp"
 
 namespace bielle::mechanism {
@@ -141,8 +142,11 @@ void ResultsFile::checkpoint(Archive& archive) {
 void ResultsFile::exchange(Archive& archive) {
   stream_->wait_until_all_is_written();
   stream_->rows().exchange(archive);
-  archive(events_);
+  archive.within(events_, 0, 1e15);
+  long lines = log_ && !archive.restoring() ? log_->lines() : 0;
+  archive.within(lines, 0, 1e15);
   if (!archive.restoring()) return;
+  if (log_) log_->go_on_after(lines);
   // Those after the point where the run goes on will come again.
   Hdf5File& file = stream_->file();
   for (const char* dataset : {"/events/crossing", "/events/time"})

@@ -23,6 +23,7 @@ namespace bielle::mechanism {
 
 class Model;
 class ResultsStream;
+class StepLog;
 class System;
 
 class ResultsFile : public ResultSink {
@@ -67,6 +68,8 @@ class ResultsFile : public ResultSink {
   /// Writes the rows that wait and, after them, a point to go on from. @param archive  with all of it but what belongs
   /// to the file itself
   void checkpoint(Archive& archive) override;
+  /// A table of steps that belongs to the run: a run that goes on cuts it where it goes on. It must outlive the run.
+  void keep_with(StepLog& log) { log_ = &log; }
   /// What rows to come take from those before.
   void exchange(Archive& archive) override;
   /// Writes the rows that wait and links the analysis's groups from the root.
@@ -82,6 +85,7 @@ class ResultsFile : public ResultSink {
   std::unique_ptr<ResultsStream> stream_;
   int analysis_ = 0;  ///< number of the running one
   long events_ = 0;   ///< of the running analysis
+  StepLog* log_ = nullptr;
 };
 
 }  // namespace bielle::mechanism

@@ -82,8 +82,7 @@ Checkpoint take_checkpoint(const MechanismFile& file, const std::string& restart
   if (fs::equivalent(restart, results_path, none)) return checkpoint;
   fs::copy_file(restart, results_path, fs::copy_options::overwrite_existing, none);
   if (none)
-    throw ComputationError(
-        fmt::format("{}: cannot be copied to '{}': {}", restart, results_path, none.message()));
+    throw ComputationError(fmt::format("{}: cannot be copied to '{}': {}", restart, results_path, none.message()));
   return checkpoint;
 }
 
@@ -138,7 +137,8 @@ std::vector<AnalysisSummary> run_analyses(const MechanismFile& file, const std::
   std::optional<StepLog> log;
   if (file.output.log && !results) notes.note("`log`: there is no results file to write the log of steps next to");
   if (file.output.log && results) {
-    log.emplace(results_path, session->system(), checkpoint.has_value());
+    log.emplace(results_path, session->system(), restart);
+    results->keep_with(*log);
     session->on_attempt([&](const Attempt& attempt) { log->write(attempt); });
   }
   std::optional<InterruptGuard> guard;

@@ -6,6 +6,9 @@
 #include <stdexcept>
 
 #include <SuiteSparseQR.hpp>
+#include <fmt/format.h>
+
+#include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -68,7 +71,9 @@ Staircase eliminate(const Matrix& A, double tolerance, int ordering) {
   Workspace work;
   copy(A, work);
   if (SuiteSparseQR<double>(ordering, tolerance, A.cols(), work.matrix, &work.R, &work.order, &work.common) < 0)
-    throw std::runtime_error("SPQR could not factorise the constraint matrix");
+    throw ComputationError(fmt::format(
+        "the redundancy of the constraints could not be found: SPQR could not factorise their matrix (status {})",
+        work.common.status));
   const auto* starts = static_cast<const SuiteSparse_long*>(work.R->p);
   const auto* rows = static_cast<const SuiteSparse_long*>(work.R->i);
   const auto* values = static_cast<const double*>(work.R->x);

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <stdexcept>
 
+#include <fmt/format.h>
 #include <klu.h>
 
 #include "reduce/common/error.hpp"
@@ -40,7 +41,10 @@ class FillOrderings {
       klu_common common = defaults();
       common.ordering = method;
       analysis.symbolic = klu_analyze(pattern.size(), starts(pattern), rows(pattern), &common);
-      if (!analysis.symbolic) throw std::runtime_error("KLU could not analyse the matrix");
+      if (common.status == KLU_OUT_OF_MEMORY) throw std::bad_alloc();
+      if (!analysis.symbolic)
+        throw ComputationError(fmt::format(
+            "the sparse solver could not order the equations: they are too many (KLU returned {})", common.status));
     });
     return analysis.symbolic;
   }

@@ -1,10 +1,18 @@
 // Numbers that go into a checkpoint and come back from it, by one and the same walk over what is kept:
 //     void exchange(Archive& archive) { archive(time_); archive(state_); ... }
+//
+// What comes back is judged number by number: it may be damaged, or of something else. Each is finite (but for what
+// components remember, which system/check_state.hpp judges), whole and within its range where it counts or chooses, and
+// every list has the length that it has here.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <stdexcept>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "mechanism/model/state.hpp"
 
@@ -21,26 +29,36 @@ class Archive {
 
   bool exhausted() const { return next_ == values_.size(); }  ///< when restoring: all has been asked for
 
-  /// @throws std::out_of_range when there are fewer numbers than asked for
+  /// All of these: @throws std::out_of_range with a sentence when the number that comes back is none of its kind, or
+  /// there are fewer than are asked for
   void operator()(double& value) {
-    if (restoring_)
-      value = values_.at(next_++);
-    else
-      values_.push_back(value);
+    exchange(value);
+    if (restoring_ && !std::isfinite(value)) refuse("is not finite");
   }
   /// Counts are exact up to 2^53.
-  void operator()(long& value) { as_number(value); }
-  void operator()(int& value) { as_number(value); }
-  void operator()(bool& value) { as_number(value); }
-  /// The size is kept too: it may differ from run to run.
+  void operator()(long& value) { whole(value, -most_exact, most_exact); }
+  void operator()(int& value) { whole(value, std::numeric_limits<int>::min(), std::numeric_limits<int>::max()); }
+  void operator()(bool& value) { whole(value, 0, 1); }
+  /// A whole number within a range, both ends included.
+  template <class Number>
+  void within(Number& value, double least, double most) {
+    whole(value, least, most);
+  }
+  /// A size that may be infinite: what nothing was measured by.
+  void size_or_infinite(double& value) {
+    exchange(value);
+    if (restoring_ && !(value >= 0)) refuse("is no size");
+  }
+  /// A number that is shown and nothing else.
+  void shown(double& value) { exchange(value); }
   void operator()(VectorX& vector) {
-    vector.conservativeResize(static_cast<Eigen::Index>(size_of(static_cast<std::size_t>(vector.size()))));
+    check_length(static_cast<std::size_t>(vector.size()));
     for (double& value : vector) (*this)(value);
   }
-  /// The size is kept too.
-  void operator()(std::vector<char>& flags) {
-    flags.resize(size_of(flags.size()));
-    for (char& flag : flags) as_number(flag);
+  /// A list of a length that is not known here.
+  void of_any_length(VectorX& vector) {
+    vector.resize(static_cast<Eigen::Index>(length(static_cast<std::size_t>(vector.size()))));
+    for (double& value : vector) (*this)(value);
   }
   template <int rows, int columns>
   void operator()(Eigen::Matrix<double, rows, columns>& matrix) {
@@ -59,31 +77,57 @@ class Archive {
     (*this)(state.time);
     for (NodeState& node : state.nodes) (*this)(node);
     for (VectorX* vector : {&state.amplitude, &state.amplitude_rate, &state.amplitude_acceleration, &state.first_order,
-                            &state.first_order_rate, &state.multiplier, &state.memory})
+                            &state.first_order_rate, &state.multiplier})
       (*this)(*vector);
-    (*this)(state.idle);
+    check_length(static_cast<std::size_t>(state.memory.size()));
+    for (double& value : state.memory) exchange(value);
+    flags(state.idle, static_cast<std::size_t>(state.multiplier.size()));
     // As many numbers whether there are such reactions or not: checkpoints are rows of one length.
     bool balanced = state.reaction.size() > 0;
     (*this)(balanced);
-    VectorX reaction = balanced ? state.reaction : VectorX(VectorX::Zero(state.multiplier.size()));
+    VectorX reaction = balanced && !restoring() ? state.reaction : VectorX(VectorX::Zero(state.multiplier.size()));
     (*this)(reaction);
     if (restoring()) state.reaction = balanced ? reaction : VectorX();
   }
 
  private:
-  /// The size that was kept. @throws std::out_of_range when there are not so many numbers: they are none of ours
-  std::size_t size_of(std::size_t now) {
-    auto size = static_cast<double>(now);
-    (*this)(size);
-    if (restoring_ && !(size >= 0 && size <= static_cast<double>(values_.size() - next_)))
-      throw std::out_of_range("a size that is none");
-    return static_cast<std::size_t>(size);
+  static constexpr double most_exact = 9007199254740992;
+
+  void exchange(double& value) {
+    if (!restoring_) {
+      values_.push_back(value);
+      return;
+    }
+    if (next_ == values_.size()) throw std::out_of_range("there are fewer numbers than are needed");
+    value = values_[next_++];
+  }
+  [[noreturn]] void refuse(const char* why) const {
+    throw std::out_of_range(fmt::format("number {} (from 0), {}, {}", next_ - 1, values_[next_ - 1], why));
   }
   template <class Number>
-  void as_number(Number& value) {
+  void whole(Number& value, double least, double most) {
     auto number = static_cast<double>(value);
-    (*this)(number);
+    exchange(number);
+    if (!restoring_) return;
+    if (!(number == std::floor(number))) refuse("is not whole");
+    if (!(number >= least && number <= most)) refuse("is out of its range");
     value = static_cast<Number>(number);
+  }
+  std::size_t length(std::size_t now) {
+    auto size = static_cast<double>(now);
+    exchange(size);
+    if (restoring_ && !(size >= 0 && size == std::floor(size) && size <= static_cast<double>(values_.size() - next_)))
+      refuse("is no length of a list");
+    return static_cast<std::size_t>(size);
+  }
+  void check_length(std::size_t now) {
+    if (length(now) != now) refuse("is not the length of the list there");
+  }
+  /// One for each constraint, or none at all. (system/idle_constraints.hpp)
+  void flags(std::vector<char>& flags, std::size_t count) {
+    flags.resize(length(flags.size()));
+    if (restoring_ && !flags.empty() && flags.size() != count) refuse("is not the number of constraints");
+    for (char& flag : flags) whole(flag, 0, 2);
   }
   std::vector<double> values_;
   std::size_t next_ = 0;

@@ -233,6 +233,10 @@ class Component {
   virtual void begin_branch(const LocalState& /*state*/, std::span<const int> /*crossed*/,
                             Eigen::Ref<VectorX> /*memory*/) const {}
 
+  /// Whether what a state from outside (a file, a user) remembers of this component can be its memory: what it counts
+  /// and points to is there. Its numbers are finite, but for those that begin as none.
+  virtual bool knows_memory(const LocalState& /*state*/) const { return true; }
+
   /// Where a motion or a static analysis begins: new values of the component's memory as far as it follows from rates.
   /// Before rates are consistent nothing is `known` of them, and what would hold by them lets go; called again with the
   /// rates that a motion begins with.

@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mechanism/math/se3.hpp"
@@ -112,6 +113,9 @@ class Model {
   Environment environment;  ///< gravity with load factor 1
   std::string title;
   Parameters parameters;  ///< of the input file, overrides included
+  /// What nodes and components were read from: each value by the path of its key, "joints.main.stops.damping", as
+  /// YamlValue::digest gives it. Empty where the model was made otherwise.
+  std::vector<std::pair<std::string, std::string>> source;
 
  private:
   std::vector<Node> nodes_;

@@ -2,6 +2,8 @@
 
 #include <optional>
 
+#include "mechanism/python/without_lock.hpp"
+
 namespace bielle::python {
 namespace {
 
@@ -10,6 +12,7 @@ constexpr std::chrono::milliseconds hearing_period{20};
 }  // namespace
 
 void Interruptible::step() {
+  end_with_program();
   const bool call = callbacks_ && !callbacks_->on_step.is_none();
   const auto now = std::chrono::steady_clock::now();
   const bool hear = now - heard_ >= hearing_period;
@@ -25,6 +28,7 @@ void Interruptible::step() {
 }
 
 void Interruptible::event(double time, const std::string& name) {
+  end_with_program();
   if (!callbacks_ || callbacks_->on_event.is_none()) return;
   const pybind11::gil_scoped_acquire lock;
   std::optional<Gate::Calling> calling;

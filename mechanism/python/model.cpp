@@ -9,6 +9,7 @@
 #include "mechanism/python/held_model.hpp"
 #include "mechanism/python/single_blas_thread.hpp"
 #include "mechanism/python/texts.hpp"
+#include "mechanism/python/without_lock.hpp"
 #include "reduce/common/error.hpp"
 
 namespace bielle::python {
@@ -68,7 +69,7 @@ std::vector<std::string> doubts_of(const MechanismFile& file) {
 
 std::string describe(const MechanismFile& file) {
   const SingleBlasThread one;
-  const pybind11::gil_scoped_release free;
+  const WithoutLock free;
   return without_unseen_lines(describe_model(file));
 }
 

@@ -1,5 +1,6 @@
 // bielle._core: what the package `bielle` calls.
 #include "mechanism/python/bind.hpp"
+#include "mechanism/python/without_lock.hpp"
 
 PYBIND11_MODULE(_core, module) {
   using namespace bielle::python;
@@ -12,4 +13,5 @@ PYBIND11_MODULE(_core, module) {
   bind_session(module);
   bind_motion(module);
   bind_run(module);
+  bind_end(module);
 }

@@ -7,6 +7,7 @@
 #include "mechanism/python/recorder.hpp"
 #include "mechanism/python/single_blas_thread.hpp"
 #include "mechanism/python/texts.hpp"
+#include "mechanism/python/without_lock.hpp"
 #include "reduce/common/error.hpp"
 
 namespace bielle::python {
@@ -32,7 +33,7 @@ py::tuple run(const std::shared_ptr<MechanismFile>& file, const std::string& out
   std::vector<AnalysisSummary> summaries;
   {
     const SingleBlasThread one;
-    const py::gil_scoped_release free;
+    const WithoutLock free;
     Progress shown(!progress);
     summaries = run_analyses(*file, output, shown, restart, threads, listener);
   }

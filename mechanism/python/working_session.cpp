@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "mechanism/python/texts.hpp"
+#include "mechanism/python/without_lock.hpp"
 
 namespace bielle::python {
 
@@ -13,7 +14,7 @@ using mechanism::Session;
 
 WorkingSession::WorkingSession(HeldModel model, int threads) : model_(std::move(model)) {
   const SingleBlasThread one;
-  const pybind11::gil_scoped_release free;
+  const WithoutLock free;
   session_ = std::make_unique<Session>(model_->model, threads);
   session_->set_notes(&notes_);
   session_->set_recording(model_->output.recording);

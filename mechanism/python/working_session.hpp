@@ -13,6 +13,7 @@
 #include "mechanism/python/interruptible.hpp"
 #include "mechanism/python/recorder.hpp"
 #include "mechanism/python/single_blas_thread.hpp"
+#include "mechanism/python/without_lock.hpp"
 #include "mechanism/session/session.hpp"
 
 namespace bielle::python {
@@ -47,7 +48,7 @@ class WorkingSession {
     ended_.clear();
     const Listening listening(*this, callbacks);
     const SingleBlasThread one;
-    const pybind11::gil_scoped_release free;
+    const WithoutLock free;
     return act(*session_);
   }
 

@@ -7,40 +7,17 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/session/interrupted.hpp"
+#include "mechanism/session/motion_steps.hpp"
 #include "mechanism/session/session.hpp"
-#include "mechanism/session/time_grid.hpp"
 #include "mechanism/solvers/start/assemble_positions.hpp"
 #include "mechanism/solvers/start/consistent_velocities.hpp"
 #include "mechanism/solvers/start/start_rates.hpp"
 #include "mechanism/solvers/statics/load_ramp.hpp"
 #include "mechanism/solvers/statics/statics.hpp"
-#include "reduce/common/counted.hpp"
 #include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
-namespace {
-
-/// The asked steps with the kinks of the model; fixed ones a whole number of them.
-StepOptions stepping_of(const DynamicsOptions& options, const System& system, double begin, Notes* notes) {
-  StepOptions stepping = options.stepping;
-  for (const double time : system.break_points())
-    if (time >= begin && time < begin + options.duration) stepping.break_points.push_back(time);
-  if (stepping.tolerance > 0) return stepping;
-  const long steps = grid_steps(options.duration, options.stepping.size);
-  stepping.size = options.duration / static_cast<double>(steps);
-  if (notes && std::abs(stepping.size - options.stepping.size) > 1e-9 * stepping.size)
-    notes->note(fmt::format("step {:.6g} s in place of {:.6g} s, so that {} the duration", stepping.size,
-                            options.stepping.size, counted(steps, "step fills", "steps fill")));
-  if (static_cast<long>(stepping.break_points.size()) > steps) {
-    if (notes)
-      notes->note(fmt::format("{} of loads and motions in {}: steps do not end there",
-                              counted(stepping.break_points.size(), "kink"), counted(steps, "step")));
-    stepping.break_points.clear();
-  }
-  return stepping;
-}
-
-}  // namespace
 
 Motion::Motion(Session& session, const DynamicsOptions& options) : session_(&session), options_(options) {
   if (!(options.duration > 0) || !(options.stepping.size > 0))
@@ -77,24 +54,23 @@ Motion::Motion(Session& session, const DynamicsOptions& options) : session_(&ses
   session.gather(this->state(), environment);
   session.report_ = row;
   show();  // last: a motion that could not be made is not to be seen
+  if (session.recording_.checkpoint > 0) save_for_sinks();
 }
 
 Motion::Motion(Session& session, const DynamicsOptions& options, Archive& archive, ResultSink* sink,
                const std::optional<StepRecord>& report)
     : session_(&session), options_(options) {
-  bool whole = true;
+  std::string why;
   try {
-    parts_ = read(archive, sink);
-  } catch (const std::out_of_range&) {
-    whole = false;
+    go_on(archive, sink);
+  } catch (const std::out_of_range& error) {
+    why = error.what();
   }
-  if (!whole || !archive.exhausted())
+  if (!why.empty())
     throw InputError(
-        "the last checkpoint holds other numbers than this program goes on from: it was written by another version, "
-        "or is damaged");
-  session.gatherers_.set(parts_.gathered);
-  session.at_rest();
-  session.stopping_ = false;
+        "what is to be gone on from (the last checkpoint, or what was saved) holds other numbers than this program "
+        "goes on from: it was written by another version, or is damaged: " +
+        why);
   end_ = parts_.begin + options.duration;
   saved_ = true;
   show();
@@ -132,53 +108,9 @@ void Motion::make_march(Parts& parts, StepOptions stepping) {
   parts.march->on_jump([books = &parts_.books](const Jump& jump) { books->jump(jump.before, jump.after, jump.work); });
   if (!session_->on_attempt_.empty())
     parts.march->observe([session = session_](const Attempt& attempt) {
+      if (session->going_again_) return;
       for (const auto& callback : session->on_attempt_) callback(attempt);
     });
-}
-
-// -- saving
-
-void Motion::exchange_books(Archive& archive, Parts& parts, ResultSink* sink) {
-  archive(parts.begin);
-  archive(parts.grid_steps);
-  parts.books.exchange(archive);
-  archive(parts.gathered);
-  if (sink) sink->exchange(archive);
-}
-
-void Motion::write(Archive& archive, ResultSink* sink) {
-  parts_.gathered = session_->gatherers_.numbers();
-  exchange_books(archive, parts_, sink);
-  parts_.integration->exchange(archive);
-  parts_.march->exchange(archive);
-  session_->norm_.reset();  // recorded reactions owe nothing to pivots of before
-}
-
-Motion::Parts Motion::read(Archive& archive, ResultSink* sink) {
-  session_->norm_.reset();
-  Parts parts;
-  exchange_books(archive, parts, sink);
-  StepOptions stepping = stepping_of(options_, session_->system_, parts.begin, session_->notes_);
-  parts.integration = std::make_unique<TimeIntegration>(session_->system_, session_->environment_, options_.scheme,
-                                                        archive, options_.form, options_.newton);
-  make_march(parts, std::move(stepping));
-  parts.march->exchange(archive);
-  return parts;
-}
-
-/// Also where nobody listens: what follows does not depend on who does.
-void Motion::save_for_sinks() {
-  if (saved_) return;
-  const auto save = [&](ResultSink* sink) {
-    Archive archive;
-    write(archive, sink);
-    if (sink) sink->checkpoint(archive);
-  };
-  if (session_->open_ && !session_->sinks_.empty())
-    for (ResultSink* sink : session_->sinks_) save(sink);
-  else
-    save(nullptr);
-  saved_ = true;
 }
 
 // -- moving
@@ -218,13 +150,27 @@ void Motion::record_step(const MarchStep& step, double before, const EnergyBalan
 bool Motion::step() {
   Session& session = alive();
   if (done()) return false;
+  take_step(true);
+  if (const int every = session.recording_.checkpoint; every > 0 && last_on_grid_ && parts_.grid_steps % every == 0)
+    save_for_sinks();
+  if (session.notes_)
+    session.notes_->progress((time() - begin()) / (end() - begin()), fmt::format("t = {:.4g} s", time()));
+  session.call_back();
+  return true;
+}
+
+/// @param seen  sinks, notes and listeners see it
+void Motion::take_step(bool seen) {
+  Session& session = *session_;
   const double before = time();
   last_begin_ = std::numeric_limits<double>::infinity();  // should it fail
   const EnergyBalance books_before = parts_.books;
   const MarchStep step = parts_.march->advance();
+  ++parts_.steps;
   last_begin_ = before;
+  last_on_grid_ = step.on_grid;
   saved_ = false;
-  if (!cautioned_)
+  if (!cautioned_ && seen)
     if (const std::string caution = parts_.integration->caution(); !caution.empty()) {
       session.note(caution);
       cautioned_ = true;
@@ -237,14 +183,8 @@ bool Motion::step() {
   const auto& crossings = session.system_.crossings();
   for (const Passed& passed : step.passed) {
     last_event_ = crossings[static_cast<std::size_t>(passed.crossing)].name;
-    session.note(Event{passed.time, passed.crossing, last_event_});
+    if (seen) session.note(Event{passed.time, passed.crossing, last_event_});
   }
-  if (const int every = session.recording_.checkpoint; every > 0 && step.on_grid && parts_.grid_steps % every == 0)
-    save_for_sinks();
-  if (session.notes_)
-    session.notes_->progress((time() - begin()) / (end() - begin()), fmt::format("t = {:.4g} s", time()));
-  session.call_back();
-  return true;
 }
 
 State Motion::interpolated(double at) const {
@@ -259,7 +199,7 @@ State Motion::interpolated(double at) const {
 void Motion::set_memory(int place, double value, bool smooth) {
   parts_.integration->set_memory(place, value);
   if (!smooth) parts_.march->begin_branch();
-  saved_ = false;
+  saved_ = anchored_ = false;
 }
 
 bool Motion::advance_to(double until) {
@@ -278,8 +218,14 @@ bool Motion::finish() {
   session.stopping_ = false;
   try {
     while (!session.stopping_ && step()) alive();
-  } catch (...) {
+  } catch (const Interrupted&) {
+    save_where_interrupted();
+    throw;
+  } catch (const ComputationError&) {
     if (session_) save_for_sinks();
+    throw;
+  } catch (...) {
+    save_where_interrupted();
     throw;
   }
   if (session.stopping_ && !last_recorded_ && session.recording_.times.empty()) {

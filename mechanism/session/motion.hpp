@@ -12,6 +12,7 @@
 
 namespace bielle::mechanism {
 
+class Notes;
 class ResultSink;
 class Session;
 
@@ -69,8 +70,9 @@ class Motion {
     std::unique_ptr<TimeIntegration> integration;
     std::unique_ptr<March> march;
     EnergyBalance books;
-    long grid_steps = 0;  ///< done
-    VectorX gathered;     ///< by components, when the motion was written or read
+    long grid_steps = 0;        ///< done
+    VectorX gathered;           ///< by components, when the motion was written or read
+    long steps = 0, saves = 0;  ///< since tangents were made anew: taken, and written to sinks (save_where_interrupted)
   };
   Motion(Session& session, const DynamicsOptions& options);
   /// Goes on. @param sink    whose part stands among the numbers; nullptr: there is none
@@ -78,13 +80,18 @@ class Motion {
   Motion(Session& session, const DynamicsOptions& options, Archive& archive, ResultSink* sink,
          const std::optional<StepRecord>& report = {});
   void show();  ///< to those who read the session
-  Parts read(Archive& archive, ResultSink* sink);
+  Parts read(Archive& archive, Notes* notes);
   void write(Archive& archive, ResultSink* sink);
-  static void exchange_books(Archive& archive, Parts& parts, ResultSink* sink);
+  static void exchange_books(Archive& archive, Parts& parts);
+  void go_on(Archive& archive, ResultSink* sink);
+  bool arrives(Parts anchor);
+  void write_to_sinks();
   void make_march(Parts& parts, StepOptions stepping);
   StepRecord row(const MarchStep& step, const EnergyBalance& books) const;
   void record_step(const MarchStep& step, double before, const EnergyBalance& books_before);
   void save_for_sinks();
+  void save_where_interrupted();
+  void take_step(bool seen);
   void set_memory(int place, double value, bool smooth);
   Session& alive() const;
 
@@ -95,8 +102,10 @@ class Motion {
   Parts parts_;
   StartReport start_;
   std::string last_event_;
+  bool anchored_ = false;      ///< sinks have the point where tangents were made anew, and steps alone have come since
   bool saved_ = false;         ///< nothing has happened since the last checkpoint
   bool last_recorded_ = true;  ///< the state is in a row
+  bool last_on_grid_ = false;  ///< the last step has ended on a time of the grid
   bool cautioned_ = false;     ///< of joints that turn far in a step
 };
 

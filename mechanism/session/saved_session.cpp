@@ -3,16 +3,18 @@
 #include <stdexcept>
 
 #include "mechanism/session/session.hpp"
+#include "mechanism/system/check_state.hpp"
 #include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
 namespace {
 
-[[noreturn]] void refuse() {
-  throw InputError("what is to be restored was not saved by a session of this model in this version");
+[[noreturn]] void refuse(const std::string& why = "") {
+  throw InputError("what is to be restored was not saved by a session of this model in this version" +
+                   (why.empty() ? "" : ": " + why));
 }
 
-void exchange_report(Archive& archive, std::optional<StepRecord>& report) {
+void exchange_report(Archive& archive, std::optional<StepRecord>& report, int equations) {
   bool there = report.has_value();
   archive(there);
   if (!there) return;
@@ -20,9 +22,9 @@ void exchange_report(Archive& archive, std::optional<StepRecord>& report) {
   Energy& energy = report->energy;
   for (double* value : {&energy.kinetic, &energy.elastic, &energy.gravity, &energy.dissipation, &energy.input,
                         &report->balance, &report->step, &report->error_estimate, &report->worst_residual})
-    archive(*value);
+    archive.shown(*value);
   archive(report->newton_iterations);
-  archive(report->worst_equation);
+  archive.within(report->worst_equation, -1, equations - 1);
   bool timed = report->time.has_value();
   archive(timed);
   if (timed) archive(report->time ? *report->time : report->time.emplace());
@@ -31,15 +33,14 @@ void exchange_report(Archive& archive, std::optional<StepRecord>& report) {
 /// Restores from numbers that may be others than expected.
 template <class Read>
 auto restored(Archive& archive, Read&& read) {
-  bool whole = true;
+  std::string why = "there are more numbers than are needed";
   try {
     auto result = read();
-    whole = archive.exhausted();
-    if (whole) return result;
-  } catch (const std::out_of_range&) {
-    whole = false;
+    if (archive.exhausted()) return result;
+  } catch (const std::out_of_range& error) {
+    why = error.what();
   }
-  refuse();
+  refuse(why);
 }
 
 }  // namespace
@@ -58,26 +59,27 @@ void Session::exchange(Archive& archive, Saved& saved) const {
         static_cast<std::size_t>(system_.size()), static_cast<std::size_t>(state_.memory.size())}) {
     auto number = static_cast<double>(count);
     archive(number);
-    if (number != static_cast<double>(count)) refuse();
+    if (number != static_cast<double>(count)) refuse();  // of another model
   }
   archive(saved.loaded.factor);
   archive(saved.loaded.motions);
   archive(saved.acting.gravity);
   archive(saved.acting.load_factor);
   archive(saved.acting.statics);
-  exchange_report(archive, saved.report);
+  exchange_report(archive, saved.report, system_.size());
   archive(saved.moving);
   archive(saved.started);
   if (saved.moving) return;
   archive(saved.state);
   archive(saved.state.motion_factor);
+  if (archive.restoring()) check_state(system_, saved.state);
 }
 
 std::vector<double> Session::save() {
   Archive archive;
   Saved saved{loaded_, acting_, report_, motion_ != nullptr, started_, *shown_};
   exchange(archive, saved);
-  if (motion_) motion_->write(archive, nullptr);
+  if (motion_) motion_->write(archive, nullptr), motion_->anchored_ = false;
   return archive.values();
 }
 
@@ -88,12 +90,14 @@ void Session::restore(const std::vector<double>& values) {
     exchange(archive, saved);
     if (saved.moving && !motion_)
       throw InputError("what is to be restored is in motion, and no motion is under way: start it from what was saved");
-    return saved.moving ? motion_->read(archive, nullptr) : Motion::Parts();
+    Motion::Parts read = saved.moving ? motion_->read(archive, nullptr) : Motion::Parts();
+    read.steps = read.saves = 0;
+    if (saved.moving && archive.exhausted()) gatherers_.set(read.gathered);
+    return read;
   });
   if (saved.moving) {
-    gatherers_.set(parts.gathered);
     motion_->parts_ = std::move(parts);
-    motion_->saved_ = motion_->last_recorded_ = false;
+    motion_->saved_ = motion_->anchored_ = motion_->last_recorded_ = false;
     motion_->show();
   } else {
     at_rest();
@@ -110,8 +114,8 @@ Motion Session::dynamics(const DynamicsOptions& options, const std::vector<doubl
   Saved saved{loaded_, environment_, {}, false, false, state_};
   try {
     exchange(archive, saved);
-  } catch (const std::out_of_range&) {
-    refuse();
+  } catch (const std::out_of_range& error) {
+    refuse(error.what());
   }
   if (!saved.moving) throw InputError("what was saved is not in motion: restore it, and start a motion");
   return Motion(*this, options, archive, nullptr, saved.report);

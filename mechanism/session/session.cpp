@@ -13,6 +13,7 @@
 #include "mechanism/solvers/start/consistent_velocities.hpp"
 #include "mechanism/solvers/start/redundancy_at_start.hpp"
 #include "mechanism/solvers/start/start_rates.hpp"
+#include "mechanism/system/check_state.hpp"
 #include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
@@ -48,6 +49,7 @@ void Session::at_rest() {
 }
 
 void Session::set_state(State state) {
+  check_state(system_, state);
   at_rest();
   state_ = std::move(state);
   report_.reset();
@@ -196,8 +198,9 @@ void Session::begin_analysis(const std::string& type, std::size_t expected_rows,
 
 void Session::record(const State& state, const Environment& environment, const StepRecord& step) {
   if (!open_) return;
-  ++rows_;
   const State& whole = reported(state, environment);
+  if (going_again_) return;
+  ++rows_;
   for (ResultSink* sink : sinks_) sink->record(whole, system_.slots(), environment, step);
 }
 

@@ -101,7 +101,8 @@ class Session {
   const State& state() const { return *shown_; }  ///< of the motion, while one is under way
   double time() const { return shown_->time; }    ///< [s]
   bool moving() const { return motion_ != nullptr; }
-  void set_state(State state);  ///< of this model's numbers; ends a motion
+  /// Ends a motion. @throws InputError when it is no state of this model (system/check_state.hpp); nothing has happened
+  void set_state(State state);
   /// Position, axes, velocities and accelerations of a node. @throws InputError with the nearest name
   const NodeState& node(const std::string& name) const;
   /// A dataset of the results file at the state: "joints/main/coordinate", "nodes/tip/velocity", "energy/kinetic",
@@ -216,6 +217,7 @@ class Session {
   std::vector<std::function<void(const Event&)>> on_event_;
   Notes* notes_ = nullptr;
   bool stopping_ = false;
+  bool going_again_ = false;  ///< over steps that were seen before
 };
 
 }  // namespace bielle::mechanism

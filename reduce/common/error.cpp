@@ -31,6 +31,15 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
   return last[b.size()];
 }
 
+/// Between 0 and 1, less than by a letter for what one begins with or holds of the other.
+double unlikeness(const std::string& wanted, const std::string& candidate) {
+  const std::string other = lower_case(candidate);
+  const bool holds = wanted.size() > 1 && other.size() > 1 &&
+                     (other.find(wanted) != std::string::npos || wanted.find(other) != std::string::npos);
+  const auto most = static_cast<double>(std::max(wanted.size(), other.size()));
+  return static_cast<double>(edit_distance(wanted, other)) / most - (holds ? 1 : 0);
+}
+
 }  // namespace
 
 std::string nearest_name(const std::string& name, std::span<const std::string> candidates) {
@@ -53,9 +62,17 @@ std::string did_you_mean(const std::string& name, std::span<const std::string> c
   const std::string nearest = nearest_name(name, candidates);
   if (!nearest.empty()) return fmt::format("; did you mean '{}'?", nearest);
   if (candidates.empty()) return "";
+  std::vector<std::string> shown(candidates.begin(), candidates.end());
+  if (shown.size() > most_shown && !name.empty()) {
+    // Of many, those that are most like it: nearest first.
+    const std::string wanted = lower_case(name);
+    std::stable_sort(shown.begin(), shown.end(), [&](const std::string& a, const std::string& b) {
+      return unlikeness(wanted, a) < unlikeness(wanted, b);
+    });
+  }
+  shown.resize(std::min(shown.size(), most_shown));
   std::string list;
-  for (std::size_t i = 0; i < std::min(candidates.size(), most_shown); ++i)
-    list += fmt::format("{}'{}'", i == 0 ? "" : ", ", candidates[i]);
+  for (const std::string& each : shown) list += fmt::format("{}'{}'", list.empty() ? "" : ", ", each);
   if (candidates.size() > most_shown) list += fmt::format(" and {} more", candidates.size() - most_shown);
   return (candidates.size() == 1 ? "; expected " : "; expected one of ") + list;
 }

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <muParser.h>
 
 #include "reduce/common/error.hpp"
@@ -215,14 +216,15 @@ std::string as_shown(const std::string& text, const std::vector<std::string>& va
   return result;
 }
 
-/// The nearest known name, or what may stand there: variables and parameters by name, functions by their number.
+/// The nearest known name, or all that may stand there.
 std::string known_names(const std::string& name, const std::vector<std::string>& names) {
   if (!nearest_name(name, names).empty()) return did_you_mean(name, names);
   std::vector<std::string> own;
   for (const std::string& known : names)
     if (known != "pi" && !contains(function_names(), known)) own.push_back(known);
-  if (own.empty()) return "; there are no parameters or variables here, only pi and functions (sin, sqrt, step, ...)";
-  return did_you_mean(name, own) + "; pi; or a function (sin, sqrt, step, ...)";
+  const std::string functions = fmt::format("{}", fmt::join(function_names(), ", "));
+  if (own.empty()) return "; there are no parameters or variables here, only pi and functions (" + functions + ")";
+  return did_you_mean(name, own) + "; pi; or a function (" + functions + ")";
 }
 
 /// @param token  the part of the formula that the error is about

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "reduce/common/counted.hpp"
+#include "reduce/common/file_checks.hpp"
 #include "reduce/common/hdf5_handle.hpp"
 #include "reduce/common/hdf5_soundness.hpp"
 
@@ -24,7 +25,9 @@ Hdf5File Hdf5File::create(const std::string& path) {
   const Hdf5Id creation = ordered_group_properties(H5P_FILE_CREATE), access = access_properties();
   handle->file = Hdf5Id(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose);
   if (!handle->file.valid())
-    handle->fail("", "cannot be created: is its folder there and writable, the disk not full, and no other program using the file?");
+    handle->fail(
+        "",
+        "cannot be created: is its folder there and writable, the disk not full, and no other program using the file?");
   return Hdf5File(std::move(handle));
 }
 
@@ -32,10 +35,9 @@ Hdf5File Hdf5File::open(const std::string& path) {
   silence_hdf5();
   auto handle = std::make_unique<Handle>();
   handle->path = path;
+  check_input_file(path);
   std::error_code error;
-  if (!std::filesystem::exists(path, error)) handle->fail("", "there is no such file");
-  if (std::filesystem::is_directory(path, error)) handle->fail("", "is a folder, expected a file");
-  if (!std::filesystem::is_regular_file(path, error)) handle->fail("", "is a device or a pipe, expected a file");
+  if (!std::filesystem::is_regular_file(path, error)) handle->fail("", "is a pipe, expected a file");
   std::FILE* readable = std::fopen(path.c_str(), "rb");
   if (readable == nullptr) handle->fail("", "cannot be read; is reading permitted?");
   std::fclose(readable);

@@ -82,6 +82,11 @@ class YamlValue {
   /// Reads a file name: relative to the folder of this input file.
   std::string file_path() const;
 
+  /// Every value below this one by its path, in the order of the file, as it counts: numbers by their values, formulas
+  /// with the values of the parameters in them ("2*k (k = 3)"), names of files with a sum over their contents. Where
+  /// digests are equal, the same is described. @param but  keys of this map to leave out
+  std::vector<std::pair<std::string, std::string>> digest(const std::vector<std::string>& but = {}) const;
+
   // -- place
   const std::string& file() const;
   int line() const;                 ///< 1-based

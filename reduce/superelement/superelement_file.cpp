@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdint>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -324,7 +326,18 @@ void read_stress_origin(const Hdf5File& file, const Reader& reader, StressOrigin
 
 /// Files of other programs have no sum.
 void check_sum(const Hdf5File& file, const Reader& reader, const Superelement& body) {
-  if (!file.has_attribute("/", "checksum") || file.read_integer_attribute("/", "checksum") == sum_of(body)) return;
+  if (!file.has_attribute("/", "checksum")) return;
+  std::optional<std::int64_t> sum;
+  try {
+    sum = file.read_integer_attribute("/", "checksum");
+  } catch (const InputError&) {
+    // Another program has put something of its own there.
+  }
+  if (!sum)
+    reader.fail(
+        "the attribute 'checksum' is no whole number: it is none of bielle-reduce, whose sums are. A file of another "
+        "program goes without it, or has its own sum under another name");
+  if (*sum == sum_of(body)) return;
   reader.fail(
       "its numbers are not those that were written: it is damaged, was changed, or has points of an earlier version; "
       "run bielle-reduce again (who changes numbers on purpose removes the attribute 'checksum')");

@@ -8,15 +8,14 @@
     /identity (runs) by which a later study knows runs that it need not make again
     /runs/<k>/...   k = 1, 2, ...: the groups kept of that run's results, as bielle-mechanism wrote them
 
-Next to it stands a CSV table of parameters, status and what was gathered. Until all runs are there, they wait as files in a
-folder, <name>.runs (bielle_tools/study_runs.py).
+Next to it stands a CSV table of parameters, status and what was gathered. Until all runs are there, they wait as files
+(bielle_tools/study_runs.py) in a folder, <name>.runs-XXXXXXXX (bielle_tools/study_folder.py).
 """
 
 import concurrent.futures
 import csv
 import dataclasses
 import os
-import shutil
 
 import h5py
 import numpy as np
@@ -24,7 +23,9 @@ import numpy as np
 from .messages import InputError, note
 from .results_columns import column_units
 from .results_file import Results
+from .study_folder import OF_RUNS, discard, forget_runs, work_folder
 from .study_gather import Missing
+from .study_outputs import check_outputs, replacing, table_path
 from .study_plan import read_model
 from .study_runs import copy_results, facts, is_done, make_run, run_path
 
@@ -47,43 +48,38 @@ class Collected:
         return int(np.count_nonzero(self.status < 0))
 
 
-def runs_folder(output):
-    """Where runs wait for the others."""
-    return os.path.splitext(output)[0] + ".runs"
-
-
 def run_study(plan, *, jobs=1, fresh=False, report=print):
     """Makes all runs that are not there yet, `jobs` at a time, and gathers them. @returns Collected. @raises InputError"""
-    check_output(plan.output)
-    folder = runs_folder(plan.output)
-    prepare(plan, folder, fresh)
-    todo = pending(plan, folder)
-    if len(todo) < len(set(plan.identities)):
-        report(f"{len(set(plan.identities)) - len(todo)} of {len(set(plan.identities))} runs are there from before")
-    try:
-        _run_all(plan, folder, todo, jobs, report)
-    except KeyboardInterrupt:
-        note(f"interrupted: finished runs are kept in '{folder}'; the same command goes on with the others")
-        raise
-    except InputError:
-        if not any((facts(os.path.join(folder, name)) or {}).get("status") == 0 for name in os.listdir(folder)):
-            shutil.rmtree(folder)
-        raise
-    collected = collect(plan, folder)
-    shutil.rmtree(folder)
+    check_outputs(plan)
+    with work_folder(plan.output) as folder:
+        prepare(plan, folder, fresh)
+        todo = pending(plan, folder)
+        if len(todo) < len(set(plan.identities)):
+            report(f"{len(set(plan.identities)) - len(todo)} of {len(set(plan.identities))} runs are there from before")
+        try:
+            _run_all(plan, folder, todo, jobs, report)
+        except KeyboardInterrupt:
+            note(f"interrupted: finished runs are kept in '{folder}'; the same command goes on with the others")
+            raise
+        except InputError:
+            if not any((facts(run_path(folder, identity)) or {}).get("status") == 0 for identity in plan.identities):
+                discard(folder)
+            raise
+        collected = collect(plan, folder)
+        discard(folder)
     return collected
 
 
 def prepare(plan, folder, fresh=False):
     """Makes the folder of the runs, with the plan and those runs that an earlier study of this name has. @raises InputError"""
     if fresh and os.path.isdir(folder):
-        shutil.rmtree(folder)
+        forget_runs(folder)
     try:
         plan.write(folder)
     except OSError as error:
         raise InputError(f"cannot write '{plan.output}': '{folder}': {error.strerror}") from None
     for name in os.listdir(folder):
-        if name.endswith(".part"):  # of a study that was killed
+        if name.endswith(".part") and OF_RUNS.fullmatch(name):  # of a study that was killed
             os.remove(os.path.join(folder, name))
     if not fresh and os.path.exists(plan.output):
         _take_over(plan, folder)
@@ -157,40 +153,16 @@ def check_gather(plan, folder, index):
             raise InputError(f"gather: {each.name}: {error} (in run {index + 1}; finished runs are kept)") from None
 
 
-def check_output(path):
-    """@raises InputError where something stands that is no study"""
-    folder = os.path.dirname(path) or "."
-    if not os.path.isdir(folder):
-        raise InputError(f"cannot write '{path}': there is no folder '{folder}'")
-    if not os.path.exists(path):
-        return
-    if not os.path.isfile(path):
-        raise InputError(f"cannot write '{path}': it is a folder or a device")
-    try:
-        with h5py.File(path, "r") as file:
-            known = file.attrs.get("format") == "bielle study"
-    except (OSError, RuntimeError):
-        known = False
-    if not known:
-        raise InputError(f"'{path}' exists and is no study: say with -o where the results of this one shall go, or remove it")
-
-
 def collect(plan, folder):
     """Writes the study's file and table from the runs that are there. @returns Collected"""
-    check_output(plan.output)
-    partial = plan.output + ".part"
-    try:
-        study = h5py.File(partial, "w")
-    except OSError as error:
-        raise InputError(f"cannot write '{plan.output}': {os.strerror(error.errno) if error.errno else error}") from None
-    try:
+    check_outputs(plan)
+    with replacing(plan.output) as partial:
+        try:
+            study = h5py.File(partial, "w")
+        except OSError as error:
+            raise InputError(f"cannot write '{plan.output}': {os.strerror(error.errno) if error.errno else error}") from None
         with study:
             status, messages, numbers, units = _write(study, plan, folder)
-        os.replace(partial, plan.output)
-    except BaseException:
-        if os.path.exists(partial):
-            os.remove(partial)
-        raise
     if plan.wanted:
         _write_table(plan, status, numbers)
     return Collected(status, messages, numbers, units)
@@ -248,20 +220,13 @@ def units_of(gathered, results):
     return units[0] if units and len(set(units)) == 1 else ""
 
 
-def table_path(plan):
-    """Of what was gathered."""
-    return os.path.splitext(plan.output)[0] + "-table.csv"
-
-
 def _write_table(plan, status, numbers):
-    path = table_path(plan)
-    with open(path + ".part", "w", newline="", encoding="utf-8", errors="surrogatepass") as file:
+    with replacing(table_path(plan)) as path, open(path, "w", newline="", encoding="utf-8", errors="surrogatepass") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["run", *plan.names, "status", *numbers])
         for index, row in enumerate(plan.rows):
             values = [numbers[name][index] for name in numbers]
             writer.writerow([index + 1, *row, status[index], *("" if np.isnan(value) else repr(float(value)) for value in values)])
-    os.replace(path + ".part", path)
 
 
 def find_program():

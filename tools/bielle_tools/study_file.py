@@ -29,6 +29,7 @@ class StudyFile:
     def __init__(self, path):
         self.path = path
         self.folder = os.path.dirname(path)
+        self.tables = []  # files of tables that it names
         top = self._map(_compose(path), "the file of a study")
         for key, (line, _) in top.items():
             if key not in KEYS:
@@ -77,7 +78,8 @@ class StudyFile:
     def _table(self, entry):
         line, node = entry
         if isinstance(node, yaml.ScalarNode):
-            return read_table(self._beside(self._text(entry, "table")))
+            self.tables.append(self._beside(self._text(entry, "table")))
+            return read_table(self.tables[-1])
         if not isinstance(node, yaml.SequenceNode) or not node.value:
             raise InputError(f"{self.path}:{line}: table: expected the name of a CSV file or a list of {{name: value}}")
         names, rows = None, []

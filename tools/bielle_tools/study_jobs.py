@@ -13,6 +13,8 @@ import shlex
 
 from .messages import InputError, counted
 from .study import pending, prepare
+from .study_folder import check_folder_of_jobs
+from .study_outputs import check_outputs
 
 TASKS = "tasks"
 
@@ -21,24 +23,28 @@ def schedule(plan, folder, study, *, share=1, options=(), fresh=False):
     """Writes the files. study: path of the command; share: runs of one task of the array; options: of sbatch, for the array.
     @returns lines that say what to do"""
     folder = os.path.abspath(folder)
-    if os.path.isdir(folder) and os.listdir(folder) and not os.path.exists(os.path.join(folder, "plan.json")):
-        raise InputError(f"'{folder}' holds other things: say a new folder for the jobs")
+    check_outputs(plan)
+    check_folder_of_jobs(folder)
+    for what, path in (("the folder of the jobs", folder), ("the command of the study", os.path.abspath(study))):
+        if not path.isprintable():
+            raise InputError(f"{what}, {path!r}, holds a line break or the like, which the files of a scheduler cannot: choose another name")
     for option in options:
-        if not option.startswith("-") or "\n" in option:
-            raise InputError(f"--sbatch '{option}': an option of sbatch is expected, --sbatch=--time=1:00:00")
+        if not option.startswith("-") or not option.isprintable():
+            raise InputError(f"--sbatch {option!r}: an option of sbatch is expected, --sbatch=--time=1:00:00")
     prepare(plan, folder, fresh)
     todo = pending(plan, folder)
     with open(os.path.join(folder, TASKS), "w", encoding="utf-8") as file:
         file.writelines(f"{index + 1}\n" for index in todo)
-    name = os.path.splitext(os.path.basename(plan.output))[0]
+    name = "".join(letter if letter.isprintable() else "_" for letter in os.path.splitext(os.path.basename(plan.output))[0])
+    logs = folder.replace("%", "%%")  # of which Slurm makes patterns
     command = f"{shlex.quote(os.path.abspath(study))}"
     tasks = -(-len(todo) // share)
     array = ["#!/bin/sh", f"#SBATCH --job-name={shlex.quote(name)}", f"#SBATCH --array=1-{max(tasks, 1)}", "#SBATCH --cpus-per-task=1",
-             f"#SBATCH --output={shlex.quote(folder + '/%a.log')}", *(f"#SBATCH {option}" for option in options),
+             f"#SBATCH --output={shlex.quote(logs + '/%a.log')}", *(f"#SBATCH {option}" for option in options),
              f"# Task k makes {counted(share, 'run')} of {len(todo)}. Finished ones are not made again.",
              f'exec {command} --run {shlex.quote(folder)} "$SLURM_ARRAY_TASK_ID"' + (f" --share {share}" if share > 1 else "")]
     gather = ["#!/bin/sh", f"#SBATCH --job-name={shlex.quote(name + '-gather')}", "#SBATCH --ntasks=1",
-              f"#SBATCH --output={shlex.quote(folder + '/gather.log')}", f"exec {command} --collect {shlex.quote(folder)}"]
+              f"#SBATCH --output={shlex.quote(logs + '/gather.log')}", f"exec {command} --collect {shlex.quote(folder)}"]
     submit = ["#!/bin/sh", "# Submits the runs, and what gathers them when all have ended, however they did.", "set -e",
               f"cd {shlex.quote(folder)}", 'job=$(sbatch --parsable "$@" array.sbatch)', 'sbatch --dependency="afterany:${job%%;*}" gather.sbatch']
     jobs = [f"{command} --run {shlex.quote(folder)} {task + 1}" + (f" --share {share}" if share > 1 else "") for task in range(tasks)]

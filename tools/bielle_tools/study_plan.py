@@ -33,12 +33,14 @@ class Plan:
     draw: list = None
     figures: str = ""
     identities: list = dataclasses.field(default_factory=list)
+    inputs: list = dataclasses.field(default_factory=list)  # files that the study reads, and may not write
 
     def __post_init__(self):
         self.model, self.output = os.path.abspath(self.model), os.path.abspath(self.output)
         self.program = os.path.abspath(self.program)
         self.wanted = read_gather(self.gather)
         if not self.identities:
+            self.inputs = [os.path.abspath(path) for path in dict.fromkeys([self.model, self.program, *self.inputs, *named_files(self.model)])]
             common = _common(self.model, self.program)
             self.identities = [_sum(json.dumps([common, sorted(zip(self.names, row))])) for row in self.rows]
 
@@ -88,10 +90,20 @@ def _sum(text):
 def _common(model, program):
     """What all runs share: the model, the program, and the contents of the files that the model names."""
     text = read_model(model)
-    words = set(re.findall(r"[^\s\[\]{},:'\"#]+\.\w+", text)) | set(re.findall(r"[\"']([^\"'\n]+\.\w+)[\"']", text))
     folder = os.path.dirname(os.path.abspath(model))
-    files = [(word, _file_sum(os.path.join(folder, word))) for word in sorted(words)]
+    files = [(word, _file_sum(os.path.join(folder, word))) for word in _words_like_files(text)]
     return [text, _file_sum(program), [each for each in files if each[1]]]
+
+
+def named_files(model):
+    """Paths of the files that a model names and that are there."""
+    folder = os.path.dirname(os.path.abspath(model))
+    paths = [os.path.join(folder, word) for word in _words_like_files(read_model(model))]
+    return [path for path in paths if os.path.isfile(path)]
+
+
+def _words_like_files(text):
+    return sorted(set(re.findall(r"[^\s\[\]{},:'\"#]+\.\w+", text)) | set(re.findall(r"[\"']([^\"'\n]+\.\w+)[\"']", text)))
 
 
 def read_model(path):

@@ -212,7 +212,17 @@ const std::vector<std::string>& section_shape_names() {
   return names;
 }
 
-VectorX read_shape_dimensions(const std::string& shape, const YamlValue& value) {
+namespace {
+
+/// Between an atom and a country: fourth powers of such lengths can be computed with. [m]
+constexpr double least_size = 1e-12, most_size = 1e6;
+
+[[noreturn]] void refuse_size(const YamlValue& value, double size) {
+  value.fail(
+      fmt::format("expected lengths in metres from {:.0e} to {:.0e}, found {:.6g}", least_size, most_size, size));
+}
+
+VectorX read_sizes(const std::string& shape, const YamlValue& value) {
   if (shape == "rectangle") return value.positive_numbers(2, "[width_y, height_z]");
   if (shape == "circle") return VectorX::Constant(1, value.positive_number());
   if (shape == "tube") {
@@ -222,8 +232,17 @@ VectorX read_shape_dimensions(const std::string& shape, const YamlValue& value) 
     if (radii[1] >= radii[0]) value.fail("the inner radius must be smaller than the outer one");
     return radii;
   }
-  const VectorX dimensions = read_walls(shape, value);
-  check_thin_parts(value, wall_area(shape, dimensions));
+  return read_walls(shape, value);
+}
+
+}  // namespace
+
+VectorX read_shape_dimensions(const std::string& shape, const YamlValue& value) {
+  VectorX dimensions = read_sizes(shape, value);
+  if (dimensions.maxCoeff() > most_size) refuse_size(value, dimensions.maxCoeff());
+  if (is_made_of_walls(shape)) check_thin_parts(value, wall_area(shape, dimensions));
+  for (const double size : dimensions)
+    if (size != 0 && size < least_size) refuse_size(value, size);  // (zero: a shape with fewer sizes)
   return dimensions;
 }
 

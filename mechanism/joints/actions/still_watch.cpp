@@ -22,7 +22,7 @@ void StillWatch::add(const LocalState& state) {
 
 void StillWatch::exchange(Archive& archive) {
   for (double* value : {&most_force_, &first_, &farthest_}) archive(*value);
-  archive(states_);
+  archive.within(states_, 0, 1e15);
 }
 
 std::string StillWatch::summary() {

@@ -129,6 +129,22 @@ const Bristles& Contact::bristles(const LocalState& state, int pair) const {
   return found;
 }
 
+bool Contact::knows_memory(const LocalState& state) const {
+  if (!has_bristles()) return true;
+  const auto memory = state.memory();
+  const auto whole_within = [&](Eigen::Index k, double most) {
+    return memory[k] >= 0 && memory[k] <= most && memory[k] == std::floor(memory[k]);
+  };
+  const Eigen::Index begin = bristle_count();
+  if (!whole_within(begin, static_cast<double>(most_bristles_))) return false;
+  constexpr double most_places = std::numeric_limits<int>::max();
+  for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(memory[begin]); ++k)
+    if (const Eigen::Index entry = begin + 1 + bristle_entry * k;
+        !whole_within(entry, static_cast<double>(pairs_.size() - 1)) || !(std::abs(memory[entry + 1]) <= most_places))
+      return false;
+  return true;
+}
+
 void Contact::remember_bristles(const LocalState& state, const std::vector<int>& near,
                                 Eigen::Ref<VectorX> memory) const {
   for (int k = 0; k < static_cast<int>(nodes_.size()); ++k) {

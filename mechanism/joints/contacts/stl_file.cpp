@@ -10,6 +10,7 @@
 
 #include "mechanism/joints/contacts/triangle_surface.hpp"
 #include "reduce/common/error.hpp"
+#include "reduce/common/file_checks.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -54,6 +55,7 @@ std::vector<Vector3> read_text_stl(const std::string& text, const std::string& p
 }  // namespace
 
 std::vector<Vector3> read_stl(const std::string& path, double unit) {
+  check_input_file(path);
   std::ifstream file(path, std::ios::binary);
   if (!file) throw InputError(fmt::format("{}: cannot be read", path));
   const std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());

@@ -55,6 +55,8 @@ class Model:
     """A mechanism as described: made by `load` or `read`, never changed. Any number of sessions may share it."""
 
     def __init__(self, core: _core.Model):
+        if not isinstance(core, _core.Model):
+            raise _core.InputError("a Model is made by bielle.load (of a file) or bielle.read (of a text or a dictionary)")
         self._core = core
 
     def session(self, threads: int = 1) -> Session:

@@ -24,6 +24,8 @@ class Motion:
     """
 
     def __init__(self, session: Session, core: _core.Motion):
+        if not isinstance(core, _core.Motion):
+            raise _core.InputError("a Motion is made by Session.dynamics")
         self._core = core
         self._session = session
 

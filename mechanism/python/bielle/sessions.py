@@ -34,6 +34,9 @@ class Session:
     """
 
     def __init__(self, model: Model, threads: int = 1):
+        from .models import Model as KnownModel
+        if not isinstance(model, KnownModel):
+            raise _core.InputError("a Session is of a Model: model.session(), with a model of bielle.load or bielle.read")
         self._model = model
         self._core = _core.Session(model._core, threads)
         self._on_step: list[Callable[[Session], Any]] = []

@@ -133,6 +133,8 @@ std::vector<int> CrossingWatch::pass() {
   return crossed_;
 }
 
-void CrossingWatch::exchange(Archive& archive) { archive(sides_); }
+void CrossingWatch::exchange(Archive& archive) {
+  for (double& side : sides_) archive.within(side, -1, 1);
+}
 
 }  // namespace bielle::mechanism

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace bielle::mechanism {
 namespace {
@@ -83,8 +84,13 @@ void Extrapolation::note(double size) {
 void Extrapolation::exchange(Archive& archive) {
   for (VectorX& values : values_) archive(values);
   for (double& time : times_) archive(time);
-  for (int* number : {&newest_, &count_, &order_, &chosen_among_, &age_, &lasts_}) archive(*number);
-  archive(size_);
+  archive.within(newest_, 0, most_order);
+  archive.within(count_, 0, most_order + 1);
+  archive.within(order_, 0, most_order);
+  archive.within(chosen_among_, -1, most_order);
+  archive.within(age_, 0, std::numeric_limits<int>::max() / 2);
+  archive.within(lasts_, 1, longest);
+  archive.size_or_infinite(size_);
 }
 
 }  // namespace bielle::mechanism

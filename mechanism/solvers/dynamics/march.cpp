@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -21,13 +22,13 @@ double proposed_size(double h, double error, double largest) {
 
 }  // namespace
 
-void MarchLog::exchange(Archive& archive) {
+void MarchLog::exchange(Archive& archive, int equations) {
   for (long* count :
        {&steps, &iterations, &factorisations, &shortened, &refused_by_error, &refused_by_newton, &crossings})
-    archive(*count);
+    archive.within(*count, 0, 1e15);
   for (double* value : {&smallest, &largest, &most_iterations_at}) archive(*value);
   archive(most_iterations);
-  archive(slowest_equation);
+  archive.within(slowest_equation, -1, equations - 1);
 }
 
 MarchLog MarchLog::followed_by(const MarchLog& next) const {
@@ -104,11 +105,12 @@ bool March::done() const { return stopped_ || integration_.state().time >= end_;
 
 void March::exchange(Archive& archive) {
   auto pending = static_cast<int>(pending_);
-  archive(pending);
+  archive.within(pending, static_cast<int>(Pending::nothing), static_cast<int>(Pending::branch));
   pending_ = static_cast<Pending>(pending);
   archive(size_);
+  if (!(size_ > 0)) throw std::out_of_range("the size of the next step is not greater than 0");
   MarchLog whole = before_.followed_by(log_);
-  whole.exchange(archive);
+  whole.exchange(archive, integration_.system().size());
   if (archive.restoring()) {
     before_ = whole;
     log_ = {};
@@ -117,13 +119,13 @@ void March::exchange(Archive& archive) {
   watch_.exchange(archive);
   VectorX crossed = VectorX::Zero(static_cast<Eigen::Index>(integration_.system().crossings().size()));
   for (const int k : crossed_) crossed[k] = 1;
-  archive(crossed);
+  for (double& flag : crossed) archive.within(flag, 0, 1);
   crossed_.clear();
   for (int k = 0; k < static_cast<int>(crossed.size()); ++k)
     if (crossed[k] != 0) crossed_.push_back(k);
   archive(stopped_);
   archive(last_crossing_);
-  archive(crossings_at_once_);
+  archive.within(crossings_at_once_, 0, 1e15);
   stops_->advance(integration_.state().time);
 }
 
@@ -294,7 +296,8 @@ bool March::try_step(const Plan& plan, int& too_large, Trial& trial) {
 }
 
 void March::tell(Attempt::Outcome outcome, const Plan& plan, const Trial& trial) const {
-  if (observer_) observer_({outcome, plan.begin + plan.size, trial.report, trial.error});
+  const double size = trial.crossing > 0 ? trial.crossing : plan.size;
+  if (observer_) observer_({outcome, plan.begin + size, trial.report, trial.error});
 }
 
 void March::count(const Plan& plan, const Trial& trial) {

@@ -62,7 +62,7 @@ struct MarchLog {
   int slowest_equation = -1;         ///< that was the worst at the end of that step; -1: none
   std::string hardest;               ///< why a step was last refused; empty when none was
 
-  void exchange(Archive& archive);                   ///< all but the text
+  void exchange(Archive& archive, int equations);    ///< all but the text
   MarchLog followed_by(const MarchLog& next) const;  ///< the log of both together
 };
 
@@ -85,6 +85,10 @@ class March {
   MarchStep advance();
   /// Of this program's run: what came before a restart is not in it.
   const MarchLog& log() const { return log_; }
+  void count_as_before() {  ///< what it has done so far
+    before_ = before_.followed_by(log_);
+    log_ = {};
+  }
   void observe(std::function<void(const Attempt&)> observer) { observer_ = std::move(observer); }
   /// Called where the motion has been started anew after a discontinuity, at the beginning of the next step.
   void on_jump(std::function<void(const Jump&)> listener) { jump_listener_ = std::move(listener); }

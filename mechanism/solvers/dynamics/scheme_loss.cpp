@@ -45,7 +45,7 @@ void SchemeLoss::add(const SchemeStep& step, const Environment& environment) {
 
 void SchemeLoss::exchange(Archive& archive) {
   archive(total_);
-  archive(steps_);
+  archive.within(steps_, 0, 1e15);
 }
 
 }  // namespace bielle::mechanism

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/math/so3.hpp"
+#include "mechanism/system/check_state.hpp"
 
 namespace bielle::mechanism {
 
@@ -19,7 +20,9 @@ void SchemeStep::exchange(Archive& archive) {
   for (VectorX* vector : {&rates_.v, &rates_.a, &rates_.A, &rates_.j, &rates_.Y, &rates_.Y_rate}) archive(*vector);
   archive(rates_.Y_rate_known);
   archive(size_);
-  if (archive.restoring()) trial_ = state_;
+  if (!archive.restoring()) return;
+  check_state(system_, state_);
+  trial_ = state_;
 }
 
 void SchemeStep::take_rates() {

@@ -101,6 +101,45 @@ class Files(CommandTest):
             self.write("model.yaml", PENDULUM + f"loads: {{l: {{node: bob, force: [0, 0, \"table('{table}', t)\"]}}}}\n")
             self.expect_refusal(1, "model.yaml", says=["is a device or a pipe"])
 
+    def test_every_reader_of_files_refuses_what_is_none(self):
+        os.mkfifo(self.path("pipe"))
+        os.mkdir(self.path("folder"))
+        ball = ("nodes: {b: {position: [0, 0, 0.1]}}\nelements: {b: {type: rigid_body, node: b, solid: {sphere: 0.1, density: 1000}}}\n"
+                "joints: {c: {type: contact, between: [[{node: ground, surface: FILE}], [{node: b, sphere: 0.1}]], stiffness: 1e6}}\n")
+        body = "nodes: {a: {fixed: true}}\nelements: {s: {type: superelement, file: FILE, nodes: {x: a}}}\n"
+        follower = ("nodes: {a: {}}\nelements: {a: {type: rigid_body, node: a, mass: 1, inertia: [1, 1, 1]}}\n"
+                    "joints: {g: {type: hinge, nodes: [ground, a], axis: [0, 0, 1], TABLE}}\n")
+        for model in (ball, body, follower.replace("TABLE", "spring: {table: FILE}")):
+            for name, says in (("/dev/zero", "is a device or a pipe"), ("pipe", "is a device or a pipe"), ("folder", "is a folder"),
+                               ("none", "there is no such file")):
+                with self.subTest(model=model, name=name):
+                    self.write("model.yaml", model.replace("FILE", name))
+                    done = self.run_program("model.yaml", "--check", timeout=20)
+                    self.assertEqual(done.returncode, 1, done.stderr)
+                    self.assertNotIn("unforeseen", done.stderr)
+                    self.assertTrue(says in done.stderr or "is not a key" in done.stderr, done.stderr)
+
+    def test_sizes_of_sections_that_cannot_be(self):
+        for shape in ("i: {width: 0.05, height: SIZE, web: 0.005, flange: 0.005}", "i: {width: SIZE, height: 0.05, web: 0.005, flange: 0.005}",
+                      "t: {width: SIZE, height: 0.05, web: 0.005, flange: 0.005}", "l: {width: 0.05, height: SIZE, thickness: 0.005}",
+                      "box: {width: 0.05, height: SIZE, thickness: 0.005}", "rectangle: [0.1, SIZE]", "circle: SIZE", "tube: [SIZE, 0.1]"):
+            for size in ("1e300", "1e155", "1e9"):
+                self.write("model.yaml", "nodes: {a: {fixed: true}, b: {position: [1, 0, 0]}}\nelements:\n  m: {type: beam, nodes: [a, b], section: {"
+                           + shape.replace("SIZE", size) + ", young: 2e11, poisson: 0.3, density: 7800}}\n")
+                self.expect_refusal(1, "model.yaml", "--check", says=["model.yaml:3: elements.m.section.", "expected lengths in metres"])
+
+    def test_words_that_stand_elsewhere_or_nowhere(self):
+        part = "nodes: {a: {}}\nelements: {a: {type: point_mass, node: a, mass: 1}, b: {type: TYPE, node: a}}\n"
+        for word, says in (("cable", "it is one of the joints: write it there"), ("hinge", "it is one of the joints"),
+                           ("drive", "`drives` is a section of its own"), ("load", "`loads` is a section of its own"),
+                           ("cabel", "'cabel' is not a type of the elements")):
+            self.write("model.yaml", part.replace("TYPE", word))
+            self.expect_refusal(1, "model.yaml", says=[f"'{word}' is not a type of the elements", says])
+        self.write("model.yaml", "nodes: {a: {}}\njoints: {b: {type: beam, nodes: [ground, a]}}\n")
+        self.expect_refusal(1, "model.yaml", says=["'beam' is not a type of the joints; it is one of the elements: write it there"])
+        self.write("model.yaml", PENDULUM + 'loads: {l: {node: bob, force: [0, 0, "frobnicate + t"]}}\n')
+        self.expect_refusal(1, "model.yaml", says=["unknown name 'frobnicate'", "'t'", "pi", "sqrt, ", "spline"])
+
     def test_names_under_which_no_results_can_stand(self):
         for name in (".", "/", "", "a//b", "a/./b"):
             self.write("model.yaml", PENDULUM.replace("nodes:\n", f'nodes:\n  "{name}": {{position: [0, 0, 0], fixed: true}}\n'))

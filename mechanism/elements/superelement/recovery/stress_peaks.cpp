@@ -162,7 +162,7 @@ void StressPeaks::exchange(Archive& archive) {
     for (StressPeak& peak : region) {
       archive(peak.value);
       archive(peak.time);
-      archive(peak.row);
+      archive.within(peak.row, -1, static_cast<double>(stress_->nodes.size()) - 1);
     }
 }
 

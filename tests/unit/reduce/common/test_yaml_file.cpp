@@ -1,4 +1,5 @@
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -195,4 +196,28 @@ TEST_CASE("File names are relative to the input file") {
   CHECK(YamlValue::parse("f: rod.h5\n", "model.yaml").at("f").file_path() == "rod.h5");
   folder.file("c.csv", "0 1\n1 2\n");
   CHECK(file.at("t").expression({"t"})(0.5) == 1.5);
+}
+
+TEST_CASE("A digest tells values by what they count, not by how they are written") {
+  using Digest = std::vector<std::pair<std::string, std::string>>;
+  const bielle::test::TemporaryFolder folder;
+  folder.file("c.csv", "0 1\n1 2\n");
+  const auto digest = [&](const std::string& text) {
+    YamlValue file = YamlValue::load(folder.file("model.yaml", text));
+    file.set_parameters({{"k", 3}, {"unused", 4}});
+    return file.digest({"output"});
+  };
+  CHECK(
+      digest("a: {b: 1e3, c: [+1.50, 2*k*t]}\nd: {}\ne: []\nf:\noutput: 7\n") ==
+      Digest{
+          {"a.b", "1000"}, {"a.c[1]", "1.5"}, {"a.c[2]", "2*k*t (k = 3)"}, {"d", "{}"}, {"e", "[]"}, {"f", "nothing"}});
+  CHECK(digest("a: 1000.0 # m\n") == digest("a: '1e3'\noutput: 8\n"));
+  CHECK(digest("a: arm.k\n") == Digest{{"a", "arm.k"}});  // a quantity of something, no parameter
+  const Digest before = digest("a: c.csv\nb: table('c.csv', t)\n");
+  CHECK(before == digest("a: c.csv\nb: table('c.csv', t)\n"));
+  CHECK_THAT(before[0].second, Contains("c.csv (contents "));
+  folder.file("c.csv", "0 1\n1 3\n");
+  const Digest after = digest("a: c.csv\nb: table('c.csv', t)\n");
+  CHECK(before[0].second != after[0].second);
+  CHECK(before[1].second != after[1].second);
 }

@@ -1,0 +1,60 @@
+#include "mechanism/python/without_lock.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+namespace bielle::python {
+namespace {
+
+// Of the process, as Python's lock is.
+std::atomic<int> computing = 0;
+std::atomic<bool> ending = false, abandoned = false;
+
+[[noreturn]] void raise_system_exit() {
+  PyErr_SetNone(PyExc_SystemExit);
+  throw pybind11::error_already_set();
+}
+
+/// The lock is not to be had any more.
+void stay_away_if_abandoned() {
+  while (abandoned) std::this_thread::sleep_for(std::chrono::hours(1));
+}
+
+/// The program ends: waits for all that computes. (A step of a large model takes its time; a thread may have no end.)
+void end_computing() {
+  constexpr std::chrono::seconds longest{60};
+  ending = true;
+  const pybind11::gil_scoped_release free;
+  const auto end = std::chrono::steady_clock::now() + longest;
+  while (computing > 0 && std::chrono::steady_clock::now() < end)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  abandoned = computing > 0;
+}
+
+}  // namespace
+
+WithoutLock::WithoutLock() {
+  if (ending) raise_system_exit();
+  ++computing;
+  state_ = PyEval_SaveThread();
+}
+
+WithoutLock::~WithoutLock() {
+  stay_away_if_abandoned();
+  PyEval_RestoreThread(state_);
+  --computing;
+}
+
+void end_with_program() {
+  if (!ending) return;
+  stay_away_if_abandoned();
+  const pybind11::gil_scoped_acquire lock;
+  raise_system_exit();
+}
+
+void bind_end(pybind11::module_& /*module*/) {
+  pybind11::module_::import("atexit").attr("register")(pybind11::cpp_function(end_computing));
+}
+
+}  // namespace bielle::python

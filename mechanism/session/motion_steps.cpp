@@ -1,0 +1,31 @@
+#include "mechanism/session/motion_steps.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "mechanism/session/time_grid.hpp"
+#include "reduce/common/counted.hpp"
+
+namespace bielle::mechanism {
+
+StepOptions stepping_of(const DynamicsOptions& options, const System& system, double begin, Notes* notes) {
+  StepOptions stepping = options.stepping;
+  for (const double time : system.break_points())
+    if (time >= begin && time < begin + options.duration) stepping.break_points.push_back(time);
+  if (stepping.tolerance > 0) return stepping;
+  const long steps = grid_steps(options.duration, options.stepping.size);
+  stepping.size = options.duration / static_cast<double>(steps);
+  if (notes && std::abs(stepping.size - options.stepping.size) > 1e-9 * stepping.size)
+    notes->note(fmt::format("step {:.6g} s in place of {:.6g} s, so that {} the duration", stepping.size,
+                            options.stepping.size, counted(steps, "step fills", "steps fill")));
+  if (static_cast<long>(stepping.break_points.size()) > steps) {
+    if (notes)
+      notes->note(fmt::format("{} of loads and motions in {}: steps do not end there",
+                              counted(stepping.break_points.size(), "kink"), counted(steps, "step")));
+    stepping.break_points.clear();
+  }
+  return stepping;
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,139 @@
+// A motion as it is written, and how it goes on from there.
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "mechanism/session/motion.hpp"
+#include "mechanism/session/motion_steps.hpp"
+#include "mechanism/session/session.hpp"
+#include "reduce/common/error.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+/// To the bit.
+bool same_motion(const State& a, const State& b) {
+  const auto same = [](const NodeState& one, const NodeState& other) {
+    return one.x == other.x && one.R == other.R && one.v == other.v && one.Omega == other.Omega;
+  };
+  return a.time == b.time && std::equal(a.nodes.begin(), a.nodes.end(), b.nodes.begin(), b.nodes.end(), same) &&
+         a.amplitude == b.amplitude && a.amplitude_rate == b.amplitude_rate && a.first_order == b.first_order &&
+         a.multiplier == b.multiplier;
+}
+
+}  // namespace
+
+void Motion::exchange_books(Archive& archive, Parts& parts) {
+  archive.within(parts.steps, 0, 1e15);
+  archive.within(parts.saves, 0, 1e15);
+  archive(parts.begin);
+  archive.within(parts.grid_steps, 0, 1e15);
+  parts.books.exchange(archive);
+  archive.of_any_length(parts.gathered);
+}
+
+/// What belongs to the sink stands last.
+void Motion::write(Archive& archive, ResultSink* sink) {
+  parts_.gathered = session_->gatherers_.numbers();
+  exchange_books(archive, parts_);
+  parts_.integration->exchange(archive);
+  parts_.march->exchange(archive);
+  if (sink) sink->exchange(archive);
+  session_->norm_.reset();  // recorded reactions owe nothing to pivots of before
+}
+
+Motion::Parts Motion::read(Archive& archive, Notes* notes) {
+  session_->norm_.reset();
+  Parts parts;
+  exchange_books(archive, parts);
+  StepOptions stepping = stepping_of(options_, session_->system_, parts.begin, notes);
+  parts.integration = std::make_unique<TimeIntegration>(session_->system_, session_->environment_, options_.scheme,
+                                                        archive, options_.form, options_.newton);
+  if (!(parts.begin <= parts.integration->state().time))
+    throw std::out_of_range("the motion stands before its beginning");
+  make_march(parts, std::move(stepping));
+  parts.march->exchange(archive);
+  return parts;
+}
+
+/// From a point at which tangents were made anew, or from one of an interruption, which the former follows.
+/// @throws std::out_of_range, InputError
+void Motion::go_on(Archive& archive, ResultSink* sink) {
+  Session& session = *session_;
+  Parts now = read(archive, session.notes_);
+  if (sink) sink->exchange(archive);
+  Parts anchor;
+  const bool interrupted = now.steps > 0 && !archive.exhausted();
+  if (interrupted)
+    anchor = read(archive, nullptr);
+  else if (!archive.exhausted())
+    throw std::out_of_range("there are more numbers than are needed");
+  session.gatherers_.set(now.gathered);
+  session.at_rest();
+  session.stopping_ = false;
+  parts_ = std::move(now);
+  if (interrupted && arrives(std::move(anchor))) return;
+  parts_.steps = parts_.saves = 0;
+}
+
+/// Goes the steps again from the point at which tangents were made anew to that of the interruption: the motion then
+/// has the tangents, pivots and rounding of one that was not interrupted. @returns false where it does not come to the
+/// same state (steps or scheme are others now); it then stands where it was interrupted
+bool Motion::arrives(Parts anchor) {
+  Session& session = *session_;
+  Parts interrupted = std::exchange(parts_, std::move(anchor));
+  const long steps = interrupted.steps;
+  bool arrived = false;
+  session.going_again_ = true;
+  try {
+    session.gatherers_.set(parts_.gathered);
+    while (parts_.steps < steps && !parts_.march->done()) take_step(false);
+    arrived = same_motion(state(), interrupted.integration->state());
+  } catch (const ComputationError&) {
+    // Other steps than before.
+  }
+  session.going_again_ = false;
+  if (!arrived) {
+    session.gatherers_.set(interrupted.gathered);
+    parts_ = std::move(interrupted);
+    return false;
+  }
+  parts_.march->count_as_before();
+  parts_.saves = interrupted.saves;
+  anchored_ = true;
+  return true;
+}
+
+/// Also where nobody listens: what follows does not depend on who does.
+void Motion::save_for_sinks() {
+  if (saved_) return;
+  parts_.steps = parts_.saves = 0;
+  anchored_ = session_->open_ && !session_->sinks_.empty();
+  write_to_sinks();
+}
+
+void Motion::write_to_sinks() {
+  const auto save = [&](ResultSink* sink) {
+    Archive archive;
+    write(archive, sink);
+    if (sink) sink->checkpoint(archive);
+  };
+  if (session_->open_ && !session_->sinks_.empty())
+    for (ResultSink* sink : session_->sinks_) save(sink);
+  else
+    save(nullptr);
+  saved_ = true;
+}
+
+/// A point to go on from makes tangents anew, here and where the run goes on. Where the user has asked for points every
+/// so many steps, an uninterrupted run does so at these alone: the last of them is then gone on from, up to here again
+/// (`arrives`). So what follows is the same to the bit.
+void Motion::save_where_interrupted() {
+  if (!session_ || saved_) return;
+  if (!anchored_ || session_->recording_.checkpoint == 0) return save_for_sinks();
+  ++parts_.saves;
+  write_to_sinks();
+  anchored_ = false;  // tangents are made anew, should this program go on
+}
+
+}  // namespace bielle::mechanism
