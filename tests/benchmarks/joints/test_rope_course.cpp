@@ -72,7 +72,7 @@ const double touching = (std::sqrt(0.1588) - 0.2) / 1.98;  // 0.99 d^2 + 0.2 d -
 
 }  // namespace
 
-TEST_CASE("a rope that is drawn clear of its pulley runs straight, and comes back onto it") {
+TEST_CASE("a rope leaves a pulley round which it bends no more, runs straight, and comes back onto it") {
   const double drawn = taut_length({-1, 0}, {1, 0}, {0, 0.05}, 0.1);
   const auto look = [&](const Session& session) {
     const double L = taut_length({-1, 0}, {1, session.node("s").x.z()}, {0, 0.05}, 0.1), E = L - drawn;
@@ -195,21 +195,24 @@ joints:
   CHECK_THAT(round.events[1].name, Contains("comes onto pulley 'p'"));
 }
 
-TEST_CASE("in statics a rope touches the pulleys round which it bends, and no others") {
+TEST_CASE("a rope touches the pulleys round which it bends, and no others, in statics and in motion") {
   // Below three pulleys; the end s goes down and to the right, so that the rope leaves them one after the other. The
   // shortest way below discs is the lower hull of their points.
   const std::vector<Vector2d> centres = {{0, 0.2}, {0.6, 0.1}, {1.3, 0.25}};
   const std::vector<double> radii = {0.1, 0.15, 0.05};
-  const std::string text = R"yaml(
+  const auto text = [](const char* x, const char* z) {
+    return fmt::format(R"yaml(
 nodes:
-  a: {position: [-1, 0, 0.6], fixed: true}
-  p: {position: [0, 0, 0.2], fixed: true}
-  q: {position: [0.6, 0, 0.1], fixed: true}
-  r: {position: [1.3, 0, 0.25], fixed: true}
-  s: {position: [2, 0, 0.7], motion: {x: 0.1, y: 0, z: "-2.4", rx: 0, ry: 0, rz: 0}}
+  a: {{position: [-1, 0, 0.6], fixed: true}}
+  p: {{position: [0, 0, 0.2], fixed: true}}
+  q: {{position: [0.6, 0, 0.1], fixed: true}}
+  r: {{position: [1.3, 0, 0.25], fixed: true}}
+  s: {{position: [2, 0, 0.7], motion: {{x: "{}", y: 0, z: "{}", rx: 0, ry: 0, rz: 0}}}}
 joints:
-  rope: {type: cable, nodes: [a, p, q, r, s], radii: [0, -0.1, -0.15, -0.05, 0], axis: [0, 1, 0], EA: 1e5, pretension: 10}
-)yaml";
+  rope: {{type: cable, nodes: [a, p, q, r, s], radii: [0, -0.1, -0.15, -0.05, 0], axis: [0, 1, 0], EA: 1e5, pretension: 10}}
+)yaml",
+                       x, z);
+  };
   const auto hull = [&](const Vector2d& a, const Vector2d& s) {
     std::vector<Vector2d> points = {a, s};
     constexpr int count = 4000;
@@ -232,7 +235,7 @@ joints:
     for (std::size_t k = 1; k < lower.size(); ++k) length += (lower[k] - lower[k - 1]).norm();
     return length;
   };
-  const MechanismFile file = read_mechanism_text(text, "model.yaml");
+  const MechanismFile file = read_mechanism_text(text("0.1", "-2.4"), "model.yaml");
   Session session(file.model);
   StaticsOptions options;
   options.steps = 16;
@@ -245,6 +248,17 @@ joints:
   session.statics(options);
   REQUIRE(lengths.size() >= 16);
   CHECK(lengths.back() == Approx(std::hypot(3.1, 2.3)).epsilon(1e-12));  // clear of all
+  // Down and up again: it leaves each pulley once and comes back onto it.
+  const Run there_and_back = run(text("0.1*sin(pi*t)", "-2.4*sin(pi*t)"), 0.02, 1, [&](const Session& at) {
+    const Vector3 end = at.node("s").x;
+    CHECK(at.read("joints/rope/length")[0] == Approx(hull({-1, 0.6}, {end.x(), end.z()})).epsilon(1e-6));
+  });
+  REQUIRE(there_and_back.events.size() == 6);
+  for (std::size_t k = 0; k < 3; ++k) {
+    CHECK_THAT(there_and_back.events[k].name, Contains("leaves"));
+    CHECK_THAT(there_and_back.events[3 + k].name, Contains("comes onto"));
+    CHECK(there_and_back.events[5 - k].time == Approx(1 - there_and_back.events[k].time).epsilon(1e-7));
+  }
 }
 
 TEST_CASE("a belt that would leave a pulley which it grips says so") {
