@@ -142,15 +142,21 @@ void ReactionNorm::balance(const Environment& environment, State& state) {
   state.reaction = smallest(state.multiplier);
 }
 
-bool CrossingValues::balance(const Environment& environment, State& state) {
+/// Where forces read reactions, the equations of the state have been solved with them.
+bool CrossingValues::needs(const State& state) const {
   if (!system_.crossings_read_reactions() || !ReactionNorm::needed(system_, state)) return false;
+  return !system_.reads_reactions() || state.reaction.size() == 0;
+}
+
+bool CrossingValues::balance(const Environment& environment, State& state) {
+  if (!needs(state)) return false;
   if (!norm_) norm_ = std::make_unique<ReactionNorm>(system_);
   norm_->balance(environment, state);
   return true;
 }
 
 void CrossingValues::calc(const State& state, const Environment& environment, Eigen::Ref<VectorX> values) {
-  if (!system_.crossings_read_reactions() || !ReactionNorm::needed(system_, state)) {
+  if (!needs(state)) {
     system_.calc_crossings(state, environment, values);
     return;
   }

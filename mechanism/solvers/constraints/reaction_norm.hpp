@@ -56,6 +56,7 @@ class CrossingValues {
   void calc(const State& state, const Environment& environment, Eigen::Ref<VectorX> values);
 
  private:
+  bool needs(const State& state) const;
   const System& system_;
   std::unique_ptr<ReactionNorm> norm_;  ///< made where it is needed
 };
