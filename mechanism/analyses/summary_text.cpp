@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "mechanism/session/unique_reactions.hpp"
 #include "mechanism/solvers/statics/held_states.hpp"
 #include "mechanism/system/loose_parts.hpp"
 #include "reduce/common/counted.hpp"
@@ -91,12 +90,23 @@ std::string format_start(const StartReport& start) {
   return text;
 }
 
-std::string describe_not_unique(const std::vector<std::string>& joints) {
-  if (joints.empty()) return {};
-  if (joints.size() == 1)
-    return fmt::format("the reaction of joint '{}' is not unique: the smallest is reported", joints.front());
-  return fmt::format("the reactions of joints '{}' are not unique: the smallest are reported",
-                     fmt::join(joints, "', '"));
+std::string describe_not_unique(const NotUnique& found) {
+  std::vector<std::string> parts;
+  std::size_t count = 0;
+  const auto add = [&](const char* one, const char* several, const std::vector<std::string>& names) {
+    if (!names.empty())
+      parts.push_back(fmt::format("the {} '{}'", names.size() == 1 ? one : several, fmt::join(names, "', '")));
+    count += names.size();
+  };
+  add("reaction of joint", "reactions of joints", found.joints);
+  add("force of drive", "forces of drives", found.drives);
+  add("force of the lock of joint", "forces of the locks of joints", found.locked);
+  if (parts.empty()) return {};
+  std::string text = parts.back();
+  parts.pop_back();
+  if (!parts.empty()) text = fmt::format("{} and {}", fmt::join(parts, ", "), text);
+  return fmt::format("{} {} not unique: the smallest {} reported", text, count == 1 ? "is" : "are",
+                     count == 1 ? "is" : "are");
 }
 
 std::string describe_loose(const System& system) {
@@ -126,9 +136,9 @@ std::string format_mobility(const Session& session) {
         "of "
         "freedom away and may bear any force: are axes and positions exact?\n",
         name);
-  if (const auto joints = joints_not_unique(session.system(), session.acting(), session.state()); !joints.empty())
+  if (const NotUnique found = find_not_unique(session.system(), session.acting(), session.state()); !found.none())
     text += fmt::format(
-        "  {}{}\n", describe_not_unique(joints),
+        "  {}{}\n", describe_not_unique(found),
         session.system().reads_reactions() ? ", and forces that depend on them (friction) are of these" : "");
   return text;
 }

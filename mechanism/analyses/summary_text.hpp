@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mechanism/session/session.hpp"
+#include "mechanism/session/unique_reactions.hpp"
 #include "mechanism/solvers/start/start_report.hpp"
 
 namespace bielle::mechanism {
@@ -15,8 +16,9 @@ std::string format_start(const StartReport& start);
 std::string format_loose(const std::string& unknown);
 /// How many ways there are to move, constraints set aside or nearly so, joints whose reactions they leave open.
 std::string format_mobility(const Session& session);
-/// "the reactions of joints 'a', 'b' are not unique: the smallest are reported"; nothing where all are.
-std::string describe_not_unique(const std::vector<std::string>& joints);
+/// "the reactions of joints 'a', 'b' and the force of drive 'c' are not unique: the smallest are reported"; nothing
+/// where all are.
+std::string describe_not_unique(const NotUnique& found);
 /// "joined to nothing that is held: the part of node 'lost'"; nothing where all parts are.
 std::string describe_loose(const System& system);
 /// "energy at the end [J]: kinetic .., .."

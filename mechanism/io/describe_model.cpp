@@ -204,8 +204,8 @@ std::string describe_model(const MechanismFile& file) {
     text += fmt::format("  loose        {}\n", loose);
   for (const std::string& names : mobility.nearly_redundant)
     text += fmt::format("  nearly       redundant: {}\n", names);
-  if (const std::vector<std::string> joints = joints_not_unique(system, model.environment, state); !joints.empty())
-    text += fmt::format("  reactions    {}\n", describe_not_unique(joints));
+  if (const NotUnique found = find_not_unique(system, model.environment, state); !found.none())
+    text += fmt::format("  reactions    {}\n", describe_not_unique(found));
   text += describe_start_conditions(system) + describe_remarks(model, model.members().size());
   text += describe_unused(model, system) + describe_massless(model, system, state);
   text += describe_entries(model, system, state);

@@ -9,6 +9,7 @@ namespace bielle::mechanism {
 inline Crossing lift_off() {
   Crossing crossing{"lifts off", Crossing::Direction::falling};
   crossing.restarts = false;
+  crossing.reads_reaction = true;
   return crossing;
 }
 

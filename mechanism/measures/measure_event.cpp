@@ -20,6 +20,7 @@ void MeasureEvent::declare(Declaration& declaration) const {
   crossing.direction = direction_;
   crossing.restarts = false;
   crossing.stops = stops_;
+  crossing.reads_reaction = measure_.reads_reactions();
   declaration.crossings = {crossing};
 }
 

@@ -53,6 +53,8 @@ struct Crossing {
   double nearest = 0;
   /// The side on which every motion begins, +1 or -1: one that begins on the other side has crossed. 0: either.
   int begins_on = 0;
+  /// Its value reads reactions (LocalState::reaction), which are made those of smallest norm before it is computed.
+  bool reads_reaction = false;
 };
 
 /// Collects what a component needs. Names come back in messages and results: "moment z of joint 'main'".

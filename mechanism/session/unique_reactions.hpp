@@ -1,4 +1,4 @@
-// Which joints' reactions redundant constraints leave undetermined.
+// Which reactions redundant constraints leave undetermined: of joints, drives and locks.
 #pragma once
 
 #include <string>
@@ -14,8 +14,13 @@ namespace bielle::mechanism {
 /// Empty where nothing is redundant: all are.
 std::vector<std::pair<std::string, bool>> unique_reactions(const System& system, const Environment& environment,
                                                            const State& state);
-/// Names of those whose reactions are not unique.
-std::vector<std::string> joints_not_unique(const System& system, const Environment& environment, const State& state);
+/// Names of what has reactions or forces that are not unique, in the model's order.
+struct NotUnique {
+  std::vector<std::string> joints, drives;
+  std::vector<std::string> locked;  ///< joints, by the forces of their locks
+  bool none() const { return joints.empty() && drives.empty() && locked.empty(); }
+};
+NotUnique find_not_unique(const System& system, const Environment& environment, const State& state);
 /// `reaction_unique`, 1 or 0, of each joint that records its results.
 EntryNumbers unique_reaction_numbers(const System& system, const Environment& environment, const State& state);
 

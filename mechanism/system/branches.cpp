@@ -12,6 +12,7 @@ void Branches::add(const Declaration& declaration) {
     const Crossing& crossing = declaration.crossings[static_cast<std::size_t>(k)];
     const std::string owner = describe(model_.members()[index]);
     crossings_.push_back({index, k, crossing, crossing.name.empty() ? owner : owner + ": " + crossing.name});
+    crossings_read_reactions_ = crossings_read_reactions_ || crossing.reads_reaction;
   }
   if (declaration.passive) return;  // measures are read by what acts
   reads_reactions_ = reads_reactions_ || declaration.reads_reactions;

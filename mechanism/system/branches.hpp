@@ -30,6 +30,7 @@ class Branches {
   const std::vector<MemberCrossing>& crossings() const { return crossings_; }  ///< in the order of the members
   bool reads_reactions() const { return reads_reactions_; }
   bool has_kinks() const { return kinks_; }
+  bool crossings_read_reactions() const { return crossings_read_reactions_; }
 
   // As System says.
   void calc_crossings(const State& state, const Environment& environment, Eigen::Ref<VectorX> values) const;
@@ -49,7 +50,7 @@ class Branches {
   std::size_t members_ = 0;
   std::vector<std::size_t> remembering_;  ///< members with memory
   std::vector<MemberCrossing> crossings_;
-  bool reads_reactions_ = false, kinks_ = false;
+  bool reads_reactions_ = false, kinks_ = false, crossings_read_reactions_ = false;
 };
 
 }  // namespace bielle::mechanism

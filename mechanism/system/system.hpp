@@ -84,6 +84,8 @@ class System {
   /// Whether forces depend on reactions, or have kinks that end no step.
   bool reads_reactions() const { return branches_.reads_reactions(); }
   bool has_kinks() const { return branches_.has_kinks(); }
+  /// Whether values of crossings depend on reactions.
+  bool crossings_read_reactions() const { return branches_.crossings_read_reactions(); }
 
   const std::vector<MemberCrossing>& crossings() const { return branches_.crossings(); }
   /// Values of all crossings (crossings().size()).

@@ -207,6 +207,12 @@ std::vector<Sample> coupling_samples() {
            "nodes: [a, b, c], radii: [0, -0.2, 0.4], axis: [1, 0.2, 3], at: [[0.1, 0.2, -0.1], ~, ~], EA: 6, "
            "pretension: 12, damping: 0.3",
            with({{"at", "[[0, 0, 0]]", "3 points"}})));
+  list.push_back(rope("cable", "with a turn round a pulley",
+                      "nodes: [a, b, c], radii: [0, -0.2, 0.4], axis: [1, 0.2, 3], turns: [~, 1, ~], EA: 6, "
+                      "pretension: 12, damping: 0.3",
+                      with({{"turns", "[~, 1]", "3 numbers of turns"},
+                            {"turns", "[~, -1, ~]", "0 or more"},
+                            {"turns", "[~, ~, 1]", "on which the rope slides"}})));
   list.push_back(rope(
       "cable", "gripped",
       "nodes: [a, b, c], radii: [0, -0.2, 0.4], axis: [1, 0.2, 3], grips: [b], EA: 6, pretension: 14, damping: 0.1",

@@ -12,6 +12,16 @@
 
 namespace bielle::mechanism {
 
+namespace {
+
+constexpr double unknown = -1;  ///< pressure where the search for one begins, see Volume [Pa]
+/// What a cylinder whose pressures follow from the load gives way by in the tangent alone ([m/N] in statics, [1/kg] in
+/// motion, far below what machines do): of what several that hold the same length may bear, each step of Newton's
+/// method then takes the change of smallest norm (a proximal step), the first one from no force.
+constexpr double give = 1e-11;
+
+}  // namespace
+
 /// "boom.length", "boom.force", "boom.pressure_1"
 class CylinderMeasure final : public Measure {
  public:
@@ -149,6 +159,7 @@ void Cylinder::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) cons
   double& row = r[ports_.pressure_row(state, 0)];
   row += l.acceleration(v, pair_acceleration(state.node(0), state.node(1)));
   if (state.environment().statics) row += l.value - state.memory()[memory_length];
+  if (chamber_pressure(state, 0) == unknown) row += give * chambers_[0].space.at(l.value).V_l * (unknown - ambient_);
   if (chambers_.size() > 1) r[ports_.pressure_row(state, 1)] += chamber_pressure(state, 1) - *tank_;
 }
 
@@ -169,7 +180,9 @@ void Cylinder::add_tangent(const LocalState& state, LocalTangent& tangent) const
     if (const int row = space_row(state, k); row >= 0) K.block<1, 12>(row, 0) -= V_l * g.transpose();
   }
   if (!waiting) return;
-  if (state.environment().statics) K.block<1, 12>(ports_.pressure_row(state, 0), 0) += g.transpose();
+  const int first = ports_.pressure_row(state, 0);
+  K(first, first) += give * chambers_[0].space.at(l.value).V_l;
+  if (state.environment().statics) K.block<1, 12>(first, 0) += g.transpose();
   if (chambers_.size() > 1) K(ports_.pressure_row(state, 1), ports_.pressure_row(state, 1)) += 1;
 }
 
@@ -191,7 +204,6 @@ void Cylinder::add_energy(const LocalState& state, Energy& energy) const {
 // -- start
 
 void Cylinder::add_start_values(const LocalState& state, Eigen::Ref<VectorX> change) const {
-  constexpr double unknown = -1;  // where the search for it begins, see Volume
   if (!waits(state) || chamber_pressure(state, 0) == unknown) return;
   const double l = length(state).value;
   std::vector<double> p(chambers_.size(), *tank_);

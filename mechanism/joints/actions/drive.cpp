@@ -36,7 +36,10 @@ void Drive::declare_drive(Declaration& declaration) const {
   declare_references(declaration);
   if (!can_release()) return;
   declaration.memory.push_back(0);
-  if (release_measure_) declaration.crossings.push_back({"lets go of its joint", release_direction_});
+  if (!release_measure_) return;
+  Crossing release{"lets go of its joint", release_direction_};
+  release.reads_reaction = release_measure_->reads_reactions();
+  declaration.crossings.push_back(release);
 }
 
 void Drive::add_break_points(std::vector<double>& times) const {

@@ -17,6 +17,7 @@ void JointLock::declare(Declaration& declaration) const {
   if (!std::isfinite(times_.release)) return;
   Crossing release{coordinate().name + " is released", Crossing::Direction::rising};
   release.begins_on = -1;
+  release.reads_reaction = true;
   declaration.crossings = {release};
 }
 
@@ -55,7 +56,7 @@ std::vector<OutputField> JointLock::output_fields() const {
 }
 
 void JointLock::write_output(const LocalState& state, double* values) const {
-  write_force(-state.multiplier()[0], values);
+  write_force(-state.reaction()[0], values);
 }
 
 void JointLock::add_break_points(std::vector<double>& times) const {
@@ -64,7 +65,7 @@ void JointLock::add_break_points(std::vector<double>& times) const {
 }
 
 void JointLock::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const {
-  if (values.size() > 0) values[0] = std::abs(state.multiplier()[0]) - times_.release;
+  if (values.size() > 0) values[0] = std::abs(state.reaction()[0]) - times_.release;
 }
 
 bool JointLock::is_due(double time) const { return time >= times_.from && time < times_.to; }

@@ -22,7 +22,7 @@ class MotionDrive : public Drive {
 
  protected:
   const Expression& law() const { return f_; }
-  double force(const LocalState& state) const final { return -state.multiplier()[0]; }
+  double force(const LocalState& state) const final { return -state.reaction()[0]; }
   void add_kinks(std::vector<double>& times) const final;
   void declare_row(Declaration& declaration, const std::string& row, ConstraintKind kind) const;
 

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "mechanism/joints/cables/rope_section.hpp"
+#include "mechanism/joints/cables/rope_grip.hpp"
 #include "mechanism/joints/counted_from_drawing.hpp"
 #include "mechanism/math/axes_along.hpp"
 #include "mechanism/model/model.hpp"
@@ -13,14 +13,6 @@
 
 namespace bielle::mechanism {
 namespace {
-
-/// The places that a rope passes, in order.
-struct RopePath {
-  std::vector<int> nodes;
-  std::vector<std::string> names;
-  std::vector<Pulley> pulleys;
-  std::vector<Frame> drawn;
-};
 
 /// One point for each node, in the node's axes; `~`: the node itself.
 std::vector<Vector3> read_places(const YamlValue& entry, std::size_t count) {
@@ -32,6 +24,21 @@ std::vector<Vector3> read_places(const YamlValue& entry, std::size_t count) {
   for (std::size_t k = 0; k < count; ++k)
     if (!at->at(k).is_null()) places[k] = at->at(k).vector3();
   return places;
+}
+
+/// How many turns more than drawn the rope winds round each place; `~`: none.
+std::vector<int> read_turns(const YamlValue& entry, std::size_t count) {
+  std::vector<int> turns(count, 0);
+  const auto given = entry.find("turns");
+  if (!given) return turns;
+  if (!given->is_sequence() || given->size() != count)
+    given->fail(fmt::format("expected {} numbers of turns, one for each node (`~`: none more than drawn)", count));
+  for (std::size_t k = 0; k < count; ++k) {
+    if (given->at(k).is_null()) continue;
+    turns[k] = given->at(k).integer();
+    if (turns[k] < 0) given->at(k).fail("expected 0 or more");
+  }
+  return turns;
 }
 
 RopePath read_path(const YamlValue& entry, const Model& model) {
@@ -63,6 +70,7 @@ RopePath read_path(const YamlValue& entry, const Model& model) {
     pulley.radius = radii[static_cast<Eigen::Index>(k)];
     path.pulleys.push_back(pulley);
   }
+  path.turns = read_turns(entry, count);
   return path;
 }
 
@@ -81,21 +89,33 @@ RopeMaterial read_material(const YamlValue& entry) {
 }
 
 /// Adds the section from one place of the path to another.
-void add_section(const char* type, const std::string& name, const RopePath& path,
-                 const std::vector<std::size_t>& places, const RopeMaterial& material, const YamlValue& entry,
-                 Recorded recorded, Model& model) {
+const RopeSection& add_section(const char* type, const std::string& name, const RopePath& path,
+                               const std::vector<std::size_t>& places, const RopeMaterial& material,
+                               const YamlValue& entry, Recorded recorded, Model& model) {
   RopePath part;
   for (const std::size_t k : places) {
     part.nodes.push_back(path.nodes[k]);
     part.names.push_back(path.names[k]);
     part.pulleys.push_back(path.pulleys[k]);
     part.drawn.push_back(path.drawn[k]);
+    part.turns.push_back(path.turns[k]);
   }
   try {
-    model.add(std::make_unique<RopeSection>(type, name, part.nodes, part.names, part.pulleys, material, part.drawn),
-              Entry{Section::joints, name}, recorded);
+    auto section = std::make_unique<RopeSection>(type, name, std::move(part), material);
+    const RopeSection& added = *section;
+    model.add(std::move(section), Entry{Section::joints, name}, recorded);
+    return added;
   } catch (const std::domain_error& error) {
     entry.at("radii").fail(error.what());
+  }
+}
+
+/// Watches the pulleys that the rope grips between its sections.
+void add_grips(const std::string& name, const std::vector<const RopeSection*>& sections, bool closed, Model& model) {
+  for (std::size_t k = closed ? 0 : 1; k < sections.size(); ++k) {
+    const RopeSection &before = *sections[(k + sections.size() - 1) % sections.size()], &after = *sections[k];
+    if (after.path().pulleys.front().radius != 0)
+      model.add(std::make_unique<RopeGrip>(before, after), Entry{Section::joints, name}, Recorded::no);
   }
 }
 
@@ -111,12 +131,16 @@ void read_belt(const std::string& name, const YamlValue& entry, Model& model) {
     entry.at("nodes").fail("a belt closes by itself: name its first node once");
   for (std::size_t k = 0; k < count; ++k)
     if (path.pulleys[k].radius == 0) entry.at("radii").fail("a belt runs over pulleys: radii other than 0");
+  std::vector<const RopeSection*> sections;
   for (std::size_t k = 0; k < count; ++k)
-    add_section("belt", name, path, {k, (k + 1) % count}, material, entry, Recorded::stacked, model);
+    sections.push_back(
+        &add_section("belt", name, path, {k, (k + 1) % count}, material, entry, Recorded::stacked, model));
+  add_grips(name, sections, true, model);
 }
 
 void read_cable(const std::string& name, const YamlValue& entry, Model& model) {
-  entry.check_keys({"type", "nodes", "radii", "axis", "at", "grips", "EA", "pretension", "damping"}, "a cable");
+  entry.check_keys({"type", "nodes", "radii", "axis", "at", "grips", "turns", "EA", "pretension", "damping"},
+                   "a cable");
   const RopePath path = read_path(entry, model);
   const RopeMaterial material = read_material(entry);
   refuse_starts_beyond_half_a_turn(entry, nodes_with_pulleys(path), model);
@@ -130,6 +154,9 @@ void read_cable(const std::string& name, const YamlValue& entry, Model& model) {
         if (path.nodes[k] == node) grips[k] = found = true;
       if (!found) item.fail("is none of the cable's nodes");
     }
+  for (std::size_t k = 0; k < path.nodes.size(); ++k)
+    if (path.turns[k] > 0 && (grips[k] || path.pulleys[k].radius == 0))
+      entry.at("turns").at(k).fail("is for pulleys on which the rope slides: it begins or ends here, or there is none");
   std::vector<std::size_t> places{0};
   std::vector<std::vector<std::size_t>> sections;
   for (std::size_t k = 1; k < path.nodes.size(); ++k) {
@@ -139,8 +166,10 @@ void read_cable(const std::string& name, const YamlValue& entry, Model& model) {
     places = {k};
   }
   const Recorded recorded = sections.size() > 1 ? Recorded::stacked : Recorded::alone;
+  std::vector<const RopeSection*> added;
   for (const std::vector<std::size_t>& section : sections)
-    add_section("cable", name, path, section, material, entry, recorded, model);
+    added.push_back(&add_section("cable", name, path, section, material, entry, recorded, model));
+  add_grips(name, added, false, model);
 }
 
 }  // namespace bielle::mechanism

@@ -6,124 +6,189 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "mechanism/measures/turns.hpp"
-#include "mechanism/model/description.hpp"
-#include "mechanism/model/measure.hpp"
+#include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
-namespace {
-
-constexpr int per_span = 4;  ///< memory: two angles with their rates
-
-/// Angle, from 0 to one turn, by which the rope turns about a pulley in its own sense.
-double arc_angle(double turn, double radius) {
-  const double angle = std::fmod(radius > 0 ? turn : -turn, 2 * M_PI);
-  const double positive = angle < 0 ? angle + 2 * M_PI : angle;
-  return positive > 2 * M_PI - 1e-9 ? 0 : positive;  // it just touches
-}
-
-}  // namespace
-
-RopeSection::RopeSection(std::string type, std::string name, std::vector<int> nodes, std::vector<std::string> names,
-                         std::vector<Pulley> pulleys, const RopeMaterial& material, const std::vector<Frame>& drawn)
+RopeSection::RopeSection(std::string type, std::string name, RopePath path, const RopeMaterial& material)
     : Component(std::move(type), std::move(name)),
-      nodes_(std::move(nodes)),
-      names_(std::move(names)),
-      pulleys_(std::move(pulleys)),
+      path_(std::move(path)),
+      courses_(path_.pulleys),
       material_(material) {
-  const auto at = [&](std::size_t k) {
-    NodeState node;
-    node.x = drawn[k].x;
-    node.R = drawn[k].R;
-    return node;
-  };
-  double length = 0;
-  for (std::size_t s = 0; s < spans(); ++s) {
-    const Pulley &from = pulleys_[s], &to = pulleys_[s + 1];
-    const NodeState first = at(s), second = at(s + 1);
-    const double way = (second.x + second.R * to.on_node.x - first.x - first.R * from.on_node.x).norm();
-    if (way <= std::abs(to.radius - from.radius))
-      throw std::domain_error(
-          fmt::format("there is no straight way from '{}' to '{}': the pulleys overlap", names_[s], names_[s + 1]));
-    const SpanMeasures span = measure_span(first, second, from, to);
-    length += span.length.value;
-    drawn_turns_.insert(drawn_turns_.end(), {span.first_turn.value, span.second_turn.value});
-    turns_drawn_ += from.radius * span.first_turn.value - to.radius * span.second_turn.value;
-    if (s == 0 || from.radius == 0) continue;
-    const SpanMeasures before = measure_span(at(s - 1), first, pulleys_[s - 1], from);
-    arcs_drawn_ += std::abs(from.radius) * arc_angle(span.first_turn.value - before.second_turn.value, from.radius);
+  std::vector<NodeState> nodes(path_.nodes.size());
+  std::vector<Frame> at;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    nodes[k].x = path_.drawn[k].x;
+    nodes[k].R = path_.drawn[k].R;
+    at.push_back(path_.drawn[k] * path_.pulleys[k].on_node);
+    if (k == 0) continue;
+    if ((at[k].x - at[k - 1].x).norm() <= std::abs(path_.pulleys[k].radius - path_.pulleys[k - 1].radius))
+      throw std::domain_error(fmt::format("there is no straight way from '{}' to '{}': the pulleys overlap",
+                                          path_.names[k - 1], path_.names[k]));
   }
-  spans_drawn_ = length;
-  E_drawn_ = material_.pretension * (length + arcs_drawn_) / (material_.EA + material_.pretension);
+  drawn_places_ = courses_.as_drawn(at, path_.turns);
+  RopeCourse course;
+  courses_.get_course(drawn_places_, course);
+  for (std::size_t s = 0; s + 1 < course.places.size(); ++s) {
+    const auto i = static_cast<std::size_t>(course.places[s]), j = static_cast<std::size_t>(course.places[s + 1]);
+    const SpanMeasures span = measure_span(nodes[i], nodes[j], course.pulleys[s], course.pulleys[s + 1]);
+    drawn_length_ += span.length.value;
+    if (s == 0) drawn_ends_[first_end] = span.first_turn.value;
+    if (s > 0) drawn_length_ += std::abs(course.pulleys[s].radius) * drawn_places_[i].wrap;
+    if (s + 2 == course.places.size()) drawn_ends_[last_end] = span.second_turn.value;
+  }
+  for (int k = 1; k < courses_.last(); ++k)
+    if (courses_.may_leave(k)) watched_.push_back(k);
+  E_drawn_ = material_.pretension * drawn_length_ / (material_.EA + material_.pretension);
 }
 
 void RopeSection::declare(Declaration& declaration) const {
-  declaration.nodes = nodes_;
+  declaration.nodes = path_.nodes;
   declaration.stiffness = declaration.kinks = true;
   declaration.damping = material_.damping > 0;
-  declaration.memory.assign(per_span * spans(), 0.0);  // angles beyond those drawn
-  declaration.memory.push_back(std::numeric_limits<double>::quiet_NaN());
-  declaration.memory.push_back(E_drawn_ > 0 ? 1 : 0);  // whether it is taut
+  declaration.memory.assign(places_memory + 3 * static_cast<std::size_t>(courses_.last() - 1), 0.0);
+  declaration.memory[time_memory] = std::numeric_limits<double>::quiet_NaN();
+  declaration.memory[taut_memory] = E_drawn_ > 0 ? 1 : 0;
+  remember_places(drawn_places_,
+                  Eigen::Map<VectorX>(declaration.memory.data(), static_cast<Eigen::Index>(declaration.memory.size())));
   declaration.crossings = {{"becomes taut or slack"}};
+  for (const int place : watched_) {
+    const std::string& pulley = path_.names[static_cast<std::size_t>(place)];
+    declaration.crossings.push_back({fmt::format("leaves pulley '{}'", pulley), Crossing::Direction::falling});
+    declaration.crossings.push_back({fmt::format("comes onto pulley '{}'", pulley), Crossing::Direction::falling});
+  }
 }
 
-namespace {
+// -- which pulleys it touches
 
-/// An angle of a span beyond the drawn one, counted over turns.
-double beyond_drawn(const PairMeasure& angle, double drawn, const Eigen::Vector2d& before, double time_before,
-                    double rate, const LocalState& state) {
-  return counted_angle({angle.value - drawn, rate}, {before[0], before[1]}, time_before, state);
+void RopeSection::get_poses(const LocalState& state, std::vector<Frame>& at) const {
+  at.resize(path_.pulleys.size());
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    const NodeState& node = state.node(static_cast<int>(k));
+    at[k] = Frame{node.x, node.R} * path_.pulleys[k].on_node;
+  }
 }
 
-}  // namespace
+/// On the branch of the motion; in statics by the position.
+void RopeSection::get_places(const LocalState& state, std::vector<RopePlace>& places) const {
+  const auto memory = state.memory();
+  places.assign(path_.pulleys.size(), RopePlace());
+  for (int k = 1; k < courses_.last(); ++k)
+    places[static_cast<std::size_t>(k)] = {memory[memory_of(k)], memory[memory_of(k) + 1]};
+  if (watched_.empty() || !state.environment().statics) return;
+  thread_local std::vector<Frame> at;
+  get_poses(state, at);
+  courses_.settle(at, places);
+}
+
+void RopeSection::remember_places(const std::vector<RopePlace>& places, Eigen::Ref<VectorX> memory) const {
+  for (int k = 1; k < courses_.last(); ++k) {
+    memory[memory_of(k)] = places[static_cast<std::size_t>(k)].sense;
+    memory[memory_of(k) + 1] = places[static_cast<std::size_t>(k)].wrap;
+  }
+}
+
+// -- the section as a whole
 
 void RopeSection::calc_stretch(const LocalState& state, Stretch& stretch) const {
-  const auto n = static_cast<Eigen::Index>(6 * nodes_.size());
-  const auto memory = state.memory();
-  const double time_before = memory[time_memory()];
+  get_places(state, stretch.places);
+  calc_along(state, stretch);
+}
+
+/// @param stretch  with what each place does
+void RopeSection::calc_along(const LocalState& state, Stretch& stretch) const {
+  thread_local RopeCourse course;
+  courses_.get_course(stretch.places, course);
+  const auto n = static_cast<Eigen::Index>(6 * path_.nodes.size());
   stretch.E_gradient.setZero(n);
   stretch.L_gradient.setZero(n);
   stretch.E_second.setZero(n, n);
-  stretch.E = E_drawn_ - spans_drawn_ - turns_drawn_;
-  stretch.L = arcs_drawn_;
-  stretch.E_rate = 0;
-  for (std::size_t s = 0; s < spans(); ++s) {
-    const int k = static_cast<int>(s);
-    const NodeState &first = state.node(k), &second = state.node(k + 1);
-    const Pulley &from = pulleys_[s], &to = pulleys_[s + 1];
-    const SpanMeasures span = measure_span(first, second, from, to);
-    const Vector12 v = pair_rate(first, second);
-    PairMeasure first_turn = span.first_turn, second_turn = span.second_turn;
-    const Eigen::Index at = per_span * k;
-    first_turn.value = drawn_turns_[2 * s] + beyond_drawn(first_turn, drawn_turns_[2 * s], memory.segment<2>(at),
-                                                          time_before, first_turn.rate(v), state);
-    second_turn.value =
-        drawn_turns_[2 * s + 1] + beyond_drawn(second_turn, drawn_turns_[2 * s + 1], memory.segment<2>(at + 2),
-                                               time_before, second_turn.rate(v), state);
-    const PairMeasure e = span.length + from.radius * first_turn - to.radius * second_turn;
-    stretch.E += e.value;
-    stretch.E_rate += e.rate(v);
-    stretch.E_gradient.segment<12>(6 * k) += e.gradient;
-    stretch.E_second.block<12, 12>(6 * k, 6 * k) += e.second;
-    PairMeasure l = span.length;
-    if (s > 0) l += from.radius * (first_turn - drawn_turns_[2 * s]);
-    if (s + 1 < spans()) l -= to.radius * (second_turn - drawn_turns_[2 * s + 1]);
-    stretch.L += l.value;
-    stretch.L_gradient.segment<12>(6 * k) += l.gradient;
-  }
+  stretch.wrap_rates.assign(stretch.places.size(), 0.0);
+  stretch.E = E_drawn_ - drawn_length_;
+  stretch.L = stretch.E_rate = 0;
+  CoordinateRate arriving;
+  for (std::size_t s = 0; s + 1 < course.places.size(); ++s) arriving = add_span(state, course, s, arriving, stretch);
+  stretch.E += stretch.L;
   const double natural = stretch.L - stretch.E;
   if (!(natural > 0)) {
     stretch.taut = stretch.stretched = false;
     stretch.tension = std::numeric_limits<double>::quiet_NaN();  // wound up to its end: no trial state
     return;
   }
-  const bool stretched = state.environment().statics ? stretch.E >= 0 : memory[time_memory() + 1] != 0;
+  const bool stretched = state.environment().statics ? stretch.E >= 0 : state.memory()[taut_memory] != 0;
   const double T = material_.EA * (stretch.E + material_.damping * stretch.E_rate) / natural;
   stretch.stretched = stretched;
   stretch.taut = stretched && T >= 0;
   stretch.tension = stretch.taut ? T : 0;
+}
+
+/// Adds a span and what winds round the place that it leaves.
+/// @param arriving  direction of the span before at that place, with its rate
+/// @returns direction at the place that it goes to
+CoordinateRate RopeSection::add_span(const LocalState& state, const RopeCourse& course, std::size_t s,
+                                     const CoordinateRate& arriving, Stretch& stretch) const {
+  const int i = course.places[s], j = course.places[s + 1];
+  const NodeState &first = state.node(i), &second = state.node(j);
+  const Pulley &from = course.pulleys[s], &to = course.pulleys[s + 1];
+  const bool begins = s == 0, ends = s + 2 == course.places.size();
+  check_way(state, i, j, std::abs(from.radius - to.radius));
+  const SpanMeasures span = measure_span(first, second, from, to);
+  const Vector12 v = pair_rate(first, second);
+  const PairMeasure e = span.length + from.radius * span.first_turn - to.radius * span.second_turn;
+  stretch.E_rate += e.rate(v);
+  Vector12 L_gradient = span.length.gradient;
+  if (!begins) L_gradient += from.radius * span.first_turn.gradient;
+  if (!ends) L_gradient -= to.radius * span.second_turn.gradient;
+  for (const auto& [place, at] : {std::pair(i, 0), std::pair(j, 6)}) {
+    stretch.E_gradient.segment<6>(6 * place) += e.gradient.segment<6>(at);
+    stretch.L_gradient.segment<6>(6 * place) += L_gradient.segment<6>(at);
+    for (const auto& [other, by] : {std::pair(i, 0), std::pair(j, 6)})
+      stretch.E_second.block<6, 6>(6 * place, 6 * other) += e.second.block<6, 6>(at, by);
+  }
+  stretch.L += span.length.value;
+  const CoordinateRate leaving{span.first_turn.value, span.first_turn.rate(v)};
+  const CoordinateRate there{span.second_turn.value, span.second_turn.rate(v)};
+  const auto memory = state.memory();
+  const auto end = [&](End which, const CoordinateRate& angle) {
+    const double before = memory[ends_memory + 2 * which], rate = memory[ends_memory + 2 * which + 1];
+    stretch.ends[which] = {
+        counted_angle({angle.value - drawn_ends_[which], angle.rate}, {before, rate}, memory[time_memory], state),
+        angle.rate};
+    return stretch.ends[which].value;
+  };
+  if (begins)
+    stretch.E += from.radius * end(first_end, leaving);
+  else if (from.radius != 0)
+    stretch.L += std::abs(from.radius) * count_wrap(state, i, from.radius, leaving, arriving, stretch);
+  if (ends) stretch.E -= to.radius * end(last_end, there);
+  return there;
+}
+
+/// @throws ComputationError  where there is none
+void RopeSection::check_way(const LocalState& state, int i, int j, double least) const {
+  const auto point = [&](int k) -> Vector3 {
+    const NodeState& node = state.node(k);
+    return node.x + node.R * path_.pulleys[static_cast<std::size_t>(k)].on_node.x;
+  };
+  if ((point(j) - point(i)).squaredNorm() > least * least) return;
+  throw ComputationError(fmt::format("t = {:.6g} s: {} '{}' has no straight way from '{}' to '{}': the pulleys overlap",
+                                     state.time(), type(), name(), path_.names[static_cast<std::size_t>(i)],
+                                     path_.names[static_cast<std::size_t>(j)]));
+}
+
+/// The wrap of a touched place at this state, from the directions in which the rope arrives and leaves.
+double RopeSection::count_wrap(const LocalState& state, int place, double radius, const CoordinateRate& leaving,
+                               const CoordinateRate& arriving, Stretch& stretch) const {
+  const auto k = static_cast<std::size_t>(place);
+  const auto memory = state.memory();
+  const double sense = radius > 0 ? 1 : -1, rate = sense * (leaving.rate - arriving.rate);
+  double expected = stretch.places[k].wrap;
+  if (const double passed = state.time() - memory[time_memory]; passed > 0)
+    expected += 0.5 * (memory[memory_of(place) + 2] + rate) * passed;
+  stretch.wrap_rates[k] = rate;
+  stretch.places[k].wrap = unwrap_angle(sense * (leaving.value - arriving.value), expected);
+  return stretch.places[k].wrap;
 }
 
 void RopeSection::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
@@ -171,108 +236,76 @@ void RopeSection::add_energy(const LocalState& state, Energy& energy) const {
   energy.dissipation += (s.tension - elastic_tension) * s.E_rate;
 }
 
+// -- what it remembers
+
 void RopeSection::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {
-  const auto before = state.memory();
-  const double time_before = before[time_memory()];
-  for (std::size_t s = 0; s < spans(); ++s) {
-    const int k = static_cast<int>(s);
-    const NodeState &first = state.node(k), &second = state.node(k + 1);
-    const SpanMeasures span = measure_span(first, second, pulleys_[s], pulleys_[s + 1]);
-    const Vector12 v = pair_rate(first, second);
-    for (const int end : {0, 1}) {
-      const PairMeasure& turn = end == 0 ? span.first_turn : span.second_turn;
-      const Eigen::Index at = per_span * k + 2 * end;
-      const double rate = turn.rate(v);
-      memory[at] = beyond_drawn(turn, drawn_turns_[2 * s + static_cast<std::size_t>(end)], before.segment<2>(at),
-                                time_before, rate, state);
-      memory[at + 1] = rate;
-    }
+  thread_local Stretch s;
+  thread_local std::vector<Frame> at;
+  calc_stretch(state, s);
+  get_poses(state, at);
+  for (const int place : watched_)
+    if (RopePlace& each = s.places[static_cast<std::size_t>(place)]; !RopeCourses::touches(each))
+      each.wrap = courses_.side(at, s.places, place);
+  remember_places(s.places, memory);
+  for (int k = 1; k < courses_.last(); ++k) memory[memory_of(k) + 2] = s.wrap_rates[static_cast<std::size_t>(k)];
+  for (const End end : {first_end, last_end}) {
+    memory[ends_memory + 2 * end] = s.ends[end].value;
+    memory[ends_memory + 2 * end + 1] = s.ends[end].rate;
   }
-  memory[time_memory()] = state.time();
+  memory[time_memory] = state.time();
 }
 
 bool RopeSection::leaves_branch(const LocalState& state) const {
   thread_local Stretch s;
   calc_stretch(state, s);
-  return s.stretched && s.E < 0;
+  if (s.stretched && s.E < 0) return true;
+  if (watched_.empty()) return false;
+  thread_local std::vector<Frame> at;
+  get_poses(state, at);
+  return std::any_of(watched_.begin(), watched_.end(), [&](int place) {
+    const auto k = static_cast<std::size_t>(place);
+    // Beyond where the crossing is.
+    if (RopeCourses::touches(s.places[k])) return s.places[k].wrap < -2 * just_touching;
+    return courses_.clearance(at, s.places, place) < -2 * just_touching * std::abs(path_.pulleys[k].radius);
+  });
 }
 
-void RopeSection::begin_branch(const LocalState& state, std::span<const int> /*crossed*/,
+void RopeSection::begin_branch(const LocalState& state, std::span<const int> crossed,
                                Eigen::Ref<VectorX> memory) const {
   thread_local Stretch s;
-  calc_stretch(state, s);
-  memory[time_memory() + 1] = s.E > 0 || (s.E == 0 && s.E_rate >= 0) ? 1 : 0;
+  get_places(state, s.places);
+  if (!watched_.empty()) {
+    thread_local std::vector<Frame> at;
+    get_poses(state, at);
+    for (const int k : crossed) {
+      if (k == 0) continue;
+      RopePlace& place = s.places[static_cast<std::size_t>(watched_[static_cast<std::size_t>((k - 1) / 2)])];
+      const bool leaves = k % 2 == 1;
+      if (leaves == RopeCourses::touches(place)) place = leaves ? RopePlace{0, place.sense} : RopePlace{place.wrap, 0};
+    }
+    courses_.settle(at, s.places);
+    remember_places(s.places, memory);
+  }
+  calc_along(state, s);
+  memory[taut_memory] = s.E > 0 || (s.E == 0 && s.E_rate >= 0) ? 1 : 0;
 }
 
 void RopeSection::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const {
   thread_local Stretch s;
+  thread_local std::vector<Frame> at;
   calc_stretch(state, s);
+  if (!watched_.empty()) get_poses(state, at);
+  values.setConstant(-1);  // neither leaves what it does not touch, nor comes onto what it does
   values[0] = s.E;
-}
-
-std::vector<OutputField> RopeSection::output_fields() const {
-  return {{"tension", {}, "N", "of the rope"},
-          {"elongation", {}, "m", "by which the section is longer than its rope without load"},
-          {"length", {}, "m", "of the section, arcs on pulleys between its ends included"}};
-}
-
-void RopeSection::write_output(const LocalState& state, double* values) const {
-  thread_local Stretch s;
-  calc_stretch(state, s);
-  values[0] = s.tension;
-  values[1] = s.E;
-  values[2] = s.L;
-}
-
-void RopeSection::describe(const LocalState& state, Description& description) const {
-  thread_local Stretch s;
-  calc_stretch(state, s);
-  description.add(fmt::format("from '{}' to '{}': length {:.6g} m, stiffness {:.6g} N/m, tension {:.6g} N",
-                              names_.front(), names_.back(), s.L, material_.EA / (s.L - s.E), s.tension));
-  if (names_.size() > 2)
-    description.add(fmt::format("slides on {}", fmt::join(names_.begin() + 1, names_.end() - 1, ", ")));
-}
-
-namespace {
-
-class TensionMeasure final : public Measure {
- public:
-  TensionMeasure(std::string name, const RopeSection& rope) : Measure(std::move(name)), rope_(rope) {}
-  std::string units() const override { return "N"; }
-  double value(const LocalState& state) const override {
-    thread_local RopeSection::Stretch s;
-    rope_.calc_stretch(state.of(0), s);
-    return s.tension;
+  for (std::size_t w = 0; w < watched_.size(); ++w) {
+    const auto k = static_cast<std::size_t>(watched_[w]);
+    const auto leaves = 1 + 2 * static_cast<Eigen::Index>(w);
+    const double radius = std::abs(path_.pulleys[k].radius);
+    if (RopeCourses::touches(s.places[k]))
+      values[leaves] = radius * (s.places[k].wrap + just_touching);
+    else
+      values[leaves + 1] = courses_.clearance(at, s.places, watched_[w]) + just_touching * radius;
   }
-  double calc(const LocalState& state, MeasureGradient& gradient) const override {
-    gradient.prepare(state.slots().size());
-    thread_local RopeSection::Stretch s;
-    const LocalState of_rope = state.of(0);
-    rope_.calc_stretch(of_rope, s);
-    if (!s.taut) return s.tension;
-    const int row = state.slots().reference_row(0);
-    const auto n = s.E_gradient.size();
-    const double natural = s.L - s.E, k = rope_.material().EA / natural, by_rate = k * rope_.material().damping;
-    VectorX v(of_rope.slots().size());
-    get_local_velocities(of_rope, v);
-    gradient.position().segment(row, n) = (k + s.tension / natural) * s.E_gradient -
-                                          (s.tension / natural) * s.L_gradient +
-                                          by_rate * (s.E_second.transpose() * v.head(n));
-    gradient.rate().segment(row, n) = by_rate * s.E_gradient;
-    return s.tension;
-  }
-
- private:
-  void declare_subjects(Declaration& declaration) const override { declaration.references = {&rope_}; }
-  const RopeSection& rope_;
-};
-
-}  // namespace
-
-std::vector<std::string> RopeSection::measure_names() const { return {"tension"}; }
-
-std::unique_ptr<Measure> RopeSection::make_measure(const std::string& name, const std::string& /*measure*/) const {
-  return std::make_unique<TensionMeasure>(name, *this);
 }
 
 }  // namespace bielle::mechanism

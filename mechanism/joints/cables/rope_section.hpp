@@ -1,19 +1,22 @@
 // A rope, belt or chain between two places that grip it, over pulleys on which it slides without friction.
 //
-// Along a section the tension is one. With the elongation E, the sum of those of its spans (rope_span.hpp: what winds
-// around a pulley between two spans cancels, so that only the ends take torque), and its present length L, arcs
-// included:
+// Along a section the tension is one. With the length l of its spans (rope_span.hpp), the wraps theta of the pulleys of
+// radius rho between that it touches (rope_course.hpp), and the angles alpha + gamma by which its ends wind,
+//     L = sum of l + sum of rho theta,   E = L + rho_0 (alpha_0 + gamma_0) - rho_n (alpha_n + gamma_n) - (as drawn)
+// are its length and its elongation, and
 //     T = max(0, EA (E + tau Edot)/(L - E)) while E > 0, and 0 otherwise;   L - E: how long that piece is without load.
-// Drums take up and let out rope, so that the section's stiffness EA/(L - E) changes with its length. What is wound up
+// Where the rope leaves a pulley, or comes onto it, steps end: which it touches stands in the memory. Drums take up and
+// let out rope, so that the section's stiffness EA/(L - E) changes with its length. What is wound up
 // keeps its strain: the energy 1/2 T^2/EA per length that goes with it is counted as input (negative when wound up).
 // A belt is a chain of sections of one span each. A rope has no mass and does not push: steps
 // end where it becomes slack or taut.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
-#include "mechanism/joints/cables/rope_span.hpp"
+#include "mechanism/joints/cables/rope_course.hpp"
 #include "mechanism/model/model.hpp"
 #include "reduce/common/yaml_file.hpp"
 
@@ -25,13 +28,20 @@ struct RopeMaterial {
   double pretension = 0;  ///< as drawn [N]
 };
 
+/// The places that a rope passes, in order.
+struct RopePath {
+  std::vector<int> nodes;
+  std::vector<std::string> names;
+  std::vector<Pulley> pulleys;
+  std::vector<Frame> drawn;  ///< of the nodes
+  std::vector<int> turns;    ///< that it winds round each more than drawn
+};
+
 class RopeSection final : public Component {
  public:
-  /// @param nodes,names,pulleys  in the order in which the rope passes them, two at least
-  /// @param drawn  frames of the nodes as drawn
+  /// @param path  of two places at least
   /// @throws std::domain_error  where pulleys overlap
-  RopeSection(std::string type, std::string name, std::vector<int> nodes, std::vector<std::string> names,
-              std::vector<Pulley> pulleys, const RopeMaterial& material, const std::vector<Frame>& drawn);
+  RopeSection(std::string type, std::string name, RopePath path, const RopeMaterial& material);
 
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
@@ -45,38 +55,56 @@ class RopeSection final : public Component {
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
   void describe(const LocalState& state, Description& description) const override;
+  std::string remark() const override;
   std::vector<std::string> measure_names() const override;
   std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const override;
 
+  enum End : std::size_t { first_end, last_end };
   /// The whole section at a state, along the increments of its nodes.
   struct Stretch {
     double E = 0, E_rate = 0, L = 0, tension = 0;
     VectorX E_gradient, L_gradient;
     MatrixX E_second;
-    bool stretched = false;  ///< on the branch of E > 0
-    bool taut = false;       ///< and under tension
+    bool stretched = false;              ///< on the branch of E > 0
+    bool taut = false;                   ///< and under tension
+    std::array<CoordinateRate, 2> ends;  ///< alpha + gamma there, beyond that as drawn [rad]
+    std::vector<RopePlace> places;
+    std::vector<double> wrap_rates;  ///< of each place [rad/s]
   };
   void calc_stretch(const LocalState& state, Stretch& stretch) const;
   const RopeMaterial& material() const { return material_; }
+  const RopePath& path() const { return path_; }
+  /// As drawn: alpha + gamma at an end.
+  double drawn_end(End end) const { return drawn_ends_[end]; }
 
  private:
-  std::size_t spans() const { return pulleys_.size() - 1; }
-  // Memory: two angles with their rates of each span, the time of the last accepted step, whether it is taut.
-  Eigen::Index time_memory() const { return 4 * static_cast<Eigen::Index>(spans()); }
-  std::vector<int> nodes_;
-  std::vector<std::string> names_;
-  std::vector<Pulley> pulleys_;
+  // Memory: the time of the last accepted step, whether it is taut; then angle and rate of both ends; then sense, wrap
+  // and its rate of each place between them.
+  enum : Eigen::Index { time_memory, taut_memory, ends_memory, places_memory = 6 };
+  static Eigen::Index memory_of(int place) { return places_memory + 3 * (place - 1); }
+  void get_poses(const LocalState& state, std::vector<Frame>& at) const;
+  void get_places(const LocalState& state, std::vector<RopePlace>& places) const;
+  void remember_places(const std::vector<RopePlace>& places, Eigen::Ref<VectorX> memory) const;
+  void calc_along(const LocalState& state, Stretch& stretch) const;
+  CoordinateRate add_span(const LocalState& state, const RopeCourse& course, std::size_t s,
+                          const CoordinateRate& arriving, Stretch& stretch) const;
+  double count_wrap(const LocalState& state, int place, double radius, const CoordinateRate& leaving,
+                    const CoordinateRate& arriving, Stretch& stretch) const;
+  void check_way(const LocalState& state, int i, int j, double least) const;
+
+  RopePath path_;
+  RopeCourses courses_;
   RopeMaterial material_;
-  double E_drawn_ = 0;               ///< by the pretension
-  double spans_drawn_ = 0;           ///< sum of l as drawn
-  double turns_drawn_ = 0;           ///< sum of rho_i (alpha_i + gamma) - rho_j (alpha_j + gamma) as drawn
-  double arcs_drawn_ = 0;            ///< length on the pulleys between the ends, as drawn
-  std::vector<double> drawn_turns_;  ///< alpha + gamma at both ends of each span as drawn
+  std::vector<RopePlace> drawn_places_;
+  std::vector<int> watched_;            ///< places that the rope may leave
+  std::array<double, 2> drawn_ends_{};  ///< alpha + gamma at both ends as drawn
+  double E_drawn_ = 0;                  ///< by the pretension
+  double drawn_length_ = 0;
 };
 
 /// `belt: {nodes, radii, axis, EA, pretension, damping}`: closed, gripping every pulley.
 void read_belt(const std::string& name, const YamlValue& entry, Model& model);
-/// `cable: {nodes, radii, axis, at, grips, EA, pretension, damping}`: from the first node to the last.
+/// `cable: {nodes, radii, axis, at, grips, turns, EA, pretension, damping}`: from the first node to the last.
 void read_cable(const std::string& name, const YamlValue& entry, Model& model);
 
 }  // namespace bielle::mechanism

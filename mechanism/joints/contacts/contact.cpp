@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "mechanism/model/description.hpp"
+#include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -311,11 +313,28 @@ void Contact::begin_branch(const LocalState& state, std::span<const int> /*cross
   remember(state, memory);
 }
 
+/// Of the middle of a shape over a plane [m].
+double Contact::height_of_middle(const LocalState& state, int plane, int other) const {
+  const NodeState &of_plane = state.node(local_node(plane)), &of_other = state.node(local_node(other));
+  const Frame &P = shape(plane).frame, &O = shape(other).frame;
+  const Vector3 normal = of_plane.R * P.R.col(2);
+  return normal.dot(of_other.x + of_other.R * (O.x + O.R * shape(other).middle()) - of_plane.x - of_plane.R * P.x);
+}
+
 /// @throws ComputationError where what presses does not know the way out any more
 void Contact::check_depth(const LocalState& state, int pair, const PairForce::Nearest& found) const {
   const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
-  if (std::isinf(shape(a).thickness()) || std::isinf(shape(b).thickness()))
-    return;  // a plane always knows where out is
+  // A plane always knows where out is. What has its middle behind it is felt no more as what it is.
+  for (const auto& [plane, other] : {std::pair(a, b), std::pair(b, a)}) {
+    if (shape(plane).kind != ContactShape::Kind::plane) continue;
+    const double behind = -height_of_middle(state, plane, other);
+    if (behind > 0)
+      throw ComputationError(fmt::format(
+          "contact '{}' at t = {:.6g} s: {} has gone through {} with its middle, which is {:.3g} m behind it; make the "
+          "contact stiffer",
+          name(), state.time(), shape_name(other), shape_name(plane), behind));
+    return;
+  }
   const double most = shape(a).skin() + shape(b).skin();
   if (-found.gap > most)
     throw ComputationError(
@@ -359,10 +378,13 @@ void Contact::remember(const LocalState& state, Eigen::Ref<VectorX> memory) cons
   if (has_bristles()) remember_bristles(state, near, memory);
 }
 
+std::string Contact::shape_name(int k) const {
+  return fmt::format("{} on '{}'", shape(k).kind_name(), shape(k).node_name);
+}
+
 std::string Contact::pair_name(int pair) const {
   const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
-  return fmt::format("{} on '{}' and {} on '{}'", shape(a).kind_name(), shape(a).node_name, shape(b).kind_name(),
-                     shape(b).node_name);
+  return fmt::format("{} and {}", shape_name(a), shape_name(b));
 }
 
 std::pair<std::string, double> Contact::drawn_into_each_other(const Model& model) const {

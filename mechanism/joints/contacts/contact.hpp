@@ -10,7 +10,8 @@
 // What is thinner than the way of a step might pass through another shape unseen. A trial in which this happens, by the
 // straight way from where the shapes were at the step's start, is refused: the step is made shorter. So is one in which
 // shapes that touch at either end of it move by more than half their thickness. What presses deeper than the skins of
-// both does not know the way out any more, nor does what has gone through the other's middle: the run ends.
+// both does not know the way out any more, nor does what has gone through the other's middle: the run ends, and so
+// it does where the middle of a shape has gone through a plane.
 //
 // Memory: [time and middles of the shapes at the last accepted step | with a restitution: damping of each pair, -1
 // while apart | with bristles: x and R of the nodes; the number of bristles, and pair,
@@ -119,6 +120,8 @@ class Contact final : public Component, public OpenContact {
   [[noreturn]] void fail_passage(const LocalState& state, int pair, const Vector3& way) const;
   bool has_surface(int a, int b) const;  ///< with something else than a plane
   double passage(int a, int b) const;    ///< twice as far as a pair may move in a step without a look [m]
+  double height_of_middle(const LocalState& state, int plane, int other) const;
+  std::string shape_name(int k) const;
   std::string pair_name(int pair) const;
 
   std::vector<ContactShape> shapes_;

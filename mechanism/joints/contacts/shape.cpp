@@ -34,6 +34,8 @@ double ContactShape::skin() const {
   }
 }
 
+Vector3 ContactShape::middle() const { return kind == Kind::surface ? surface->middle() : Vector3::Zero(); }
+
 double ContactShape::reach() const {
   switch (kind) {
     case Kind::sphere:

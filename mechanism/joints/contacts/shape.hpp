@@ -31,6 +31,7 @@ struct ContactShape {
   const char* kind_name() const;
   std::string describe() const;
   double skin() const;          ///< thickness of the skin around the core [m]
+  Vector3 middle() const;       ///< in the frame's axes [m]; of a surface, of the box around it
   double reach() const;         ///< of the farthest point from the frame's origin [m]; infinite of a plane
   double thickness() const;     ///< of its thinnest part; infinite of a plane, 0 of a surface [m]
   Vector3 half_extent() const;  ///< of the box along its axes that holds it, not of a plane or a surface [m]

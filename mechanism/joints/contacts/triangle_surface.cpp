@@ -27,6 +27,7 @@ void TriangleSurface::join_corners(const std::vector<Vector3>& corners) {
     high = high.cwiseMax(p);
   }
   size_ = (high - low).norm();
+  middle_ = 0.5 * (low + high);
   // Cells of the size within which corners are joined: what is as near stands in the same cell or the next.
   const double cell = std::max(1e-6 * size_, std::numeric_limits<double>::min());
   std::map<std::array<long, 3>, std::vector<int>> known;

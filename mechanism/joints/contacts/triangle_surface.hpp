@@ -26,6 +26,7 @@ class TriangleSurface {
   const std::vector<Triangle>& triangles() const { return triangles_; }
   double reach() const { return reach_; }               ///< of the farthest point from the origin [m]
   double size() const { return size_; }                 ///< of the box around it, from corner to corner [m]
+  const Vector3& middle() const { return middle_; }     ///< of that box [m]
   int open_edges() const { return open_edges_; }        ///< of one triangle alone: the surface ends there
   int flipped_edges() const { return flipped_edges_; }  ///< of triangles whose outsides are on different sides
 
@@ -119,6 +120,7 @@ class TriangleSurface {
   std::vector<int> order_;
   std::vector<Branch> tree_;
   double reach_ = 0, size_ = 0;
+  Vector3 middle_ = Vector3::Zero();
   int open_edges_ = 0, flipped_edges_ = 0;
 };
 

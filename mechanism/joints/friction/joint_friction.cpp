@@ -90,7 +90,7 @@ double JointFriction::normal_force(const LocalState& of_joint, VectorX& gradient
 
 void JointFriction::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
   const Slip& s = slip(state, false);
-  const Vector R = normal_force(state) * resistance(state, s.v).rho + held(state);
+  const Vector R = normal_force(state) * resistance(state, s.v).rho + held(state.multiplier());
   r.segment(row(state), s.w.rows()).noalias() += s.w * R;
 }
 
@@ -101,7 +101,7 @@ void JointFriction::add_tangent(const LocalState& state, LocalTangent& tangent) 
   const int at = row(state), n = of_joint.slots().size(), z = state.slots().first_order_row();
   thread_local VectorX by_reaction;
   const double N = normal_force(of_joint, by_reaction);
-  const Vector R = N * resist.rho + held(state);
+  const Vector R = N * resist.rho + held(state.multiplier());
   if (tangent.wants_K) {
     auto K = tangent.K.dense();
     auto block = K.block(at, at, n, n);
@@ -144,7 +144,7 @@ std::vector<OutputField> JointFriction::output_fields() const {
 void JointFriction::write_output(const LocalState& state, double* values) const {
   const Vector v = velocity(state);
   const double N = normal_force(state);
-  const Vector R = N * resistance(state, v).rho + held(state);
+  const Vector R = N * resistance(state, v).rho + held(state.reaction());
   const std::size_t count = joint_.coordinates().size();
   std::fill_n(values, count, 0.0);
   for (const FrictionSurface::Part& part : surface_.parts) values[part.coordinate] -= part.arm * R[part.component];

@@ -64,7 +64,8 @@ class JointFriction : public Component {
   /// Power that is lost per unit of N, never negative [m/s]. @param resistance  at this state
   virtual double loss(const LocalState& state, const Vector& v, const Resistance& resistance) const;
   /// Friction along the surface's directions that is no function of N: of a constraint that makes it stick [N].
-  virtual Vector held(const LocalState& /*state*/) const { return Vector::Zero(size()); }
+  /// @param lambda  the component's own multipliers: those of the equations, or the reactions of smallest norm
+  virtual Vector held(const LocalState::Segment& /*lambda*/) const { return Vector::Zero(size()); }
 
   int size() const { return surface_.components; }
   const FrictionLaw& law() const { return law_; }

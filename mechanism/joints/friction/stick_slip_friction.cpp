@@ -28,6 +28,7 @@ void StickSlipFriction::declare(Declaration& declaration) const {
   rest.begins_on = slip.begins_on = 1;  // what cannot stick slips at once
   slip.one_by_one = true;
   rest.nearest = slip.nearest = 1e-5;
+  slip.reads_reaction = true;
   declaration.crossings = {rest, slip};
 }
 
@@ -50,8 +51,8 @@ JointFriction::Resistance StickSlipFriction::resistance(const LocalState& state,
   return result;
 }
 
-JointFriction::Vector StickSlipFriction::held(const LocalState& state) const {
-  return Vector::Constant(1, state.multiplier()[0]);
+JointFriction::Vector StickSlipFriction::held(const LocalState::Segment& lambda) const {
+  return Vector::Constant(1, lambda[0]);
 }
 
 double StickSlipFriction::distance(const LocalState& state) const {
@@ -146,7 +147,7 @@ void StickSlipFriction::calc_crossings(const LocalState& state, Eigen::Ref<Vecto
       values[comes_to_rest] = !just_now ? std::max(v + rounding, a) : memory[refusals] < often ? a : 1;
     }
   } else if (holds(state)) {
-    values[begins_to_slip] = law().sticking * normal_force(state) - std::abs(state.multiplier()[0]);
+    values[begins_to_slip] = law().sticking * normal_force(state) - std::abs(state.reaction()[0]);
   } else if (is_on(state, 0) && std::abs(acceleration(state)) > no_acceleration(state)) {
     values[begins_to_slip] = -1;  // what others hold at its velocity of zero moves on
   }
@@ -199,7 +200,7 @@ void StickSlipFriction::begin_branch(const LocalState& state, std::span<const in
       stick_here(state, memory);
     }
   } else if (has_crossed(begins_to_slip)) {
-    slip_along(std::copysign(1.0, state.multiplier()[0]), false, state, memory);
+    slip_along(std::copysign(1.0, state.reaction()[0]), false, state, memory);
   } else if (has_crossed(comes_to_rest)) {
     stick_here(state, memory);
   }

@@ -50,7 +50,7 @@ class StickSlipFriction final : public JointFriction {
   double no_velocity(const LocalState& state) const;
   double no_acceleration(const LocalState& state) const;
   Resistance resistance(const LocalState& state, const Vector& v) const override;
-  Vector held(const LocalState& state) const override;
+  Vector held(const LocalState::Segment& lambda) const override;
 };
 
 }  // namespace bielle::mechanism

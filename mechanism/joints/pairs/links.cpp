@@ -65,7 +65,7 @@ void DistanceJoint::add_energy(const LocalState& state, Energy& energy) const {
   if (length_.is_constant()) return;
   const double t = state.time(), L = length_(t);
   const Vector3 d = point_of(state.node(1), frames().on_second.x) - point_of(state.node(0), frames().on_first.x);
-  energy.input -= state.multiplier()[0] * 0.5 * length_.derivative(t, 1) * (1 + d.squaredNorm() / (L * L));
+  energy.input -= state.reaction()[0] * 0.5 * length_.derivative(t, 1) * (1 + d.squaredNorm() / (L * L));
 }
 
 void DistanceJoint::add_break_points(std::vector<double>& times) const {

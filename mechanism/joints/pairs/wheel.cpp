@@ -9,6 +9,7 @@
 #include "mechanism/joints/pairs/tyre_force.hpp"
 #include "mechanism/model/description.hpp"
 #include "mechanism/reading/names.hpp"
+#include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -21,6 +22,9 @@ std::vector<MeasuredPair::Row> wheel_rows(bool rolls) {
   }
   return rows;
 }
+
+/// Sine of the angle between axis and normal below which a wheel lies flat.
+constexpr double flat = 1e-3;
 
 /// Three numbers that vary with the positions: components of an axis or of an arm.
 using VectorJet = std::array<PairMeasure, 3>;
@@ -76,9 +80,9 @@ WheelJoint::Slip WheelJoint::calc_slip(const LocalState& state) const {
   const NodeState &first = state.node(0), &second = state.node(1);
   const Frame &A = frames().on_first, &B = frames().on_second;
   // z_B along J_A, and z_A along J_B.
-  const PairMeasure b_x = alignment(0, 2, state), b_y = alignment(1, 2, state), c = alignment(2, 2, state);
+  const PairMeasure b_x = alignment(0, 2, state), b_y = alignment(1, 2, state);
   const PairMeasure n_x = alignment(2, 0, state), n_y = alignment(2, 1, state);
-  const PairMeasure s = sqrt(-square(c) + 1.0);
+  const PairMeasure s = sqrt(square(b_x) + square(b_y));
   const PairMeasure zero;
   const VectorJet t = turned(A.R, {b_y / s, -(b_x / s), zero}), l = turned(A.R, {b_x / s, b_y / s, zero});
   VectorJet arm = turned(B.R, {-radius_ * (n_x / s), -radius_ * (n_y / s), zero});
@@ -90,7 +94,12 @@ WheelJoint::Slip WheelJoint::calc_slip(const LocalState& state) const {
 }
 
 void WheelJoint::calc_rows(const LocalState& state, std::span<PairMeasure> rows) const {
-  rows[0] = radius_ * sqrt(-square(alignment(2, 2, state)) + 1.0) - position(2, state);
+  const PairMeasure squared = square(alignment(0, 2, state)) + square(alignment(1, 2, state));
+  if (!(squared.value > flat * flat))
+    throw ComputationError(fmt::format(
+        "t = {:.6g} s: the wheel of joint '{}' lies flat on its plane, where it has no lowest point to roll on",
+        state.time(), name()));
+  rows[0] = radius_ * sqrt(squared) - position(2, state);
   if (rows.size() == 1) return;
   const Slip slip = calc_slip(state);
   rows[1] = slip.longitudinal;
@@ -111,7 +120,7 @@ void read_wheel(const std::string& name, const YamlValue& entry, Model& model) {
   const Vector3 normal = entry.at("normal").direction(), axis = entry.at("axis").direction();
   const double radius = entry.at("radius").positive_number();
   const double s = std::sqrt(std::max(0.0, 1 - std::pow(normal.dot(axis), 2)));
-  if (s < 1e-3) entry.at("axis").fail("the wheel lies flat on the plane: its axis is parallel to `normal`");
+  if (s < flat) entry.at("axis").fail("the wheel lies flat on the plane: its axis is parallel to `normal`");
   // Below the wheel's middle: as far as the rim says, or in the plane through `position` or the first point of `at`.
   Vector3 middle = hub.x;
   double height = radius * s;

@@ -1,15 +1,16 @@
 // A thin wheel on a plane.
 //
 // The plane rides on the first node: J_A stands in it below the hub, z_A its `normal`. The wheel rides on the second
-// node: J_B stands in the middle of the hub, z_B along the wheel's `axis`. With c = z_A . z_B, s = sqrt(1 - c^2) and
-// the unit vector from the lowest point of the rim to the hub m = (z_A - c z_B)/s:
+// node: J_B stands in the middle of the hub, z_B along the wheel's `axis`. With c = z_A . z_B, s = sqrt(1 - c^2), which
+// is computed as the length of z_B across z_A (1 - c^2 loses its digits where the wheel is nearly flat), and the unit
+// vector from the lowest point of the rim to the hub m = (z_A - c z_B)/s:
 //     normal         r s - z_A . d = 0,   d from J_A to J_B: the rim touches the plane          (holonomic)
 //     longitudinal   t . v_c = 0,   t = z_B x z_A / s: the way of a wheel that turns about +z_B (non-holonomic)
 //     lateral        l . v_c = 0,   l = z_A x t                                                 (non-holonomic)
 // v_c is the velocity, relative to the plane, of the wheel's material at the contact, p_2 - r m. Multipliers: the
 // plane's push on the wheel [N], and the friction that keeps it from slipping, negated. The contact does not let go:
 // where the push would have to become a pull, an event is noted ("lifts off").
-// A wheel that lies flat (s = 0) has no lowest point: it cannot be evaluated.
+// A wheel that lies flat (s = 0) has no lowest point: the run ends where s falls below a thousandth.
 // References: J. I. Neimark, N. A. Fufaev, Dynamics of Nonholonomic Systems (1972); Geradin and Cardona (2001) ch. 7.
 #pragma once
 

@@ -66,7 +66,10 @@ bool ReactionNorm::needed(const System& system, const State& state) {
 }
 
 void ReactionNorm::factor(const Environment& environment, const State& state) {
-  const State whole = with_redundant(system_, state);
+  State whole = with_redundant(system_, state);
+  // What yields to others leaves all to them: it takes no share.
+  for (int k = 0; k < static_cast<int>(state.idle.size()); ++k)
+    if (system_.yields(k)) whole.idle[static_cast<std::size_t>(k)] = state.idle[static_cast<std::size_t>(k)];
   system_.tangent(whole, environment, TangentWeights{0, 0, 0, 0, 1, true}, nullptr, tangent_);
   const double arm = redundancy_arm(system_, environment, whole);
   std::fill(values_.begin(), values_.end(), 0.0);
@@ -137,6 +140,29 @@ void ReactionNorm::balance(const Environment& environment, State& state) {
   if (!needed(system_, state)) return;
   factor(environment, state);
   state.reaction = smallest(state.multiplier);
+}
+
+/// Where forces read reactions, the equations of the state have been solved with them.
+bool CrossingValues::needs(const State& state) const {
+  if (!system_.crossings_read_reactions() || !ReactionNorm::needed(system_, state)) return false;
+  return !system_.reads_reactions() || state.reaction.size() == 0;
+}
+
+bool CrossingValues::balance(const Environment& environment, State& state) {
+  if (!needs(state)) return false;
+  if (!norm_) norm_ = std::make_unique<ReactionNorm>(system_);
+  norm_->balance(environment, state);
+  return true;
+}
+
+void CrossingValues::calc(const State& state, const Environment& environment, Eigen::Ref<VectorX> values) {
+  if (!needs(state)) {
+    system_.calc_crossings(state, environment, values);
+    return;
+  }
+  State balanced = state;
+  balance(environment, balanced);
+  system_.calc_crossings(balanced, environment, values);
 }
 
 void ReadReactions::balance(const Environment& environment, State& state) {

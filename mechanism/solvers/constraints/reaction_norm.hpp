@@ -45,6 +45,22 @@ class ReactionNorm {
   VectorX scale_, diagonal_values_;
 };
 
+/// Values of a system's crossings, with the reactions of smallest norm where they read reactions.
+class CrossingValues {
+ public:
+  explicit CrossingValues(const System& system) : system_(system) {}
+  /// Gives a state the reactions that its crossings read, where that are others than its multipliers.
+  /// @returns whether it has
+  bool balance(const Environment& environment, State& state);
+  /// @param values  (system.crossings().size())
+  void calc(const State& state, const Environment& environment, Eigen::Ref<VectorX> values);
+
+ private:
+  bool needs(const State& state) const;
+  const System& system_;
+  std::unique_ptr<ReactionNorm> norm_;  ///< made where it is needed
+};
+
 /// The reactions that forces read: to be updated before every residual of a system with such forces.
 class ReadReactions {
  public:

@@ -10,7 +10,7 @@ double side_of(double value) { return value > 0 ? 1 : value < 0 ? -1 : 0; }
 
 }  // namespace
 
-CrossingWatch::CrossingWatch(const System& system) : system_(system) {
+CrossingWatch::CrossingWatch(const System& system) : system_(system), values_(system) {
   const auto count = static_cast<Eigen::Index>(system.crossings().size());
   for (VectorX* vector : {&sides_, &at_start_, &at_low_, &at_high_, &weight_}) vector->setZero(count);
   last_end_.assign(system.crossings().size(), 0);
@@ -19,7 +19,7 @@ CrossingWatch::CrossingWatch(const System& system) : system_(system) {
 }
 
 std::vector<int> CrossingWatch::begin(const State& state, const Environment& environment, bool one_alone) {
-  system_.calc_crossings(state, environment, at_start_);
+  values_.calc(state, environment, at_start_);
   std::vector<int> jumped;
   for (int k = 0; k < static_cast<int>(sides_.size()); ++k) {
     const double side = side_of(at_start_[k]);
@@ -66,7 +66,7 @@ void CrossingWatch::collect(const VectorX& values, std::vector<int>& crossed) co
 }
 
 bool CrossingWatch::found(const State& end, const Environment& environment, double h, double tolerance) {
-  system_.calc_crossings(end, environment, at_high_);
+  values_.calc(end, environment, at_high_);
   collect(at_high_, crossed_);
   low_ = 0;
   high_ = h;
@@ -110,7 +110,7 @@ double CrossingWatch::proposal() const {
 
 void CrossingWatch::narrow(const State& end, const Environment& environment, double h) {
   VectorX values(at_high_.size());
-  system_.calc_crossings(end, environment, values);
+  values_.calc(end, environment, values);
   std::vector<int> crossed;
   collect(values, crossed);
   const bool behind = !crossed.empty();

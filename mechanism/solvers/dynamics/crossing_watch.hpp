@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "mechanism/model/archive.hpp"
+#include "mechanism/solvers/constraints/reaction_norm.hpp"
 #include "mechanism/system/system.hpp"
 
 namespace bielle::mechanism {
@@ -50,6 +51,7 @@ class CrossingWatch {
   bool counts(int k) const;  ///< the direction in which a crossing from its side goes
 
   const System& system_;
+  CrossingValues values_;
   VectorX sides_;              ///< +1 or -1: where the motion is; 0: not known yet
   VectorX at_start_;           ///< values at the start of the step
   VectorX at_low_, at_high_;   ///< values at the ends of the bracket

@@ -39,6 +39,7 @@ TimeIntegration::TimeIntegration(const System& system, const Environment& enviro
       step_(system, scheme, std::move(state)),
       correction_(system, environment_, form),
       newton_(system, environment_, equations_of(system, form), options),
+      crossing_values_(system),
       extrapolation_(system.size(), options.extrapolation) {
   start_report_ = make_consistent(system_, environment_, step_.state());
   step_.take_rates();
@@ -54,6 +55,7 @@ TimeIntegration::TimeIntegration(const System& system, const Environment& enviro
       step_(system, scheme, system.start(0)),
       correction_(system, environment_, form),
       newton_(system, environment_, equations_of(system, form), options),
+      crossing_values_(system),
       extrapolation_(system.size(), options.extrapolation) {
   exchange(archive);
 }
@@ -110,7 +112,9 @@ Jump TimeIntegration::begin_branch(double h, const std::vector<int>& crossed) {
   jump.before = system_.energy(state, environment_);
   state.time += just_off(jump.time, h);
   const std::vector<char> before = state.idle;
+  const bool balanced = crossing_values_.balance(environment_, state);
   system_.begin_branch(state, environment_, crossed);
+  if (balanced && !system_.reads_reactions()) state.reaction.resize(0);  // those of before
   set_redundant_aside(system_, environment_, state);
   std::vector<int> new_holds = active_holds(system_, state);
   std::erase_if(new_holds, [&](int k) { return before[static_cast<std::size_t>(k)] == Idle::active; });

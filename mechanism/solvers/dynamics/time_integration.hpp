@@ -114,6 +114,7 @@ class TimeIntegration {
   SchemeStep step_;
   VelocityCorrection correction_;
   StepNewton newton_;
+  CrossingValues crossing_values_;
   Extrapolation extrapolation_;
   SchemeLoss loss_;
   VectorX highest_;  ///< a buffer: SchemeStep::get_highest

@@ -115,3 +115,40 @@ TEST_CASE("a ball within a closed surface is found, however far from its faces")
     CHECK_THAT(gap, Catch::WithinRel(std::sqrt(3) * (along - 0.5) - 0.02, 1e-12));
   }
 }
+
+TEST_CASE("what has gone through a plane with its middle ends the run, whatever its shape") {
+  // Pushed down at 0.1 m/s from 0.2055 m above the plane: the first step beyond.
+  const TemporaryFolder folder;
+  write_cube(folder / "cube.stl");
+  for (const std::string& shape :
+       {std::string("sphere: 0.1"), std::string("capsule: [0.1, 0.3]"), std::string("cylinder: [0.1, 0.3]"),
+        std::string("box: [0.2, 0.3, 0.4]"), "surface: \"" + folder / "cube.stl" + "\""}) {
+    CAPTURE(shape);
+    const std::string says = end_of("position: [0, 0, 0.2055], motion: {z: '-0.1*t'}", shape, "plane: [0, 0, 1]");
+    CHECK_THAT(says, Contains("contact 'it' at t = 2.06 s") && Contains("has gone through plane on 'ground'") &&
+                         Contains("with its middle, which is 0.0005 m behind it; make the contact stiffer"));
+  }
+  // So it does where the plane moves, and the middle of a shape is not its node.
+  const std::string moved =
+      end_of("position: [0, 0, 0.5], motion: {z: '-0.1*t'}", "sphere: 0.1, at: [0, 0, -0.2945]", "plane: [0, 0, 1]");
+  CHECK_THAT(moved, Contains("at t = 2.06 s") && Contains("sphere on 'b' has gone through"));
+  // What is drawn so ends at once; what rests on the plane goes on.
+  CHECK_THAT(end_of("position: [0, 0, -0.01]", "sphere: 0.1", "plane: [0, 0, 1]"),
+             Contains("at t = 0 s") && Contains("0.01 m behind it"));
+  CHECK(end_of("position: [0, 0, 0.05], motion: {z: 0}", "sphere: 0.1", "plane: [0, 0, 1]") == "went on");
+}
+
+TEST_CASE("a ball on a floor that is far too soft ends where its middle meets the floor") {
+  // Falls from 0.01 m above the floor, which hardly pushes: 0.11 m in 0.1498 s.
+  const std::string text = contact_model(
+      {{"b", "position: [0, 0, 0.11]"}},
+      "  it: {type: contact, shapes: [{node: ground, plane: [0, 0, 1]}, {node: b, sphere: 0.1}], stiffness: 1}\n",
+      "[0, 0, -9.81]");
+  std::string says;
+  try {
+    run_contact(text, {1e-3, 0.5}, [](const Session&, const Motion&) {});
+  } catch (const std::exception& error) {
+    says = error.what();
+  }
+  CHECK_THAT(says, Contains("contact 'it' at t = 0.15 s: sphere on 'b' has gone through plane on 'ground'"));
+}
