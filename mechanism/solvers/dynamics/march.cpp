@@ -11,6 +11,11 @@
 namespace bielle::mechanism {
 namespace {
 
+/// How well times of crossings are known [s]: far below the error of a step of size h, far above rounding.
+double tolerance_of(double h, double time) {
+  return std::max(1e-10 * h, 16 * std::numeric_limits<double>::epsilon() * std::abs(time));
+}
+
 /// The size for the next step after one of size h with this error over tolerance.
 double proposed_size(double h, double error, double largest) {
   const double factor = 0.9 * std::cbrt(1 / std::max(error, 1e-6));
@@ -49,7 +54,7 @@ MarchLog MarchLog::followed_by(const MarchLog& next) const {
 class March::Stops {
  public:
   Stops(double begin, double end, const StepOptions& options)
-      : begin_(begin), end_(end), rounding_(1e-9 * options.size), kinks_(options.break_points) {
+      : begin_(begin), end_(end), rounding_(0.5e-12 * options.size), kinks_(options.break_points) {
     std::sort(kinks_.begin(), kinks_.end());
     if (options.tolerance > 0) return;
     steps_ = std::max(1L, std::lround((end - begin) / options.size));
@@ -58,15 +63,15 @@ class March::Stops {
 
   /// Moves on to the first stop after the given time.
   void advance(double time) {
-    while (kink_ < kinks_.size() && kinks_[kink_] <= time + rounding_) ++kink_;
+    while (kink_ < kinks_.size() && kinks_[kink_] <= time + rounding(time)) ++kink_;
     stop_ = end_;
     if (steps_ > 0) {
-      while (k_ <= steps_ && grid(k_) <= time + rounding_) ++k_;
+      while (k_ <= steps_ && grid(k_) <= time + rounding(time)) ++k_;
       stop_ = grid(k_);
     }
-    at_kink_ = kink_ < kinks_.size() && kinks_[kink_] <= stop_ + rounding_;
+    at_kink_ = kink_ < kinks_.size() && kinks_[kink_] <= stop_ + rounding(stop_);
     // A kink at a stop, up to rounding, is that stop.
-    if (at_kink_ && kinks_[kink_] < stop_ - rounding_) stop_ = kinks_[kink_];
+    if (at_kink_ && kinks_[kink_] < stop_ - rounding(stop_)) stop_ = kinks_[kink_];
   }
   double time() const { return stop_; }
   bool at_kink() const { return at_kink_; }
@@ -74,6 +79,10 @@ class March::Stops {
   double step_size() const { return size_; }  ///< of the grid
 
  private:
+  /// Times that differ by less are the same. Less than what tells the two sides of a kink apart.
+  double rounding(double time) const {
+    return rounding_ + 4 * std::numeric_limits<double>::epsilon() * std::abs(time);
+  }
   /// Counted, not summed: the last step ends on the end.
   double grid(long k) const { return k >= steps_ ? end_ : begin_ + static_cast<double>(k) * size_; }
   double begin_, end_, rounding_, size_ = 0, stop_ = 0;
@@ -130,22 +139,22 @@ void March::exchange(Archive& archive) {
 /// @param before  of the branch that began here a moment ago; its own comes in its place
 void March::begin_branch(double h, std::optional<Jump>& before) {
   if (before && jump_listener_) jump_listener_(*before);
-  before = integration_.begin_branch(h, crossed_);
+  std::vector<int> begins;  // those that begin it
+  for (const int k : crossed_)
+    if (integration_.system().crossings()[static_cast<std::size_t>(k)].crossing.restarts) begins.push_back(k);
+  before = integration_.begin_branch(h, begins);
 }
 
 void March::begin_step(MarchStep& step) {
-  const double h = std::min(size_, stops_->time() - integration_.state().time);
-  const bool jumps = pending_ == Pending::start || pending_ == Pending::branch;
+  double h = std::min(size_, stops_->time() - integration_.state().time);
+  if (is_short(h)) h = size_;  // the scheme's own values are for the steps that come after
   if (pending_ == Pending::start) integration_.start(h);
   if (pending_ == Pending::restart) integration_.restart(h);
   std::optional<Jump> jump;  // the last, which is followed by the step
   if (pending_ == Pending::branch) begin_branch(h, jump);
   pending_ = Pending::nothing;
   if (!watch_.idle()) {
-    std::vector<int> jumped = watch_.begin(integration_.state(), integration_.environment());
-    // On which side of its zero that is which has just been met, rounding tells.
-    std::erase_if(jumped, [&](int k) { return std::find(crossed_.begin(), crossed_.end(), k) != crossed_.end(); });
-    if (jumps) pass_jumps(h, std::move(jumped), jump, step);
+    pass_jumps(h, watch_.begin(integration_.state(), integration_.environment(), crossed_), jump, step);
   }
   crossed_.clear();
   if (!jump) return;
@@ -153,7 +162,8 @@ void March::begin_step(MarchStep& step) {
   if (jump_listener_) jump_listener_(*jump);
 }
 
-/// Crossings that were jumped over at a discontinuity: they may begin further branches there.
+/// Crossings that were jumped over, at a discontinuity or where a short span's accelerations were solved for: they may
+/// begin further branches there.
 void March::pass_jumps(double h, std::vector<int> jumped, std::optional<Jump>& jump, MarchStep& step) {
   // Branches that all begin at once may undo each other again and again; one after the other they settle.
   constexpr int together = 10, most = 100;
@@ -165,31 +175,44 @@ void March::pass_jumps(double h, std::vector<int> jumped, std::optional<Jump>& j
     pending_ = Pending::nothing;
     if (stopped_ || !restarts) return;
     begin_branch(h, jump);
-    jumped = watch_.begin(integration_.state(), integration_.environment(), k >= together);
+    jumped = watch_.begin(integration_.state(), integration_.environment(), {}, k >= together);
   }
 }
 
+/// Whether a span is too short for the scheme: what an event or a kink leaves, not a step that had to become short.
+bool March::is_short(double h) const {
+  constexpr double share = 0.01;
+  return h < share * size_ && h < integration_.longest_short_span();
+}
+
 StepReport March::attempt(double h, double end, bool kink) {
-  const StepReport report = integration_.attempt(h, end, kink);
+  constexpr double small = 1e-6;  // time constants that matter are longer
+  short_ = is_short(h);
+  const StepReport report = short_ ? integration_.attempt_short(h, end, kink, h < small * size_)
+                                   : integration_.attempt(h, end, kink);
   log_.iterations += report.iterations;
   log_.factorisations += report.factorisations;
   log_.shortened += report.shortened;
   return report;
 }
 
+/// The scheme's values for steps of another size, unless it differs by little or is too short to have any.
+void March::change_step(double h) {
+  if (!is_short(h)) integration_.change_step(h);
+}
+
 /// Where the attempted step holds a crossing: attempts shorter ones until it ends just past the first.
 /// @returns the size of that step, or 0 where it holds none, or where a shorter step failed (the report then says why)
 double March::locate(double time, StepReport& report) {
   const double h = report.size;
-  // Far below the error of the steps, far above rounding.
-  const double tolerance = std::max(1e-10 * h, 16 * std::numeric_limits<double>::epsilon() * std::abs(time));
+  const double tolerance = tolerance_of(h, time);
   if (watch_.idle() || !watch_.found(integration_.attempted(), integration_.environment(), h, tolerance)) return 0;
   constexpr int most = 60;  // bisection alone takes some 35
   integration_.share_factors(true);
   double last = h;
   for (int k = 0; k < most && !watch_.located(); ++k) {
     last = watch_.proposal();
-    if (k == 0) integration_.change_step(last);
+    change_step(last);
     report = attempt(last, time + last, false);
     if (!report.converged()) break;
     watch_.narrow(integration_.attempted(), integration_.environment(), last);
@@ -272,12 +295,12 @@ bool March::try_step(const Plan& plan, int& too_large, Trial& trial) {
   if (too_large >= most)
     integration_.restart(plan.size);
   else
-    integration_.change_step(plan.size);
+    change_step(plan.size);
   trial = Trial{};
   trial.report = attempt(plan.size, plan.end, plan.kink);
   if (trial.report.converged()) {
-    if (adaptive()) trial.error = norm_(integration_) / options_.tolerance;
-    trial.error_known = integration_.first_order_error_known();
+    if (adaptive() && !short_) trial.error = norm_(integration_) / options_.tolerance;
+    trial.error_known = !short_ && integration_.first_order_error_known();
     if (trial.error > 1) {
       tell(Attempt::Outcome::refused_by_error, plan, trial);
       ++too_large;
@@ -304,20 +327,23 @@ void March::count(const Plan& plan, const Trial& trial) {
     log_.most_iterations_at = integration_.state().time;
     log_.slowest_equation = trial.report.worst_equation;
   }
-  if (plan.kink || trial.crossing > 0) return;
+  if (plan.kink || trial.crossing > 0 || short_) return;
   log_.smallest = log_.smallest > 0 ? std::min(log_.smallest, plan.size) : plan.size;
   log_.largest = std::max(log_.largest, plan.size);
 }
 
-/// Where a step has ended on a crossing before its planned end.
-/// @returns whether that counts as a time of the grid
-bool March::pass_grid(const Plan& plan, const Trial& trial) {
-  // A time of the grid that is hardly farther has been reached: so short a step would be nothing but rounding.
-  constexpr double sliver = 1e-3;
-  const bool on_grid = !adaptive() && stops_->on_grid() && stops_->time() < end_ && !stops_->at_kink() &&
-                       stops_->time() - plan.begin - trial.crossing < sliver * stops_->step_size();
-  if (on_grid) stops_->advance(stops_->time());
-  return on_grid;
+/// The crossings within an accepted step that change nothing.
+void March::pass_noted(double begin, MarchStep& step) {
+  if (watch_.idle()) return;
+  const double end = integration_.state().time;
+  const auto noted = watch_.pass_noted(
+      begin, end, [this](double time) { return integration_.interpolated(time); }, integration_.environment(),
+      tolerance_of(end - begin, begin));
+  for (const CrossingWatch::Noted& each : noted) {
+    step.passed.push_back({each.time, each.crossing});
+    crossed_.push_back(each.crossing);
+    ++log_.crossings;
+  }
 }
 
 MarchStep March::advance() {
@@ -336,10 +362,14 @@ MarchStep March::advance() {
   count(planned, trial);
   step.report = trial.report;
   step.error = trial.error;
+  if (short_) pending_ = Pending::restart;
+  pass_noted(planned.begin, step);
   if (trial.crossing > 0) pass_crossings(step);
+  std::stable_sort(step.passed.begin(), step.passed.end(),
+                   [](const Passed& a, const Passed& b) { return a.time < b.time; });
   if (branch_left) pending_ = Pending::branch;
-  if (trial.crossing > 0 && trial.crossing < planned.size) {
-    step.on_grid = pass_grid(planned, trial);
+  if (trial.crossing > 0 && integration_.state().time < planned.end) {
+    step.on_grid = false;
     return step;
   }
   // A step whose error is not known says nothing for a larger one.

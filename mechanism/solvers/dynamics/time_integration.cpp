@@ -39,7 +39,8 @@ TimeIntegration::TimeIntegration(const System& system, const Environment& enviro
       step_(system, scheme, std::move(state)),
       correction_(system, environment_, form),
       newton_(system, environment_, equations_of(system, form), options),
-      extrapolation_(system.size(), options.extrapolation) {
+      extrapolation_(system.size(), options.extrapolation),
+      short_span_(system, environment_) {
   start_report_ = make_consistent(system_, environment_, step_.state());
   step_.take_rates();
   system_.accept(step_.state(), environment_);
@@ -54,7 +55,8 @@ TimeIntegration::TimeIntegration(const System& system, const Environment& enviro
       step_(system, scheme, system.start(0)),
       correction_(system, environment_, form),
       newton_(system, environment_, equations_of(system, form), options),
-      extrapolation_(system.size(), options.extrapolation) {
+      extrapolation_(system.size(), options.extrapolation),
+      short_span_(system, environment_) {
   exchange(archive);
 }
 
@@ -222,6 +224,7 @@ StepReport TimeIntegration::attempt_from(double h, double end, bool extrapolated
 
 StepReport TimeIntegration::attempt(double h, double end, bool kink) {
   end_ = end;
+  short_ = false;
   const double trial_end = kink ? end - just_off(end, h) : end;
   const StepReport first = attempt_from(h, trial_end, true);
   if (first.converged() || first.order == 0) return first;
@@ -236,8 +239,38 @@ StepReport TimeIntegration::attempt(double h, double end, bool kink) {
   return second;
 }
 
+StepReport TimeIntegration::attempt_short(double h, double end, bool kink, bool small) {
+  const double offset = just_off(state().time, h), trial_end = kink ? end - just_off(end, h) : end;
+  StepReport report;
+  report.size = h;
+  try {
+    MassSaddle& saddle = correction_.saddle();
+    if (!short_span_.leap(step_, saddle, h, trial_end, offset, small)) {
+      report = attempt(h, end, kink);
+      if (report.converged()) short_span_.settle(step_, saddle);
+    }
+  } catch (const ComputationError& error) {
+    report.refusal = error.what();
+  }
+  end_ = end;
+  short_ = true;
+  return report;
+}
+
+/// The scheme's own values are none of a short span's.
+bool TimeIntegration::accept_short() {
+  const bool branch_left = system_.accept(step_.trial(), environment_);
+  step_.trial().time = end_;
+  step_.accept();
+  step_.take_rates();
+  newton_.forget_factors();
+  extrapolate_from_here();
+  return branch_left;
+}
+
 bool TimeIntegration::accept() {
   check_set_aside(system_, environment_, step_.trial());
+  if (short_) return accept_short();
   loss_.add(step_, environment_);
   step_.take_algorithmic_values();
   correction_.watch(step_);

@@ -14,6 +14,7 @@
 
 #include "mechanism/solvers/dynamics/extrapolation.hpp"
 #include "mechanism/solvers/dynamics/scheme_loss.hpp"
+#include "mechanism/solvers/dynamics/short_span.hpp"
 #include "mechanism/solvers/dynamics/step_newton.hpp"
 #include "mechanism/solvers/dynamics/velocity_correction.hpp"
 #include "mechanism/solvers/start/start_report.hpp"
@@ -49,6 +50,12 @@ class TimeIntegration {
   /// @param end   the time at its end: state().time + h but for rounding [s]
   /// @param kink  forces may jump at the end: the step sees those of just before
   StepReport attempt(double h, double end, bool kink = false);
+  /// The same over a span that is too short for the scheme (short_span.hpp): where it is accepted, a `restart` has to
+  /// follow before the next step, unless a `begin_branch` does.
+  /// @param small  whether it is shorter than any time constant that matters
+  StepReport attempt_short(double h, double end, bool kink, bool small);
+  /// Spans shorter than this leave accelerations of the scheme less than six digits, at the present state [s].
+  double longest_short_span() const { return short_span_.longest(state(), step_.scheme()); }
   StepReport attempt(double h) { return attempt(h, state().time + h); }
   /// Makes the attempted step the motion's last. @throws ComputationError when a constraint that was set aside as
   /// redundant contradicts the others
@@ -105,6 +112,7 @@ class TimeIntegration {
   void extrapolate_from_here();
   double begin_trial(double h, double end, int order, StepReport& report);
   void choose_start(double h, double end, StepReport& report);
+  bool accept_short();
   StepReport attempt_from(double h, double end, bool extrapolated);
 
   const System& system_;
@@ -114,9 +122,11 @@ class TimeIntegration {
   StepNewton newton_;
   Extrapolation extrapolation_;
   SchemeLoss loss_;
+  ShortSpan short_span_;
   VectorX highest_;  ///< a buffer: SchemeStep::get_highest
   StartReport start_report_;
-  double end_ = 0;  ///< of the last attempt [s]
+  double end_ = 0;      ///< of the last attempt [s]
+  bool short_ = false;  ///< whether it was over a short span
 };
 
 }  // namespace bielle::mechanism
