@@ -143,7 +143,6 @@ double CrossingWatch::locate_noted(int k, double begin, double end, const std::f
                                    const Environment& environment, double tolerance) const {
   constexpr int most = 100;
   double low = begin, high = end, at_low = at_start_[k], at_high = at_high_[k];
-  VectorX values(at_high_.size());
   int moved = 0;  // the end that moved last
   for (int i = 0; i < most && high - low > tolerance; ++i) {
     const bool secant = side_of(at_low) * side_of(at_high) < 0;
@@ -152,10 +151,10 @@ double CrossingWatch::locate_noted(int k, double begin, double end, const std::f
     const double width = high - low, least = std::min(1e-3 * width, 0.5 * tolerance);
     const double time = std::clamp(low + share * width + 0.5 * tolerance, low + least, high - least);
     if (!(time > low && time < high)) break;
-    system_.calc_crossings(between(time), environment, values);
-    const bool behind = sides_[k] * values[k] <= 0;
+    const double value = system_.calc_crossing(between(time), environment, k);
+    const bool behind = sides_[k] * value <= 0;
     (behind ? high : low) = time;
-    (behind ? at_high : at_low) = values[k];
+    (behind ? at_high : at_low) = value;
     // An end that stays for a second time counts half.
     if (moved == (behind ? 1 : -1)) (behind ? at_low : at_high) *= 0.5;
     moved = behind ? 1 : -1;
