@@ -16,8 +16,12 @@ CrossingWatch::CrossingWatch(const System& system) : system_(system) {
   last_end_.assign(system.crossings().size(), 0);
   for (Eigen::Index k = 0; k < sides_.size(); ++k)
     sides_[k] = system.crossings()[static_cast<std::size_t>(k)].crossing.begins_on;
-  for (const MemberCrossing& each : system.crossings())
-    ends_step_.push_back(each.crossing.restarts || each.crossing.stops);
+  for (const MemberCrossing& each : system.crossings()) {
+    // Where a force begins, continuously (surfaces touch), steps end as well, without a restart.
+    Declaration declaration;
+    system.model().members()[each.member].component->declare(declaration);
+    ends_step_.push_back(each.crossing.restarts || each.crossing.stops || declaration.kinks);
+  }
 }
 
 std::vector<int> CrossingWatch::begin(const State& state, const Environment& environment,

@@ -80,9 +80,7 @@ class March::Stops {
 
  private:
   /// Times that differ by less are the same. Less than what tells the two sides of a kink apart.
-  double rounding(double time) const {
-    return rounding_ + 4 * std::numeric_limits<double>::epsilon() * std::abs(time);
-  }
+  double rounding(double time) const { return rounding_ + 4 * std::numeric_limits<double>::epsilon() * std::abs(time); }
   /// Counted, not summed: the last step ends on the end.
   double grid(long k) const { return k >= steps_ ? end_ : begin_ + static_cast<double>(k) * size_; }
   double begin_, end_, rounding_, size_ = 0, stop_ = 0;
@@ -97,7 +95,8 @@ March::March(TimeIntegration& integration, double begin, double end, StepOptions
       end_(end),
       options_(std::move(options)),
       norm_(integration.system(), integration.environment(), integration.state()),
-      watch_(integration.system()) {
+      watch_(integration.system()),
+      pulses_(integration.system(), end - begin) {
   const bool adaptive = options_.tolerance > 0;
   stops_ = std::make_unique<Stops>(begin, end, options_);
   stops_->advance(integration.state().time);
@@ -187,9 +186,8 @@ bool March::is_short(double h) const {
 
 StepReport March::attempt(double h, double end, bool kink) {
   constexpr double small = 1e-6;  // time constants that matter are longer
-  short_ = is_short(h);
-  const StepReport report = short_ ? integration_.attempt_short(h, end, kink, h < small * size_)
-                                   : integration_.attempt(h, end, kink);
+  const StepReport report =
+      is_short(h) ? integration_.attempt_short(h, end, kink, h < small * size_) : integration_.attempt(h, end, kink);
   log_.iterations += report.iterations;
   log_.factorisations += report.factorisations;
   log_.shortened += report.shortened;
@@ -285,6 +283,28 @@ March::Plan March::plan() const {
   return plan;
 }
 
+/// What formulas of time do between the ends of an attempted step and not at them: the error of positions by it, over
+/// the tolerance; 0 with fixed steps, whose run tells it at its end.
+double March::missed(const Plan& plan) {
+  constexpr double large = 0.2;  // of the integral of |f|: some four steps in a period
+  if (pulses_.idle()) return 0;
+  const PulseWatch::Look look =
+      pulses_.look(integration_.attempted(), integration_.environment(), plan.begin, plan.end);
+  if (!adaptive() || !(look.missed > large * look.whole) || !(look.distance > 0)) return 0;
+  // The forces of then and of now tell along which unknowns it acts.
+  const System& system = integration_.system();
+  State state = integration_.attempted();
+  VectorX then(system.size()), now(system.size());
+  try {
+    system.residual(state, integration_.environment(), now);
+    state.time = look.farthest;
+    system.residual(state, integration_.environment(), then);
+  } catch (const ComputationError&) {
+    return 0;  // a component refuses a state that is not of that time
+  }
+  return norm_.of_impulse(look.missed / look.distance * (then - now), plan.size) / options_.tolerance;
+}
+
 /// One step as planned: tried, judged, and cut short at the first crossing within.
 /// @param too_large  errors that were too large one after the other, in this step
 /// @returns whether it is to be accepted; otherwise sizes are smaller
@@ -299,8 +319,9 @@ bool March::try_step(const Plan& plan, int& too_large, Trial& trial) {
   trial = Trial{};
   trial.report = attempt(plan.size, plan.end, plan.kink);
   if (trial.report.converged()) {
-    if (adaptive() && !short_) trial.error = norm_(integration_) / options_.tolerance;
-    trial.error_known = !short_ && integration_.first_order_error_known();
+    const double pulse = missed(plan);
+    if (adaptive() && !integration_.is_short()) trial.error = std::max(norm_(integration_) / options_.tolerance, pulse);
+    trial.error_known = !integration_.is_short() && integration_.first_order_error_known();
     if (trial.error > 1) {
       tell(Attempt::Outcome::refused_by_error, plan, trial);
       ++too_large;
@@ -327,7 +348,7 @@ void March::count(const Plan& plan, const Trial& trial) {
     log_.most_iterations_at = integration_.state().time;
     log_.slowest_equation = trial.report.worst_equation;
   }
-  if (plan.kink || trial.crossing > 0 || short_) return;
+  if (plan.kink || trial.crossing > 0 || integration_.is_short()) return;
   log_.smallest = log_.smallest > 0 ? std::min(log_.smallest, plan.size) : plan.size;
   log_.largest = std::max(log_.largest, plan.size);
 }
@@ -362,7 +383,12 @@ MarchStep March::advance() {
   count(planned, trial);
   step.report = trial.report;
   step.error = trial.error;
-  if (short_) pending_ = Pending::restart;
+  if (integration_.is_short()) pending_ = Pending::restart;
+  if (!pulses_.idle()) {
+    if (trial.crossing > 0)
+      pulses_.look(integration_.state(), integration_.environment(), planned.begin, integration_.state().time);
+    pulses_.add(integration_.state().time);
+  }
   pass_noted(planned.begin, step);
   if (trial.crossing > 0) pass_crossings(step);
   std::stable_sort(step.passed.begin(), step.passed.end(),

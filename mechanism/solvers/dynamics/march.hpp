@@ -15,6 +15,7 @@
 
 #include "mechanism/solvers/dynamics/crossing_watch.hpp"
 #include "mechanism/solvers/dynamics/error_norm.hpp"
+#include "mechanism/solvers/dynamics/pulse_watch.hpp"
 
 namespace bielle::mechanism {
 
@@ -36,7 +37,7 @@ struct Passed {
 struct MarchStep {
   StepReport report;
   double error = 0;            ///< local error over tolerance; 0 with fixed steps
-  bool on_grid = true;  ///< ends on a time of the fixed grid; always true with adaptive steps, but for crossings
+  bool on_grid = true;         ///< ends on a time of the fixed grid; always true with adaptive steps, but for crossings
   std::vector<Passed> passed;  ///< the crossings within it and at its end, by their times
 };
 
@@ -83,6 +84,8 @@ class March {
   /// @throws ComputationError when Newton's method fails with the smallest steps too: 1/1024 of the fixed size,
   ///         or 1e-10 of the span
   MarchStep advance();
+  /// What the user should know of formulas of time that change between steps, of this program's run: sentences.
+  std::vector<std::string> doubts() const { return pulses_.doubts(); }
   /// Of this program's run: what came before a restart is not in it.
   const MarchLog& log() const { return log_; }
   void observe(std::function<void(const Attempt&)> observer) { observer_ = std::move(observer); }
@@ -116,6 +119,7 @@ class March {
   void begin_branch(double h, std::optional<Jump>& before);
   void pass_jumps(double h, std::vector<int> jumped, std::optional<Jump>& jump, MarchStep& step);
   void note(const std::vector<int>& passed, MarchStep& step);
+  double missed(const Plan& plan);
   double locate(double time, StepReport& report);
   bool is_short(double h) const;
   void change_step(double h);
@@ -132,9 +136,9 @@ class March {
   ErrorNorm norm_;
   Pending pending_ = Pending::start;
   CrossingWatch watch_;
+  PulseWatch pulses_;
   std::vector<int> crossed_;  ///< past which the next step begins
   bool stopped_ = false;
-  bool short_ = false;  ///< whether the last attempt was over a span too short for the scheme
   double last_crossing_ = 0;    ///< [s]
   long crossings_at_once_ = 0;  ///< that have followed each other without progress
   std::function<void(const Jump&)> jump_listener_;

@@ -44,9 +44,11 @@ class PulseWatch {
   };
   struct Total {
     std::string name, units;
-    double missed = 0, whole = 0;       ///< over the run [units s]
-    double most = 0, most_at = 0;       ///< in one step, and its end [s]
+    double missed = 0, whole = 0;  ///< over the run [units s]
+    double most = 0, most_at = 0;  ///< in one step, and its end [s]
   };
+  void look(const Source& source, const LocalState& state, double begin_time, double end_time, int parts);
+
   const System& system_;
   double span_;
   std::vector<Source> sources_;

@@ -14,8 +14,7 @@ double ShortSpan::longest(const State& state, const Scheme& scheme) const {
   constexpr double digits = 1e6, eps = std::numeric_limits<double>::epsilon();
   const double extent = model_extent(state), size = model_length(state) + extent;
   double largest = environment_.gravity.norm();
-  for (const NodeState& node : state.nodes)
-    largest = std::max({largest, node.a.norm(), extent * node.Omegadot.norm()});
+  for (const NodeState& node : state.nodes) largest = std::max({largest, node.a.norm(), extent * node.Omegadot.norm()});
   const double share = (1 - scheme.alpha_m) / ((1 - scheme.alpha_f) * scheme.beta);
   return largest > 0 ? std::sqrt(digits * eps * size * share / largest) : std::numeric_limits<double>::infinity();
 }

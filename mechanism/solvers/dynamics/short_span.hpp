@@ -11,9 +11,9 @@
 // positions by no more than s^2 A/2 < 10^6 eps X: a Taylor series of second order,
 //     Dq = s v + s^2 a/2,   v + s a,   y + s ydot,
 // from velocities and accelerations that satisfy their constraints, is then as good as can be: its error s^3 j/6
-// relative to that of a step, of some h^3 j/12, is 2 (s/h)^3. Accelerations, multipliers and rates at its end are solved
-// for at its positions and velocities (consistent_accelerations.hpp), nothing is divided by s, and the scheme begins
-// anew there, as it does at a discontinuity. Spans are hence short below min(s_0, h/100) only; where nothing
+// relative to that of a step, of some h^3 j/12, is 2 (s/h)^3. Accelerations, multipliers and rates at its end are
+// solved for at its positions and velocities (consistent_accelerations.hpp), nothing is divided by s, and the scheme
+// begins anew there, as it does at a discontinuity. Spans are hence short below min(s_0, h/100) only; where nothing
 // accelerates, s_0 is without end.
 //
 // The series is explicit. What is stiff (a pressure of little volume, a mode of a body) and not at rest relative to

@@ -241,20 +241,21 @@ StepReport TimeIntegration::attempt(double h, double end, bool kink) {
 
 StepReport TimeIntegration::attempt_short(double h, double end, bool kink, bool small) {
   const double offset = just_off(state().time, h), trial_end = kink ? end - just_off(end, h) : end;
+  MassSaddle& saddle = correction_.saddle();
   StepReport report;
   report.size = h;
   try {
-    MassSaddle& saddle = correction_.saddle();
     if (!short_span_.leap(step_, saddle, h, trial_end, offset, small)) {
       report = attempt(h, end, kink);
       if (report.converged()) short_span_.settle(step_, saddle);
     }
-  } catch (const ComputationError& error) {
-    report.refusal = error.what();
+    short_ = report.converged();
+    end_ = end;
+    return report;
+  } catch (const ComputationError&) {
+    // There are no accelerations that are consistent, or more than one set: a step asks less.
+    return attempt(h, end, kink);
   }
-  end_ = end;
-  short_ = true;
-  return report;
 }
 
 /// The scheme's own values are none of a short span's.

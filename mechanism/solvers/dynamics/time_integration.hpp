@@ -50,10 +50,12 @@ class TimeIntegration {
   /// @param end   the time at its end: state().time + h but for rounding [s]
   /// @param kink  forces may jump at the end: the step sees those of just before
   StepReport attempt(double h, double end, bool kink = false);
-  /// The same over a span that is too short for the scheme (short_span.hpp): where it is accepted, a `restart` has to
-  /// follow before the next step, unless a `begin_branch` does.
+  /// The same over a span that is too short for the scheme (short_span.hpp). Where it is accepted as such (`is_short`),
+  /// a `restart` has to follow before the next step, unless a `begin_branch` does.
   /// @param small  whether it is shorter than any time constant that matters
   StepReport attempt_short(double h, double end, bool kink, bool small);
+  /// Whether the last attempt was over a short span and owes nothing to the scheme.
+  bool is_short() const { return short_; }
   /// Spans shorter than this leave accelerations of the scheme less than six digits, at the present state [s].
   double longest_short_span() const { return short_span_.longest(state(), step_.scheme()); }
   StepReport attempt(double h) { return attempt(h, state().time + h); }
