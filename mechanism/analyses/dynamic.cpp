@@ -232,6 +232,7 @@ void DynamicAnalysis::finish(Session& session, Motion& motion, const std::string
     summary.text += format_steps(log.steps, log.iterations, summary.records) +
                     fmt::format(", until t = {:.6g} s\n", motion.time()) + format_march(log, session.system()) +
                     format_events(motion) + format_energy(session, motion, options_);
+  for (const std::string& doubt : motion.doubts()) summary.text += fmt::format("  DOUBTFUL: {}\n", doubt);
 }
 
 }  // namespace bielle::mechanism

@@ -124,7 +124,8 @@ void ResultsFile::note(const Event& event) {
   if (!written.has(group)) {
     written.make_group(group);
     written.create_rows(group + "/crossing", {}, "-", "line of /crossings, from 0", together);
-    written.create_rows(group + "/time", {}, "s", "at which steps have ended on crossings", together);
+    written.create_rows(group + "/time", {}, "s", "at which crossings were met", together);
+    written.link(group, "/events");  // now: a run that fails has no end to do it
   }
   const double crossing = event.crossing;
   written.append_rows(group + "/crossing", {&crossing, 1});

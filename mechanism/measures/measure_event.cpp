@@ -8,8 +8,8 @@
 namespace bielle::mechanism {
 
 MeasureEvent::MeasureEvent(std::string name, const Measure& measure, double value, Crossing::Direction direction,
-                           bool stops)
-    : Component("event", std::move(name)), measure_(measure), value_(value), direction_(direction), stops_(stops) {
+                           Action action)
+    : Component("event", std::move(name)), measure_(measure), value_(value), direction_(direction), action_(action) {
   references_.add(measure);
 }
 
@@ -18,8 +18,8 @@ void MeasureEvent::declare(Declaration& declaration) const {
   references_.declare(declaration);
   Crossing crossing;
   crossing.direction = direction_;
-  crossing.restarts = false;
-  crossing.stops = stops_;
+  crossing.restarts = action_ == Action::restart;
+  crossing.stops = action_ == Action::stop;
   crossing.reads_reaction = measure_.reads_reactions();
   declaration.crossings = {crossing};
 }
@@ -33,7 +33,9 @@ void MeasureEvent::describe(const LocalState& /*state*/, Description& descriptio
                     : direction_ == Crossing::Direction::falling ? "falls through"
                                                                  : "crosses";
   description.add(fmt::format("{} {} {:.6g} {}", measure_.name(), way, value_, measure_.units()));
-  description.add(stops_ ? "stops the run" : "is noted");
+  description.add(action_ == Action::stop      ? "stops the run"
+                  : action_ == Action::restart ? "ends a step and restarts the motion"
+                                               : "is noted");
 }
 
 Crossing::Direction read_crossing_direction(const YamlValue& entry) {
@@ -50,9 +52,13 @@ void read_event(const std::string& name, const YamlValue& entry, Model& model) {
   const YamlValue when = entry.at("when");
   const double value = entry.has("crosses") ? entry.at("crosses").number() : 0;
   const Crossing::Direction direction = read_crossing_direction(entry);
-  const bool stops = entry.has("action") && entry.at("action").word({"note", "stop"}, "an action") == "stop";
+  const std::string word =
+      entry.has("action") ? entry.at("action").word({"note", "restart", "stop"}, "an action") : "note";
+  const MeasureEvent::Action action = word == "stop"      ? MeasureEvent::Action::stop
+                                      : word == "restart" ? MeasureEvent::Action::restart
+                                                          : MeasureEvent::Action::note;
   model.when_read(Model::Stage::formulas, [=, &model] {
-    model.add(std::make_unique<MeasureEvent>(name, measure_named_by(when, model), value, direction, stops),
+    model.add(std::make_unique<MeasureEvent>(name, measure_named_by(when, model), value, direction, action),
               Entry{Section::events, name}, Recorded::no);
   });
 }

@@ -1,4 +1,5 @@
-// An event: a measure crosses a value. It is noted, and may stop the run.
+// An event: a measure crosses a value. It is noted where it lies within a step; it may end the step and restart the
+// motion there, as a kink does, or stop the run.
 //
 //     events: {landed: {when: ball.position.z, crosses: 0.1, direction: falling, action: stop}}
 #pragma once
@@ -14,7 +15,8 @@ namespace bielle::mechanism {
 
 class MeasureEvent final : public Component {
  public:
-  MeasureEvent(std::string name, const Measure& measure, double value, Crossing::Direction direction, bool stops);
+  enum class Action { note, restart, stop };
+  MeasureEvent(std::string name, const Measure& measure, double value, Crossing::Direction direction, Action action);
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState&, Eigen::Ref<VectorX>) const override {}
   void calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const override;
@@ -28,14 +30,14 @@ class MeasureEvent final : public Component {
   const Measure& measure_;
   double value_;
   Crossing::Direction direction_;
-  bool stops_;
+  Action action_;
 };
 
 /// The key `direction` of an entry; both without it.
 Crossing::Direction read_crossing_direction(const YamlValue& entry);
 
 /// Reads an entry of `events`, once the model is read: `{when: measure or formula, crosses: value, direction: rising |
-/// falling | both, action: note | stop}`. @throws InputError
+/// falling | both, action: note | restart | stop}`. @throws InputError
 void read_event(const std::string& name, const YamlValue& entry, Model& model);
 
 }  // namespace bielle::mechanism

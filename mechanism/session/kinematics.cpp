@@ -151,26 +151,33 @@ class CrossedMotion {
       : system_(system), environment_(environment), motion_(system, std::move(position)), watch_(system) {}
 
   /// To be called before each step. @returns crossings that are met where velocities or forces have jumped
-  std::vector<int> begin(const State& state) { return watch_.begin(state, environment_); }
-  /// Takes a state to a time or, where a crossing lies before it, just behind that: by at most a billionth of the step.
+  std::vector<int> begin(const State& state) { return watch_.begin(state, environment_, passed_); }
+  /// Takes a state to a time or, where a crossing that ends steps lies before it, just behind that: by at most a
+  /// billionth of the step.
   /// @param jumps  velocities may jump at that time
-  /// @returns the crossings that are met at the state's new time
-  std::vector<int> advance(State& state, double time, bool jumps) {
+  /// @returns the crossings that are met, in their order
+  std::vector<CrossingWatch::Noted> advance(State& state, double time, bool jumps) {
     State next = motion_.advance(state, time, jumps);
     const double h = time - state.time;
-    std::vector<int> passed;
+    passed_.clear();
     if (!watch_.idle() && watch_.found(next, environment_, h, same_time * h)) {
       while (!watch_.located()) {
         const double part = watch_.proposal();
         watch_.narrow(motion_.advance(state, state.time + part, false), environment_, part);
       }
-      passed = watch_.pass();
+      passed_ = watch_.pass();
       if (watch_.behind() < h) next = motion_.advance(state, state.time + watch_.behind(), false);
     }
+    const auto between = [&](double at) { return motion_.advance(state, at, false); };
+    std::vector<CrossingWatch::Noted> met =
+        watch_.idle() ? std::vector<CrossingWatch::Noted>()
+                      : watch_.pass_noted(state.time, next.time, between, environment_, same_time * h);
+    std::sort(met.begin(), met.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
     system_.accept(next, environment_);
-    if (!passed.empty()) system_.begin_branch(next, environment_, passed);
+    if (!passed_.empty()) system_.begin_branch(next, environment_, passed_);
+    for (const int k : passed_) met.push_back({next.time, k});
     state = std::move(next);
-    return passed;
+    return met;
   }
 
  private:
@@ -178,15 +185,16 @@ class CrossedMotion {
   const Environment& environment_;
   ContinuousMotion motion_;
   CrossingWatch watch_;
+  std::vector<int> passed_;  ///< at the end of the last step
 };
 
 }  // namespace
 
-bool Session::note_crossings(const std::vector<int>& crossed, KinematicsReport& report) {
+bool Session::note_crossings(const std::vector<CrossingWatch::Noted>& crossed, KinematicsReport& report) {
   bool stops = false;
-  for (const int k : crossed) {
-    const MemberCrossing& met = system_.crossings()[static_cast<std::size_t>(k)];
-    note(Event{state_.time, k, met.name});
+  for (const CrossingWatch::Noted& each : crossed) {
+    const MemberCrossing& met = system_.crossings()[static_cast<std::size_t>(each.crossing)];
+    note(Event{each.time, each.crossing, met.name});
     report.last_event = met.name;
     ++report.events;
     stops = stops || met.crossing.stops;
@@ -243,10 +251,12 @@ KinematicsReport Session::kinematics(const KinematicsOptions& options) {
   double last = begin;
   for (std::size_t k = 0; k < times.size() && !stopping_ && !report.stopped_by_event;) {
     try {
-      report.stopped_by_event = note_crossings(motion.begin(state_), report);
+      std::vector<CrossingWatch::Noted> jumped;
+      for (const int crossing : motion.begin(state_)) jumped.push_back({state_.time, crossing});
+      report.stopped_by_event = note_crossings(jumped, report);
       if (report.stopped_by_event) break;
-      const std::vector<int> crossed = motion.advance(state_, times[k], contains(kinks, times[k], rounding));
-      report.stopped_by_event = note_crossings(crossed, report);
+      const bool jumps = contains(kinks, times[k], rounding);
+      report.stopped_by_event = note_crossings(motion.advance(state_, times[k], jumps), report);
     } catch (const ComputationError& error) {
       const std::string time = fmt::format("t = {:.6g} s: ", times[k]), why = error.what();
       throw ComputationError(why.starts_with("t = ") ? why : time + why);

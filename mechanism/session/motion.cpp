@@ -105,7 +105,10 @@ void Motion::make_march(Parts& parts, StepOptions stepping) {
   parts.march =
       std::make_unique<March>(*parts.integration, parts.begin, parts.begin + options_.duration, std::move(stepping));
   // (A motion stays where it is.)
-  parts.march->on_jump([books = &parts_.books](const Jump& jump) { books->jump(jump.before, jump.after, jump.work); });
+  parts.march->on_jump([this](const Jump& jump) {
+    parts_.books.jump(jump.before, jump.after, jump.work);
+    prescribed_jumps_.add(session_->system_, jump);
+  });
   if (!session_->on_attempt_.empty())
     parts.march->observe([session = session_](const Attempt& attempt) {
       if (session->going_again_) return;
@@ -200,6 +203,12 @@ void Motion::set_memory(int place, double value, bool smooth) {
   parts_.integration->set_memory(place, value);
   if (!smooth) parts_.march->begin_branch();
   saved_ = anchored_ = false;
+}
+
+std::vector<std::string> Motion::doubts() const {
+  std::vector<std::string> doubts = parts_.march->doubts();
+  for (std::string& doubt : prescribed_jumps_.doubts()) doubts.push_back(std::move(doubt));
+  return doubts;
 }
 
 bool Motion::advance_to(double until) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mechanism/session/energy_balance.hpp"
+#include "mechanism/session/prescribed_jumps.hpp"
 #include "mechanism/session/step_record.hpp"
 #include "mechanism/solvers/dynamics/march.hpp"
 
@@ -61,6 +62,8 @@ class Motion {
   double scheme_loss() const { return parts_.integration->scheme_loss(); }
   /// What the consistent start changed. Nothing, where a saved motion went on.
   const StartReport& start() const { return start_; }
+  /// What the user should know at the end: sentences.
+  std::vector<std::string> doubts() const;
   const MarchLog& log() const { return parts_.march->log(); }  ///< what steps cost, and why some were refused
 
  private:
@@ -101,6 +104,7 @@ class Motion {
   double last_begin_ = 0;  ///< of the last step [s]; infinite where there is none
   Parts parts_;
   StartReport start_;
+  PrescribedJumps prescribed_jumps_;
   std::string last_event_;
   bool anchored_ = false;      ///< sinks have the point where tangents were made anew, and steps alone have come since
   bool saved_ = false;         ///< nothing has happened since the last checkpoint

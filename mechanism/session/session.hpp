@@ -87,7 +87,8 @@ class Session {
   /// Small motions about the present state, which stays: about the start made consistent, an equilibrium under the part
   /// of the load that it stands under, the end of a motion. @throws ComputationError
   ModesReport modes(const ModesOptions& options) const;
-  /// Modes over a speed, tracked, with critical speeds; the present state stays. Where it is stopped, the values so far.
+  /// Modes over a speed, tracked, with critical speeds; the present state stays. Where it is stopped, the values so
+  /// far.
   /// @throws InputError where nothing turns, or the model cannot be made with another parameter; ComputationError
   Campbell campbell(const CampbellOptions& options);
   /// How small motions about the present state answer to harmonic inputs. @throws InputError for names that the model
@@ -180,7 +181,7 @@ class Session {
   using StaticsPoint = std::function<void(const State& state, double factor, int iterations, double done, bool limit)>;
   void begin_kinematics(const KinematicsOptions& options, KinematicsReport& report);
   /// @returns whether one of them ends the analysis
-  bool note_crossings(const std::vector<int>& crossed, KinematicsReport& report);
+  bool note_crossings(const std::vector<CrossingWatch::Noted>& crossed, KinematicsReport& report);
   void note_dropped_rates(const StartConditions& conditions) const;  ///< where a state that moves comes to rest
   /// By load steps or along a path, point after point. @param statics  the environment of statics under the whole load
   void follow_loads(const StaticsOptions& options, const Environment& statics, StaticsReport& report,

@@ -31,6 +31,16 @@ void Branches::calc_crossings(const State& state, const Environment& environment
   }
 }
 
+double Branches::calc_crossing(const State& state, const Environment& environment, int crossing) const {
+  const auto k = static_cast<std::size_t>(crossing);
+  const std::size_t member = crossings_[k].member, begin = k - static_cast<std::size_t>(crossings_[k].index);
+  std::size_t end = k;
+  while (end < crossings_.size() && crossings_[end].member == member) ++end;
+  VectorX values(static_cast<Eigen::Index>(end - begin));
+  model_.members()[member].component->calc_crossings(local(state, member, environment), values);
+  return values[crossings_[k].index];
+}
+
 void Branches::begin(State& state, const Environment& environment, const std::vector<int>& crossed) const {
   VectorX memory = state.memory;
   std::vector<int> ascending = crossed, own;  // by member, as the crossings are

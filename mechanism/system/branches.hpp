@@ -34,6 +34,7 @@ class Branches {
 
   // As System says.
   void calc_crossings(const State& state, const Environment& environment, Eigen::Ref<VectorX> values) const;
+  double calc_crossing(const State& state, const Environment& environment, int crossing) const;
   void begin(State& state, const Environment& environment, const std::vector<int>& crossed) const;
   void begin_motion(State& state, const Environment& environment, bool known) const;
   /// Components renew their memory. @returns whether one has left its branch

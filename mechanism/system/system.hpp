@@ -92,6 +92,10 @@ class System {
   void calc_crossings(const State& state, const Environment& environment, Eigen::Ref<VectorX> values) const {
     branches_.calc_crossings(state, environment, values);
   }
+  /// The value of one, by number.
+  double calc_crossing(const State& state, const Environment& environment, int crossing) const {
+    return branches_.calc_crossing(state, environment, crossing);
+  }
   /// Components renew what they remember where a branch of the motion begins. @param crossed  numbers of crossings
   void begin_branch(State& state, const Environment& environment, const std::vector<int>& crossed = {}) const;
   /// Components forget what they remember of rates, or choose by those that are known (Component::begin_motion).

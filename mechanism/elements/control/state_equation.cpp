@@ -89,6 +89,19 @@ void StateEquation::add_break_points(std::vector<double>& times) const {
   for (const StateFormula& each : inputs_) each.add_break_points(0, times);
 }
 
+std::vector<TimeDependent::Formula> StateEquation::time_formulas() const {
+  std::vector<Formula> formulas;
+  for (const StateFormula& each : inputs_)
+    if (each.uses(0)) formulas.push_back({each.text(), "(its units)"});
+  return formulas;
+}
+
+void StateEquation::calc_time_formulas(const LocalState& state, double time, std::span<double> values) const {
+  std::size_t next = 0;
+  for (const StateFormula& each : inputs_)
+    if (each.uses(0)) values[next++] = each.value(state, {&time, 1});
+}
+
 void StateEquation::describe(const LocalState& /*state*/, Description& description) const {
   std::vector<std::string> texts;
   for (const StateFormula& each : inputs_) texts.push_back(each.text());

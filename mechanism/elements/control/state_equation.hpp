@@ -12,11 +12,12 @@
 #include "mechanism/elements/control/state_unknowns.hpp"
 #include "mechanism/measures/state_formula.hpp"
 #include "mechanism/model/model.hpp"
+#include "mechanism/model/time_dependent.hpp"
 #include "reduce/common/yaml_file.hpp"
 
 namespace bielle::mechanism {
 
-class StateEquation final : public Component {
+class StateEquation final : public Component, public TimeDependent {
  public:
   /// @param rest   G of a start at rest, x = G u at the start, in place of the start values of the unknowns
   /// @param about  the block in words, for `--check`: "first-order filter, 0.01 s"
@@ -32,6 +33,8 @@ class StateEquation final : public Component {
   void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
   void add_break_points(std::vector<double>& times) const override;
   void describe(const LocalState& state, Description& description) const override;
+  std::vector<Formula> time_formulas() const override;
+  void calc_time_formulas(const LocalState& state, double time, std::span<double> values) const override;
 
  private:
   VectorX input(const LocalState& state) const;

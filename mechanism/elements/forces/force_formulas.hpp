@@ -2,10 +2,13 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "mechanism/measures/state_formula.hpp"
 #include "mechanism/model/model.hpp"
+#include "mechanism/model/time_dependent.hpp"
 #include "reduce/common/yaml_file.hpp"
 
 namespace bielle::mechanism {
@@ -18,6 +21,10 @@ class ForceFormulas {
   void read(const YamlValue& components, bool moment, const char* expected, Model& model, References& references);
   void declare(Declaration& declaration) const;  ///< what formulas of the state make the owner depend on
   void add_break_points(std::vector<double>& times) const;
+
+  /// Those that hold t, as TimeDependent has them.
+  std::vector<TimeDependent::Formula> time_formulas() const;
+  void calc_time_formulas(const LocalState& state, double time, std::span<double> values) const;
 
   bool has_force() const { return has_force_; }
   bool has_moment() const { return has_moment_; }

@@ -16,7 +16,7 @@ namespace bielle::mechanism {
 
 /// A force [N] and a moment [N m], formulas of time and measures, at a point of a node, fixed in space or turning with
 /// the node. Its power is counted as input.
-class Load : public Component {
+class Load : public Component, public TimeDependent {
  public:
   /// @param at        point of application [m], node axes
   /// @param follower  components are along the node's axes, not along the inertial ones
@@ -30,6 +30,10 @@ class Load : public Component {
   void add_energy(const LocalState& state, Energy& energy) const override;
   void add_break_points(std::vector<double>& times) const override;
   void describe(const LocalState& state, Description& description) const override;
+  std::vector<Formula> time_formulas() const override { return formulas_.time_formulas(); }
+  void calc_time_formulas(const LocalState& state, double time, std::span<double> values) const override {
+    formulas_.calc_time_formulas(state, time, values);
+  }
 
  private:
   /// Generalised direction of a component of the force or moment: its contribution to the residual per unit.

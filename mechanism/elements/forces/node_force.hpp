@@ -16,7 +16,7 @@
 
 namespace bielle::mechanism {
 
-class NodeForce final : public Component {
+class NodeForce final : public Component, public TimeDependent {
  public:
   enum class Axes { first, second, inertial };
   /// @param at  where it acts [m], in the axes of the second node
@@ -33,6 +33,10 @@ class NodeForce final : public Component {
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
   void describe(const LocalState& state, Description& description) const override;
+  std::vector<Formula> time_formulas() const override { return formulas_.time_formulas(); }
+  void calc_time_formulas(const LocalState& state, double time, std::span<double> values) const override {
+    formulas_.calc_time_formulas(state, time, values);
+  }
 
  private:
   using Map12 = Eigen::Matrix<double, 12, 3>;

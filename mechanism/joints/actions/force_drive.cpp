@@ -38,4 +38,14 @@ Drive::LawText ForceDrive::law_text() const {
           coordinate().force_units()};
 }
 
+std::vector<TimeDependent::Formula> ForceDrive::time_formulas() const {
+  if (!law_.uses(0)) return {};
+  const LawText text = law_text();
+  return {{text.driven, text.units}};
+}
+
+void ForceDrive::calc_time_formulas(const LocalState& state, double time, std::span<double> values) const {
+  values[0] = law_.value(state, {&time, 1});
+}
+
 }  // namespace bielle::mechanism

@@ -3,15 +3,18 @@
 
 #include "mechanism/joints/actions/actuator_drive.hpp"
 #include "mechanism/measures/state_formula.hpp"
+#include "mechanism/model/time_dependent.hpp"
 
 namespace bielle::mechanism {
 
-class ForceDrive final : public ActuatorDrive {
+class ForceDrive final : public ActuatorDrive, public TimeDependent {
  public:
   using ActuatorDrive::ActuatorDrive;
   /// Takes its law, once the model is read. @param law  of t and measures
   void read(const YamlValue& law, Model& model);
   void declare(Declaration& declaration) const override;
+  std::vector<Formula> time_formulas() const override;
+  void calc_time_formulas(const LocalState& state, double time, std::span<double> values) const override;
 
  private:
   double effort(const LocalState& state) const override;

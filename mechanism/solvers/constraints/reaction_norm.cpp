@@ -165,6 +165,13 @@ void CrossingValues::calc(const State& state, const Environment& environment, Ei
   system_.calc_crossings(balanced, environment, values);
 }
 
+double CrossingValues::calc(const State& state, const Environment& environment, int crossing) {
+  if (!needs(state)) return system_.calc_crossing(state, environment, crossing);
+  State balanced = state;
+  balance(environment, balanced);
+  return system_.calc_crossing(balanced, environment, crossing);
+}
+
 void ReadReactions::balance(const Environment& environment, State& state) {
   if (!system_.reads_reactions() || !ReactionNorm::needed(system_, state)) {
     state.reaction.resize(0);

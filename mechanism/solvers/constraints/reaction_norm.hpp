@@ -54,6 +54,7 @@ class CrossingValues {
   bool balance(const Environment& environment, State& state);
   /// @param values  (system.crossings().size())
   void calc(const State& state, const Environment& environment, Eigen::Ref<VectorX> values);
+  double calc(const State& state, const Environment& environment, int crossing);  ///< one of them
 
  private:
   bool needs(const State& state) const;

@@ -16,14 +16,23 @@ CrossingWatch::CrossingWatch(const System& system) : system_(system), values_(sy
   last_end_.assign(system.crossings().size(), 0);
   for (Eigen::Index k = 0; k < sides_.size(); ++k)
     sides_[k] = system.crossings()[static_cast<std::size_t>(k)].crossing.begins_on;
+  for (const MemberCrossing& each : system.crossings()) {
+    // Where a force begins, continuously (surfaces touch), steps end as well, without a restart.
+    Declaration declaration;
+    system.model().members()[each.member].component->declare(declaration);
+    ends_step_.push_back(each.crossing.restarts || each.crossing.stops || declaration.kinks);
+  }
 }
 
-std::vector<int> CrossingWatch::begin(const State& state, const Environment& environment, bool one_alone) {
+std::vector<int> CrossingWatch::begin(const State& state, const Environment& environment,
+                                      const std::vector<int>& passed, bool one_alone) {
   values_.calc(state, environment, at_start_);
+  const auto met = [&](int k) { return std::find(passed.begin(), passed.end(), k) != passed.end(); };
   std::vector<int> jumped;
   for (int k = 0; k < static_cast<int>(sides_.size()); ++k) {
     const double side = side_of(at_start_[k]);
-    if (side == 0) continue;
+    // What ends no step may have been met at its very end.
+    if (side == 0 || (side == -sides_[k] && !ends_step_[static_cast<std::size_t>(k)] && met(k))) continue;
     if (side == -sides_[k] && counts(k))
       jumped.push_back(k);
     else
@@ -34,6 +43,7 @@ std::vector<int> CrossingWatch::begin(const State& state, const Environment& env
     jumped = {*std::min_element(jumped.begin(), jumped.end(),
                                 [&](int a, int b) { return sides_[a] * at_start_[a] < sides_[b] * at_start_[b]; })};
   for (const int k : jumped) sides_[k] = -sides_[k];
+  std::erase_if(jumped, met);
   return jumped;
 }
 
@@ -62,7 +72,7 @@ bool CrossingWatch::has_crossed(int k, double value) const {
 void CrossingWatch::collect(const VectorX& values, std::vector<int>& crossed) const {
   crossed.clear();
   for (int k = 0; k < static_cast<int>(values.size()); ++k)
-    if (has_crossed(k, values[k])) crossed.push_back(k);
+    if (ends_step_[static_cast<std::size_t>(k)] && has_crossed(k, values[k])) crossed.push_back(k);
 }
 
 bool CrossingWatch::found(const State& end, const Environment& environment, double h, double tolerance) {
@@ -131,6 +141,41 @@ std::vector<int> CrossingWatch::pass() {
   let_one_go(crossed_, at_high_);
   for (const int k : crossed_) sides_[k] = -sides_[k];
   return crossed_;
+}
+
+double CrossingWatch::locate_noted(int k, double begin, double end, const std::function<State(double)>& between,
+                                   const Environment& environment, double tolerance) {
+  constexpr int most = 100;
+  double low = begin, high = end, at_low = at_start_[k], at_high = at_high_[k];
+  int moved = 0;  // the end that moved last
+  for (int i = 0; i < most && high - low > tolerance; ++i) {
+    const bool secant = side_of(at_low) * side_of(at_high) < 0;
+    const double share = secant ? std::abs(at_low) / (std::abs(at_low) + std::abs(at_high)) : 0.5;
+    // Past the zero by less than the tolerance, so that the upper end comes to it.
+    const double width = high - low, least = std::min(1e-3 * width, 0.5 * tolerance);
+    const double time = std::clamp(low + share * width + 0.5 * tolerance, low + least, high - least);
+    if (!(time > low && time < high)) break;
+    const double value = values_.calc(between(time), environment, k);
+    const bool behind = sides_[k] * value <= 0;
+    (behind ? high : low) = time;
+    (behind ? at_high : at_low) = value;
+    // An end that stays for a second time counts half.
+    if (moved == (behind ? 1 : -1)) (behind ? at_low : at_high) *= 0.5;
+    moved = behind ? 1 : -1;
+  }
+  return high;
+}
+
+std::vector<CrossingWatch::Noted> CrossingWatch::pass_noted(double begin, double end,
+                                                            const std::function<State(double)>& between,
+                                                            const Environment& environment, double tolerance) {
+  std::vector<Noted> noted;
+  for (int k = 0; k < static_cast<int>(sides_.size()); ++k) {
+    if (ends_step_[static_cast<std::size_t>(k)] || !has_crossed(k, at_high_[k])) continue;
+    noted.push_back({locate_noted(k, begin, end, between, environment, tolerance), k});
+  }
+  for (const Noted& each : noted) sides_[each.crossing] = -sides_[each.crossing];
+  return noted;
 }
 
 void CrossingWatch::exchange(Archive& archive) {

@@ -31,14 +31,32 @@ void ErrorNorm::exchange(Archive& archive) {
   archive(largest_first_order_);
 }
 
-double ErrorNorm::operator()(const TimeIntegration& integration) {
-  const VectorX e = integration.position_error();
+/// @param e  of the dofs
+double ErrorNorm::of_positions(const VectorX& e) const {
   double displacement = 0, rotation = 0;
   for (int i = 0; i < system_.dofs(); ++i)
     (system_.kind(i) == Kind::rotation ? rotation : displacement) += mass_[i] * e[i] * e[i];
   double error = 0;
   if (mass_sum_ > 0) error = std::max(error, std::sqrt(displacement / mass_sum_) / length_);
   if (inertia_sum_ > 0) error = std::max(error, std::sqrt(rotation / inertia_sum_));
+  return error;
+}
+
+double ErrorNorm::of_impulse(const VectorX& impulse, double h) const {
+  VectorX e = VectorX::Zero(system_.dofs());
+  for (int i = 0; i < system_.dofs(); ++i)
+    if (mass_[i] > 0) e[i] = h * impulse[i] / mass_[i];
+  double error = of_positions(e);
+  for (int k = 0; k < system_.first_orders(); ++k) {
+    const double size = std::max(system_.scale(system_.dofs() + k), largest_first_order_[k]);
+    if (size > 0 && !algebraic_[static_cast<std::size_t>(k)])
+      error = std::max(error, std::abs(impulse[system_.dofs() + k]) / size);
+  }
+  return error;
+}
+
+double ErrorNorm::operator()(const TimeIntegration& integration) {
+  double error = of_positions(integration.position_error());
   const VectorX e_y = integration.first_order_error();
   largest_first_order_ = largest_first_order_.cwiseMax(integration.state().first_order.cwiseAbs());
   for (int i = 0; i < system_.first_orders(); ++i) {

@@ -16,9 +16,14 @@ class ErrorNorm {
   ErrorNorm(const System& system, const Environment& environment, const State& state);
   /// @param integration  with an attempted step. @returns [-]
   double operator()(const TimeIntegration& integration);
+  /// The error of positions after a step in which an impulse was missed, were nothing held.
+  /// @param impulse  along each equation (size): of forces [N s], [N m s]
+  /// @param h        of the step [s]
+  double of_impulse(const VectorX& impulse, double h) const;
   void exchange(Archive& archive);
 
  private:
+  double of_positions(const VectorX& e) const;
   const System& system_;
   VectorX mass_;                           ///< diagonal of the mass matrix (dofs)
   double mass_sum_ = 0, inertia_sum_ = 0;  ///< of the means over directions

@@ -12,6 +12,11 @@
 namespace bielle::mechanism {
 namespace {
 
+/// How well times of crossings are known [s]: far below the error of a step of size h, far above rounding.
+double tolerance_of(double h, double time) {
+  return std::max(1e-10 * h, 16 * std::numeric_limits<double>::epsilon() * std::abs(time));
+}
+
 /// The size for the next step after one of size h with this error over tolerance.
 double proposed_size(double h, double error, double largest) {
   const double factor = 0.9 * std::cbrt(1 / std::max(error, 1e-6));
@@ -50,7 +55,7 @@ MarchLog MarchLog::followed_by(const MarchLog& next) const {
 class March::Stops {
  public:
   Stops(double begin, double end, const StepOptions& options)
-      : begin_(begin), end_(end), rounding_(1e-9 * options.size), kinks_(options.break_points) {
+      : begin_(begin), end_(end), rounding_(0.5e-12 * options.size), kinks_(options.break_points) {
     std::sort(kinks_.begin(), kinks_.end());
     if (options.tolerance > 0) return;
     steps_ = std::max(1L, std::lround((end - begin) / options.size));
@@ -59,15 +64,15 @@ class March::Stops {
 
   /// Moves on to the first stop after the given time.
   void advance(double time) {
-    while (kink_ < kinks_.size() && kinks_[kink_] <= time + rounding_) ++kink_;
+    while (kink_ < kinks_.size() && kinks_[kink_] <= time + rounding(time)) ++kink_;
     stop_ = end_;
     if (steps_ > 0) {
-      while (k_ <= steps_ && grid(k_) <= time + rounding_) ++k_;
+      while (k_ <= steps_ && grid(k_) <= time + rounding(time)) ++k_;
       stop_ = grid(k_);
     }
-    at_kink_ = kink_ < kinks_.size() && kinks_[kink_] <= stop_ + rounding_;
+    at_kink_ = kink_ < kinks_.size() && kinks_[kink_] <= stop_ + rounding(stop_);
     // A kink at a stop, up to rounding, is that stop.
-    if (at_kink_ && kinks_[kink_] < stop_ - rounding_) stop_ = kinks_[kink_];
+    if (at_kink_ && kinks_[kink_] < stop_ - rounding(stop_)) stop_ = kinks_[kink_];
   }
   double time() const { return stop_; }
   bool at_kink() const { return at_kink_; }
@@ -75,6 +80,8 @@ class March::Stops {
   double step_size() const { return size_; }  ///< of the grid
 
  private:
+  /// Times that differ by less are the same. Less than what tells the two sides of a kink apart.
+  double rounding(double time) const { return rounding_ + 4 * std::numeric_limits<double>::epsilon() * std::abs(time); }
   /// Counted, not summed: the last step ends on the end.
   double grid(long k) const { return k >= steps_ ? end_ : begin_ + static_cast<double>(k) * size_; }
   double begin_, end_, rounding_, size_ = 0, stop_ = 0;
@@ -89,7 +96,8 @@ March::March(TimeIntegration& integration, double begin, double end, StepOptions
       end_(end),
       options_(std::move(options)),
       norm_(integration.system(), integration.environment(), integration.state()),
-      watch_(integration.system()) {
+      watch_(integration.system()),
+      pulses_(integration.system(), end - begin) {
   const bool adaptive = options_.tolerance > 0;
   stops_ = std::make_unique<Stops>(begin, end, options_);
   stops_->advance(integration.state().time);
@@ -132,22 +140,22 @@ void March::exchange(Archive& archive) {
 /// @param before  of the branch that began here a moment ago; its own comes in its place
 void March::begin_branch(double h, std::optional<Jump>& before) {
   if (before && jump_listener_) jump_listener_(*before);
-  before = integration_.begin_branch(h, crossed_);
+  std::vector<int> begins;  // those that begin it
+  for (const int k : crossed_)
+    if (integration_.system().crossings()[static_cast<std::size_t>(k)].crossing.restarts) begins.push_back(k);
+  before = integration_.begin_branch(h, begins);
 }
 
 void March::begin_step(MarchStep& step) {
-  const double h = std::min(size_, stops_->time() - integration_.state().time);
-  const bool jumps = pending_ == Pending::start || pending_ == Pending::branch;
+  double h = std::min(size_, stops_->time() - integration_.state().time);
+  if (is_short(h)) h = size_;  // the scheme's own values are for the steps that come after
   if (pending_ == Pending::start) integration_.start(h);
   if (pending_ == Pending::restart) integration_.restart(h);
   std::optional<Jump> jump;  // the last, which is followed by the step
   if (pending_ == Pending::branch) begin_branch(h, jump);
   pending_ = Pending::nothing;
   if (!watch_.idle()) {
-    std::vector<int> jumped = watch_.begin(integration_.state(), integration_.environment());
-    // On which side of its zero that is which has just been met, rounding tells.
-    std::erase_if(jumped, [&](int k) { return std::find(crossed_.begin(), crossed_.end(), k) != crossed_.end(); });
-    if (jumps) pass_jumps(h, std::move(jumped), jump, step);
+    pass_jumps(h, watch_.begin(integration_.state(), integration_.environment(), crossed_), jump, step);
   }
   crossed_.clear();
   if (!jump) return;
@@ -155,7 +163,8 @@ void March::begin_step(MarchStep& step) {
   if (jump_listener_) jump_listener_(*jump);
 }
 
-/// Crossings that were jumped over at a discontinuity: they may begin further branches there.
+/// Crossings that were jumped over, at a discontinuity or where a short span's accelerations were solved for: they may
+/// begin further branches there.
 void March::pass_jumps(double h, std::vector<int> jumped, std::optional<Jump>& jump, MarchStep& step) {
   // Branches that all begin at once may undo each other again and again; one after the other they settle.
   constexpr int together = 10, most = 100;
@@ -167,31 +176,43 @@ void March::pass_jumps(double h, std::vector<int> jumped, std::optional<Jump>& j
     pending_ = Pending::nothing;
     if (stopped_ || !restarts) return;
     begin_branch(h, jump);
-    jumped = watch_.begin(integration_.state(), integration_.environment(), k >= together);
+    jumped = watch_.begin(integration_.state(), integration_.environment(), {}, k >= together);
   }
 }
 
+/// Whether a span is too short for the scheme: what an event or a kink leaves, not a step that had to become short.
+bool March::is_short(double h) const {
+  constexpr double share = 0.01;
+  return h < share * size_ && h < integration_.longest_short_span();
+}
+
 StepReport March::attempt(double h, double end, bool kink) {
-  const StepReport report = integration_.attempt(h, end, kink);
+  constexpr double small = 1e-6;  // time constants that matter are longer
+  const StepReport report =
+      is_short(h) ? integration_.attempt_short(h, end, kink, h < small * size_) : integration_.attempt(h, end, kink);
   log_.iterations += report.iterations;
   log_.factorisations += report.factorisations;
   log_.shortened += report.shortened;
   return report;
 }
 
+/// The scheme's values for steps of another size, unless it differs by little or is too short to have any.
+void March::change_step(double h) {
+  if (!is_short(h)) integration_.change_step(h);
+}
+
 /// Where the attempted step holds a crossing: attempts shorter ones until it ends just past the first.
 /// @returns the size of that step, or 0 where it holds none, or where a shorter step failed (the report then says why)
 double March::locate(double time, StepReport& report) {
   const double h = report.size;
-  // Far below the error of the steps, far above rounding.
-  const double tolerance = std::max(1e-10 * h, 16 * std::numeric_limits<double>::epsilon() * std::abs(time));
+  const double tolerance = tolerance_of(h, time);
   if (watch_.idle() || !watch_.found(integration_.attempted(), integration_.environment(), h, tolerance)) return 0;
   constexpr int most = 60;  // bisection alone takes some 35
   integration_.share_factors(true);
   double last = h;
   for (int k = 0; k < most && !watch_.located(); ++k) {
     last = watch_.proposal();
-    if (k == 0) integration_.change_step(last);
+    change_step(last);
     report = attempt(last, time + last, false);
     if (!report.converged()) break;
     watch_.narrow(integration_.attempted(), integration_.environment(), last);
@@ -264,6 +285,28 @@ March::Plan March::plan() const {
   return plan;
 }
 
+/// What formulas of time do between the ends of an attempted step and not at them: the error of positions by it, over
+/// the tolerance; 0 with fixed steps, whose run tells it at its end.
+double March::missed(const Plan& plan) {
+  constexpr double large = 0.2;  // of the integral of |f|: some four steps in a period
+  if (pulses_.idle()) return 0;
+  const PulseWatch::Look look =
+      pulses_.look(integration_.attempted(), integration_.environment(), plan.begin, plan.end);
+  if (!adaptive() || !(look.missed > large * look.whole) || !(look.distance > 0)) return 0;
+  // The forces of then and of now tell along which unknowns it acts.
+  const System& system = integration_.system();
+  State state = integration_.attempted();
+  VectorX then(system.size()), now(system.size());
+  try {
+    system.residual(state, integration_.environment(), now);
+    state.time = look.farthest;
+    system.residual(state, integration_.environment(), then);
+  } catch (const ComputationError&) {
+    return 0;  // a component refuses a state that is not of that time
+  }
+  return norm_.of_impulse(look.missed / look.distance * (then - now), plan.size) / options_.tolerance;
+}
+
 /// One step as planned: tried, judged, and cut short at the first crossing within.
 /// @param too_large  errors that were too large one after the other, in this step
 /// @returns whether it is to be accepted; otherwise sizes are smaller
@@ -274,12 +317,13 @@ bool March::try_step(const Plan& plan, int& too_large, Trial& trial) {
   if (too_large >= most)
     integration_.restart(plan.size);
   else
-    integration_.change_step(plan.size);
+    change_step(plan.size);
   trial = Trial{};
   trial.report = attempt(plan.size, plan.end, plan.kink);
   if (trial.report.converged()) {
-    if (adaptive()) trial.error = norm_(integration_) / options_.tolerance;
-    trial.error_known = integration_.first_order_error_known();
+    const double pulse = missed(plan);
+    if (adaptive() && !integration_.is_short()) trial.error = std::max(norm_(integration_) / options_.tolerance, pulse);
+    trial.error_known = !integration_.is_short() && integration_.first_order_error_known();
     if (trial.error > 1) {
       tell(Attempt::Outcome::refused_by_error, plan, trial);
       ++too_large;
@@ -307,20 +351,23 @@ void March::count(const Plan& plan, const Trial& trial) {
     log_.most_iterations_at = integration_.state().time;
     log_.slowest_equation = trial.report.worst_equation;
   }
-  if (plan.kink || trial.crossing > 0) return;
+  if (plan.kink || trial.crossing > 0 || integration_.is_short()) return;
   log_.smallest = log_.smallest > 0 ? std::min(log_.smallest, plan.size) : plan.size;
   log_.largest = std::max(log_.largest, plan.size);
 }
 
-/// Where a step has ended on a crossing before its planned end.
-/// @returns whether that counts as a time of the grid
-bool March::pass_grid(const Plan& plan, const Trial& trial) {
-  // A time of the grid that is hardly farther has been reached: so short a step would be nothing but rounding.
-  constexpr double sliver = 1e-3;
-  const bool on_grid = !adaptive() && stops_->on_grid() && stops_->time() < end_ && !stops_->at_kink() &&
-                       stops_->time() - plan.begin - trial.crossing < sliver * stops_->step_size();
-  if (on_grid) stops_->advance(stops_->time());
-  return on_grid;
+/// The crossings within an accepted step that change nothing.
+void March::pass_noted(double begin, MarchStep& step) {
+  if (watch_.idle()) return;
+  const double end = integration_.state().time;
+  const auto noted = watch_.pass_noted(
+      begin, end, [this](double time) { return integration_.interpolated(time); }, integration_.environment(),
+      tolerance_of(end - begin, begin));
+  for (const CrossingWatch::Noted& each : noted) {
+    step.passed.push_back({each.time, each.crossing});
+    crossed_.push_back(each.crossing);
+    ++log_.crossings;
+  }
 }
 
 MarchStep March::advance() {
@@ -339,10 +386,19 @@ MarchStep March::advance() {
   count(planned, trial);
   step.report = trial.report;
   step.error = trial.error;
+  if (integration_.is_short()) pending_ = Pending::restart;
+  if (!pulses_.idle()) {
+    if (trial.crossing > 0)
+      pulses_.look(integration_.state(), integration_.environment(), planned.begin, integration_.state().time);
+    pulses_.add(integration_.state().time);
+  }
+  pass_noted(planned.begin, step);
   if (trial.crossing > 0) pass_crossings(step);
+  std::stable_sort(step.passed.begin(), step.passed.end(),
+                   [](const Passed& a, const Passed& b) { return a.time < b.time; });
   if (branch_left) pending_ = Pending::branch;
-  if (trial.crossing > 0 && trial.crossing < planned.size) {
-    step.on_grid = pass_grid(planned, trial);
+  if (trial.crossing > 0 && integration_.state().time < planned.end) {
+    step.on_grid = false;
     return step;
   }
   // A step whose error is not known says nothing for a larger one.

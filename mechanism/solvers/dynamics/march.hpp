@@ -15,6 +15,7 @@
 
 #include "mechanism/solvers/dynamics/crossing_watch.hpp"
 #include "mechanism/solvers/dynamics/error_norm.hpp"
+#include "mechanism/solvers/dynamics/pulse_watch.hpp"
 
 namespace bielle::mechanism {
 
@@ -26,7 +27,7 @@ struct StepOptions {
   std::vector<double> break_points;
 };
 
-/// A crossing that a step has ended on.
+/// A crossing that a step has ended on, or one within it that changes nothing.
 struct Passed {
   double time = 0;   ///< [s]
   int crossing = 0;  ///< by number, System::crossings
@@ -37,7 +38,7 @@ struct MarchStep {
   StepReport report;
   double error = 0;            ///< local error over tolerance; 0 with fixed steps
   bool on_grid = true;         ///< ends on a time of the fixed grid; always true with adaptive steps, but for crossings
-  std::vector<Passed> passed;  ///< the crossings at its end
+  std::vector<Passed> passed;  ///< the crossings within it and at its end, by their times
 };
 
 /// A step that was tried, as told to those who keep a log.
@@ -55,7 +56,7 @@ struct MarchLog {
   long shortened = 0;                ///< iterations whose full step was too long
   long refused_by_error = 0;         ///< steps whose local error was too large
   long refused_by_newton = 0;        ///< steps in which Newton's method failed
-  long crossings = 0;                ///< at which steps have ended
+  long crossings = 0;                ///< that were met
   double smallest = 0, largest = 0;  ///< accepted steps [s], those cut short by kinks left out
   int most_iterations = 0;           ///< of an accepted step
   double most_iterations_at = 0;     ///< [s]
@@ -83,6 +84,8 @@ class March {
   /// @throws ComputationError when Newton's method fails with the smallest steps too: 1/1024 of the fixed size,
   ///         or 1e-10 of the span
   MarchStep advance();
+  /// What the user should know of formulas of time that change between steps, of this program's run: sentences.
+  std::vector<std::string> doubts() const { return pulses_.doubts(); }
   /// Of this program's run: what came before a restart is not in it.
   const MarchLog& log() const { return log_; }
   void count_as_before() {  ///< what it has done so far
@@ -115,12 +118,15 @@ class March {
   bool try_step(const Plan& plan, int& too_large, Trial& trial);
   void tell(Attempt::Outcome outcome, const Plan& plan, const Trial& trial) const;
   void count(const Plan& plan, const Trial& trial);
-  bool pass_grid(const Plan& plan, const Trial& trial);
+  void pass_noted(double begin, MarchStep& step);
   void begin_step(MarchStep& step);
   void begin_branch(double h, std::optional<Jump>& before);
   void pass_jumps(double h, std::vector<int> jumped, std::optional<Jump>& jump, MarchStep& step);
   void note(const std::vector<int>& passed, MarchStep& step);
+  double missed(const Plan& plan);
   double locate(double time, StepReport& report);
+  bool is_short(double h) const;
+  void change_step(double h);
   StepReport attempt(double h, double end, bool kink);
   [[noreturn]] void throw_chattering(int crossing) const;
   void pass_crossings(MarchStep& step);
@@ -134,6 +140,7 @@ class March {
   ErrorNorm norm_;
   Pending pending_ = Pending::start;
   CrossingWatch watch_;
+  PulseWatch pulses_;
   std::vector<int> crossed_;  ///< past which the next step begins
   bool stopped_ = false;
   double last_crossing_ = 0;    ///< [s]

@@ -112,6 +112,13 @@ void SchemeStep::set_trial_velocity(const VectorX& v) {
   system_.set_rates(trial_, v_, a_);
 }
 
+void SchemeStep::set_trial(State trial, double h, const VectorX& dq) {
+  trial_ = std::move(trial);
+  trial_size_ = h;
+  dq_ = dq;
+  system_.get_rates(trial_, v_, a_);
+}
+
 template <class Act>
 void SchemeStep::for_each_rotation(const Act& act) const {
   for (std::size_t node = 0; node < state_.nodes.size(); ++node) {

@@ -69,6 +69,8 @@ class SchemeStep {
   /// scheme's relations.
   /// @param without_rates  the part of the increments that belongs to no rates, or nullptr
   void follow(const VectorX* without_rates);
+  /// Makes a state that was found by other means the trial. @param dq  the increments that lead there (dofs)
+  void set_trial(State trial, double h, const VectorX& dq);
   void show();  ///< increments and rates in the trial state
   TangentWeights weights() const { return {1, rate_factor_, acceleration_factor_, first_order_factor_, 1}; }
   /// @throws ComputationError where a node turns so far that T(Dq) is not to be trusted: singular at a full turn

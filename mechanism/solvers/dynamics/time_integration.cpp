@@ -40,7 +40,8 @@ TimeIntegration::TimeIntegration(const System& system, const Environment& enviro
       correction_(system, environment_, form),
       newton_(system, environment_, equations_of(system, form), options),
       crossing_values_(system),
-      extrapolation_(system.size(), options.extrapolation) {
+      extrapolation_(system.size(), options.extrapolation),
+      short_span_(system, environment_) {
   start_report_ = make_consistent(system_, environment_, step_.state());
   step_.take_rates();
   system_.accept(step_.state(), environment_);
@@ -56,7 +57,8 @@ TimeIntegration::TimeIntegration(const System& system, const Environment& enviro
       correction_(system, environment_, form),
       newton_(system, environment_, equations_of(system, form), options),
       crossing_values_(system),
-      extrapolation_(system.size(), options.extrapolation) {
+      extrapolation_(system.size(), options.extrapolation),
+      short_span_(system, environment_) {
   exchange(archive);
 }
 
@@ -226,6 +228,7 @@ StepReport TimeIntegration::attempt_from(double h, double end, bool extrapolated
 
 StepReport TimeIntegration::attempt(double h, double end, bool kink) {
   end_ = end;
+  short_ = false;
   const double trial_end = kink ? end - just_off(end, h) : end;
   const StepReport report = attempt_plainly(h, trial_end);
   if (report.converged() || system_.algebraic().empty() || !newton_.search_balances(true)) return report;
@@ -253,8 +256,39 @@ StepReport TimeIntegration::attempt_again(const StepReport& before, double h, do
   return report;
 }
 
+StepReport TimeIntegration::attempt_short(double h, double end, bool kink, bool small) {
+  const double offset = just_off(state().time, h), trial_end = kink ? end - just_off(end, h) : end;
+  MassSaddle& saddle = correction_.saddle();
+  StepReport report;
+  report.size = h;
+  try {
+    if (!short_span_.leap(step_, saddle, h, trial_end, offset, small)) {
+      report = attempt(h, end, kink);
+      if (report.converged()) short_span_.settle(step_, saddle);
+    }
+    short_ = report.converged();
+    end_ = end;
+    return report;
+  } catch (const ComputationError&) {
+    // There are no accelerations that are consistent, or more than one set: a step asks less.
+    return attempt(h, end, kink);
+  }
+}
+
+/// The scheme's own values are none of a short span's.
+bool TimeIntegration::accept_short() {
+  const bool branch_left = system_.accept(step_.trial(), environment_);
+  step_.trial().time = end_;
+  step_.accept();
+  step_.take_rates();
+  newton_.forget_factors();
+  extrapolate_from_here();
+  return branch_left;
+}
+
 bool TimeIntegration::accept() {
   check_set_aside(system_, environment_, step_.trial());
+  if (short_) return accept_short();
   loss_.add(step_, environment_);
   step_.take_algorithmic_values();
   correction_.watch(step_);

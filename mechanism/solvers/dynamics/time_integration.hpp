@@ -14,6 +14,7 @@
 
 #include "mechanism/solvers/dynamics/extrapolation.hpp"
 #include "mechanism/solvers/dynamics/scheme_loss.hpp"
+#include "mechanism/solvers/dynamics/short_span.hpp"
 #include "mechanism/solvers/dynamics/step_newton.hpp"
 #include "mechanism/solvers/dynamics/velocity_correction.hpp"
 #include "mechanism/solvers/start/start_report.hpp"
@@ -49,6 +50,14 @@ class TimeIntegration {
   /// @param end   the time at its end: state().time + h but for rounding [s]
   /// @param kink  forces may jump at the end: the step sees those of just before
   StepReport attempt(double h, double end, bool kink = false);
+  /// The same over a span that is too short for the scheme (short_span.hpp). Where it is accepted as such (`is_short`),
+  /// a `restart` has to follow before the next step, unless a `begin_branch` does.
+  /// @param small  whether it is shorter than any time constant that matters
+  StepReport attempt_short(double h, double end, bool kink, bool small);
+  /// Whether the last attempt was over a short span and owes nothing to the scheme.
+  bool is_short() const { return short_; }
+  /// Spans shorter than this leave accelerations of the scheme less than six digits, at the present state [s].
+  double longest_short_span() const { return short_span_.longest(state(), step_.scheme()); }
   StepReport attempt(double h) { return attempt(h, state().time + h); }
   /// Makes the attempted step the motion's last. @throws ComputationError when a constraint that was set aside as
   /// redundant contradicts the others
@@ -107,6 +116,7 @@ class TimeIntegration {
   void choose_start(double h, double end, StepReport& report);
   StepReport attempt_plainly(double h, double trial_end);
   StepReport attempt_again(const StepReport& before, double h, double end);
+  bool accept_short();
   StepReport attempt_from(double h, double end, bool extrapolated);
 
   const System& system_;
@@ -117,9 +127,11 @@ class TimeIntegration {
   CrossingValues crossing_values_;
   Extrapolation extrapolation_;
   SchemeLoss loss_;
+  ShortSpan short_span_;
   VectorX highest_;  ///< a buffer: SchemeStep::get_highest
   StartReport start_report_;
-  double end_ = 0;  ///< of the last attempt [s]
+  double end_ = 0;      ///< of the last attempt [s]
+  bool short_ = false;  ///< whether it was over a short span
 };
 
 }  // namespace bielle::mechanism

@@ -199,6 +199,21 @@ TEST_CASE("A run that ends early leaves all its rows, marked incomplete") {
   CHECK(rows_in(file, "/nodes/pin/position") == 7);
 }
 
+TEST_CASE("The events of a run that fails are found at the root") {
+  const TemporaryFolder folder;
+  {
+    ResultsSample sample;
+    ResultsFile results(folder / "run.h5", sample.model, "");
+    results.begin_analysis("dynamic");
+    sample.record(results, 0);
+    results.note({0.125, 3, "an event"});
+    results.note({0.25, 1, "another"});
+  }  // the run fails here
+  const Hdf5File file = Hdf5File::open(folder / "run.h5");
+  CHECK(file.read("/events/time") == Values{0.125, 0.25});
+  CHECK(file.read("/events/crossing") == Values{3, 1});
+}
+
 TEST_CASE("Mistakes of the program are told") {
   const TemporaryFolder folder;
   ResultsSample sample;

@@ -29,6 +29,7 @@ struct Course {
   std::vector<Visit> visits;
   MarchLog log;
   State end;
+  std::vector<std::string> doubts;
 };
 
 Course run(const ReadyModel& model, double end, StepOptions options) {
@@ -41,6 +42,7 @@ Course run(const ReadyModel& model, double end, StepOptions options) {
     motion.visits.push_back({integration.state().time, step.report.size, step.error, step.on_grid});
   }
   motion.log = march.log();
+  motion.doubts = march.doubts();
   motion.end = integration.state();
   return motion;
 }
@@ -89,6 +91,40 @@ TEST_CASE("a force that jumps, at the start or between two times of the grid, le
       coarse = fine;
     }
   }
+}
+
+TEST_CASE("a pulse between the ends of steps is felt with a tolerance, and told of fixed steps") {
+  // 1 kg at 1 m/s, and a pulse of 1e6 N 1 ms sqrt(pi) = 1772.45 N s.
+  const double pulse = 1e3 * std::sqrt(std::acos(-1.0));
+  const auto model_of = [](const std::string& force) {
+    return ReadyModel(R"yaml(
+nodes: {m: {position: [1, 0, 0], velocity: [1, 0, 0], fixed: [y, z, rx, ry, rz]}}
+elements: {m: {type: point_mass, node: m, mass: 1}}
+loads: {l: {node: m, force: [")yaml" +
+                      force + "\", 0, 0]}}\n");
+  };
+  const ReadyModel struck = model_of("1e6*exp(-((t - 0.55)/0.001)^2)");
+  for (const double tolerance : {1e-4, 1e-6}) {
+    const Course motion = run(struck, 1, adaptive(0.1, tolerance));
+    CHECK(struck.node(motion.end, "m").v.x() == Approx(1 + pulse).epsilon(1e-3));
+    CHECK(motion.doubts.empty());
+    CHECK(motion.log.steps < 3000);
+  }
+  const Course coarse = run(struck, 1, fixed(0.1));
+  REQUIRE(coarse.doubts.size() == 1);
+  CHECK_THAT(coarse.doubts[0], Catch::Contains("load 'l': force x changes between steps"));
+  CHECK_THAT(coarse.doubts[0], Catch::Contains("1772 N s, they miss 1772 N s") && Catch::Contains("to t = 0.6 s"));
+  // Steps of a fifth of its width resolve it.
+  const Course fine = run(struck, 1, fixed(2e-4));
+  CHECK(fine.doubts.empty());
+  CHECK(struck.node(fine.end, "m").v.x() == Approx(1 + pulse).epsilon(1e-3));
+  // What steps resolve is not doubted: 12 steps in a period miss (omega h)^2/12 = 2 %.
+  CHECK(run(model_of("3*sin(2*pi*t)"), 1, fixed(1.0 / 12)).doubts.empty());
+  CHECK(run(model_of("3*sin(2*pi*t)"), 1, fixed(1.0 / 3)).doubts.size() == 1);
+  // Fast ripples that move nothing make no step smaller.
+  const long with = run(model_of("3*sin(2*pi*t) + 1e-4*sin(5e4*t)"), 1, adaptive(0.01, 1e-5)).log.steps,
+             without = run(model_of("3*sin(2*pi*t)"), 1, adaptive(0.01, 1e-5)).log.steps;
+  CHECK(static_cast<double>(with) < 1.2 * static_cast<double>(without));
 }
 
 TEST_CASE("the local error of a step is what the norm says") {

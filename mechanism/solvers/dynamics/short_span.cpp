@@ -1,0 +1,68 @@
+#include "mechanism/solvers/dynamics/short_span.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mechanism/solvers/newton/model_length.hpp"
+#include "mechanism/solvers/start/consistent_accelerations.hpp"
+#include "mechanism/solvers/start/consistent_velocities.hpp"
+
+namespace bielle::mechanism {
+
+double ShortSpan::longest(const State& state, const Scheme& scheme) const {
+  constexpr double digits = 1e6, eps = std::numeric_limits<double>::epsilon();
+  const double extent = model_extent(state), size = model_length(state) + extent;
+  double largest = environment_.gravity.norm();
+  for (const NodeState& node : state.nodes) largest = std::max({largest, node.a.norm(), extent * node.Omegadot.norm()});
+  const double share = (1 - scheme.alpha_m) / ((1 - scheme.alpha_f) * scheme.beta);
+  return largest > 0 ? std::sqrt(digits * eps * size * share / largest) : std::numeric_limits<double>::infinity();
+}
+
+/// Whether nothing that may be stiff moves by more than a small part of its size.
+bool ShortSpan::moves_little(const State& begin, double span) const {
+  constexpr double little = 1e-6;
+  for (int k = 0; k < system_.first_orders(); ++k) {
+    const double size = std::max(std::abs(begin.first_order[k]), system_.scale(system_.dofs() + k));
+    if (span * std::abs(begin.first_order_rate[k]) > little * size) return false;
+  }
+  if (begin.amplitude.size() == 0) return true;
+  return 0.5 * span * span * begin.amplitude_acceleration.lpNorm<Eigen::Infinity>() <=
+         little * begin.amplitude.lpNorm<Eigen::Infinity>();
+}
+
+bool ShortSpan::leap(SchemeStep& step, MassSaddle& saddle, double span, double end, double offset, bool small) const {
+  State begin = step.state();
+  begin.time += offset;
+  StartReport unused;
+  saddle.serve_no_more();
+  make_velocities_consistent(system_, environment_, begin, unused, saddle);
+  make_accelerations_consistent(system_, environment_, begin, saddle);
+  if (!small && !moves_little(begin, span)) return false;
+  const int n = system_.dofs();
+  VectorX v(n), a(n);
+  system_.get_rates(begin, v, a);
+  const VectorX dq = span * v + 0.5 * span * span * a;
+  State after = begin;
+  after.time = end;
+  system_.displace(after, begin, dq);
+  system_.set_rates(after, v + span * a, a);
+  after.first_order += span * begin.first_order_rate;
+  continue_accelerations(system_, environment_, after, saddle);
+  saddle.serve_no_more();
+  step.set_trial(std::move(after), span, dq);
+  return true;
+}
+
+void ShortSpan::settle(SchemeStep& step, MassSaddle& saddle) const {
+  State after = step.trial();
+  const VectorX dq = step.dq();
+  StartReport unused;
+  saddle.serve_no_more();
+  make_velocities_consistent(system_, environment_, after, unused, saddle);
+  make_accelerations_consistent(system_, environment_, after, saddle);
+  saddle.serve_no_more();
+  step.set_trial(std::move(after), step.trial_size(), dq);
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,43 @@
+// Prescribed motions with corners: bodies are set going and stopped by impulses, and the user is told.
+#include <catch2/catch.hpp>
+
+#include "mechanism/io/mechanism_file.hpp"
+#include "mechanism/session/session.hpp"
+
+using namespace bielle::mechanism;
+using Catch::Contains;
+
+namespace {
+
+/// 2 kg that a drive moves along a slide.
+std::vector<std::string> doubts_of(const std::string& displacement) {
+  const MechanismFile file = read_mechanism_text(R"yaml(
+nodes: {b: {position: [0, 0, 0]}}
+elements: {m: {type: rigid_body, node: b, mass: 2, inertia: [0.1, 0.1, 0.1]}}
+joints: {s: {type: prismatic, nodes: [ground, b], axis: [1, 0, 0]}}
+drives: {lift: {joint: s, displacement: ")yaml" + displacement +
+                                                     "\"}}\n",
+                                                 "model.yaml");
+  Session session(file.model);
+  DynamicsOptions options;
+  options.duration = 0.5;
+  options.stepping.size = 0.01;
+  Motion motion = session.dynamics(options);
+  REQUIRE(motion.finish());
+  return motion.doubts();
+}
+
+}  // namespace
+
+TEST_CASE("a prescribed motion with corners is told, with the work of the first impulse") {
+  // From rest to 3 m/s at 0.105 s, and back at 0.3 s: m v (v + 0) = 18 J by the drive, half of which is lost.
+  const std::vector<std::string> doubts = doubts_of("0.585*ramp(t, 0.105, 0.3)");
+  REQUIRE(doubts.size() == 1);
+  CHECK_THAT(doubts[0], Contains("2 times") && Contains("t = 0.105 s") && Contains("drive 'lift'"));
+  CHECK_THAT(doubts[0], Contains("work is 18 J"));
+}
+
+TEST_CASE("a prescribed motion whose rate is continuous is not doubted, also where its acceleration jumps") {
+  CHECK(doubts_of("0.1*sin(20*t)").empty());
+  CHECK(doubts_of("(t > 0.105)*(t - 0.105)^2").empty());
+}
