@@ -1,5 +1,5 @@
-// Keys of 0 that mean none: friction, stops, gaps, filters, branches, grip, masses. A parameter that is swept down to it
-// comes to the model without it, or to a closed form.
+// Keys of 0 that mean none: friction, stops, gaps, filters, branches, grip, masses. A parameter that is swept down to
+// it comes to the model without it, or to a closed form.
 #include <cmath>
 #include <string>
 #include <vector>
