@@ -6,7 +6,7 @@
 namespace bielle::mechanism {
 namespace {
 
-constexpr int cells = 10;  // along each coordinate
+constexpr int cells = 24;  // along each coordinate
 
 double middle_of(int cell) { return (cell + 0.5) / cells; }
 

@@ -2,7 +2,7 @@
 // those of what is cut out being negative, and no place may be left with less than nothing.
 //
 // Places are sampled: each solid has cells of equal parts of its own coordinates (x y z of a box; radius, angle and
-// height of what turns about an axis), 10 along each, and one place in the middle of each cell.
+// height of what turns about an axis), 24 along each, and one place in the middle of each cell.
 #pragma once
 
 #include <functional>

@@ -175,8 +175,9 @@ std::string Validity::summary() {
   std::string text;
   const bool warns = error_ > worth_a_warning;
   if (error_ >= worth_a_line)
-    text = fmt::format("  {}superelement '{}' {} at {}: its deformation is wrong by about {:.1g} %{}\n",
+    text = fmt::format("  {}superelement '{}' {} at {}: its deformation is wrong by about {:.{}g} %{}\n",
                        warns ? "DOUBTFUL: " : "", body_, bends(), when(time_, statics_), 100 * error_,
+                       error_ < 0.095 ? 1 : 2,
                        !warns                     ? ""
                        : cause_ == Cause::strains ? ", since its elasticity is linear"
                                                   : "; cut it into pieces");

@@ -116,7 +116,7 @@ class ReducePoints(BarTest):
         self.assertLess(missing(), 1e-9)
         self.write("body.yaml", BODY + "inertia_relief: 12\n")
         refused = self.run_program("body.yaml")
-        self.assertEqual(refused.returncode, 2)
+        self.assertEqual(refused.returncode, 1)
         self.assertIn("body.yaml:", refused.stderr)
         self.assertIn("inertia_relief", refused.stderr)
 
