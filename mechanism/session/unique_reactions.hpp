@@ -1,4 +1,4 @@
-// Which reactions redundant constraints leave undetermined: of joints, drives and locks.
+// Reactions that redundant constraints leave undetermined: of joints, drives and locks.
 #pragma once
 
 #include <string>

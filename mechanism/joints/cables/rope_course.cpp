@@ -86,7 +86,7 @@ double RopeCourses::clearance(std::span<const Frame> at, std::span<const RopePla
   if (!found.exists) return rho;
   if (!found.within()) return std::max(found.to_end - rho, least);
   const double clear = sense * found.s - rho;
-  // What reaches into an end of the rope does not turn it.
+  // A pulley that reaches into an end of the rope is not turned by it.
   const bool turns = !overlap(at, places, place, sense, neighbour(places, place, -1)) &&
                      !overlap(at, places, place, sense, neighbour(places, place, 1));
   return turns ? clear : std::max(clear, least);

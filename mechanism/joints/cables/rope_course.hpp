@@ -1,8 +1,8 @@
-// Which of its pulleys a rope touches, and how far it winds round them.
+// The pulleys that a rope touches, and how far it winds round them.
 //
 // The first place and the last are touched always, and so are eyelets (radius 0). A pulley between is touched while the
 // rope bends round it. Its wrap, the angle from where the rope comes onto it to where it leaves, is counted over turns.
-// Where the wrap has fallen to zero the rope leaves the pulley and runs straight from the place before to the place
+// The rope leaves the pulley where the wrap has fallen to zero, and runs straight from the place before to the place
 // after it. There, a pulley of the radius rho whose centre is at the distance s from the rope, on the inner side, is
 //     s - rho
 // clear of it; at zero the rope comes onto it, in the sense in which it then bends: that in which it left, or the other
@@ -18,8 +18,8 @@
 
 namespace bielle::mechanism {
 
-/// What is less is rounding: of wraps [rad], and of distances over radii. A rope that just touches a pulley stays as it
-/// is.
+/// Less than this is rounding: of wraps [rad], and of distances over radii. A rope that just touches a pulley stays as
+/// it is.
 inline constexpr double just_touching = 1e-9;
 
 /// The places that a rope touches, in order, with the radii that it winds round with their signs.

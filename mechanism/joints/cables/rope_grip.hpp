@@ -3,7 +3,7 @@
 // With the angle beta by which each section's end winds on the pulley (alpha + gamma of rope_span.hpp), the rope lies
 // on the rim along
 //     theta = (as drawn) + sign(rho) (beta_after - beta_before).
-// Where it has fallen to zero the rope would leave the pulley: an event is noted. It still grips, as a cam's contact
+// The rope would leave the pulley where theta has fallen to zero: an event is noted. It still grips, as a cam's contact
 // still holds where it would lift off.
 #pragma once
 

@@ -324,7 +324,7 @@ double Contact::height_of_middle(const LocalState& state, int plane, int other) 
 /// @throws ComputationError where what presses does not know the way out any more
 void Contact::check_depth(const LocalState& state, int pair, const PairForce::Nearest& found) const {
   const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
-  // A plane always knows where out is. What has its middle behind it is felt no more as what it is.
+  // A plane always knows where out is; a shape whose middle is behind it has gone through it.
   for (const auto& [plane, other] : {std::pair(a, b), std::pair(b, a)}) {
     if (shape(plane).kind != ContactShape::Kind::plane) continue;
     const double behind = -height_of_middle(state, plane, other);

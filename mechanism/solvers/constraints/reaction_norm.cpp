@@ -67,7 +67,7 @@ bool ReactionNorm::needed(const System& system, const State& state) {
 
 void ReactionNorm::factor(const Environment& environment, const State& state) {
   State whole = with_redundant(system_, state);
-  // What yields to others leaves all to them: it takes no share.
+  // A constraint that yields to others leaves all to them: it takes no share.
   for (int k = 0; k < static_cast<int>(state.idle.size()); ++k)
     if (system_.yields(k)) whole.idle[static_cast<std::size_t>(k)] = state.idle[static_cast<std::size_t>(k)];
   system_.tangent(whole, environment, TangentWeights{0, 0, 0, 0, 1, true}, nullptr, tangent_);
@@ -142,7 +142,7 @@ void ReactionNorm::balance(const Environment& environment, State& state) {
   state.reaction = smallest(state.multiplier);
 }
 
-/// Where forces read reactions, the equations of the state have been solved with them.
+/// Reactions that forces read are those with which the equations of the state have been solved: they are there.
 bool CrossingValues::needs(const State& state) const {
   if (!system_.crossings_read_reactions() || !ReactionNorm::needed(system_, state)) return false;
   return !system_.reads_reactions() || state.reaction.size() == 0;

@@ -93,7 +93,7 @@ TEST_CASE("a rope leaves a pulley round which it bends no more, runs straight, a
 }
 
 TEST_CASE("the energy of a rope that leaves its pulley and comes back is kept to second order") {
-  // What the motion puts in is what the rope stores.
+  // The rope stores as much as the motion puts in.
   const auto balance = [](double h) { return std::abs(run(lowered("-0.5*sin(pi*t)^2"), h, 1).balance); };
   CHECK(balance(0.01) < 1e-3 * 220);
   CHECK(balance(0.01) / balance(0.005) > 3);
