@@ -207,7 +207,7 @@ void Motion::set_memory(int place, double value, bool smooth) {
 
 std::vector<std::string> Motion::doubts() const {
   std::vector<std::string> doubts = parts_.march->doubts();
-  for (std::string& doubt : prescribed_jumps_.doubts()) doubts.push_back(std::move(doubt));
+  for (std::string& doubt : prescribed_jumps_.doubts(parts_.books.largest())) doubts.push_back(std::move(doubt));
   return doubts;
 }
 

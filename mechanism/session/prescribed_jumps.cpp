@@ -45,19 +45,22 @@ void PrescribedJumps::add(const System& system, const Jump& jump) {
     return;
   const std::vector<std::string> names = with_kink_at(system, jump.time);
   if (names.empty()) return;
-  if (++count_ > 1) return;
+  jumps_.push_back({std::max(std::abs(jump.work), std::abs(after - before))});
+  if (jumps_.size() > 1 && jumps_.front() > little * jumps_.back()) return;
+  if (jumps_.size() > 1) jumps_.erase(jumps_.begin(), jumps_.end() - 1);  // those before were rounding
   whose_ = fmt::format("{}", fmt::join(names, ", "));
   first_ = jump.time;
   work_ = jump.work;
 }
 
-std::vector<std::string> PrescribedJumps::doubts() const {
-  if (count_ == 0) return {};
+std::vector<std::string> PrescribedJumps::doubts(double largest) const {
+  const long count = std::count_if(jumps_.begin(), jumps_.end(), [&](double each) { return each > 1e-6 * largest; });
+  if (count == 0 || !(jumps_.front() > 1e-6 * largest)) return {};
   return {fmt::format(
       "prescribed motions jump in their rate {}, first at t = {:.6g} s ({}), by an impulse whose work is {:.3g} "
       "J and whose force no row shows: give a motion without corners (a table is a broken line, `spline` "
       "is smooth)",
-      count_ == 1 ? "once" : fmt::format("{} times", count_), first_, whose_, work_)};
+      count == 1 ? "once" : fmt::format("{} times", count), first_, whose_, work_)};
 }
 
 }  // namespace bielle::mechanism

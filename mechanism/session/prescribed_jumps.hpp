@@ -13,11 +13,11 @@ class PrescribedJumps {
  public:
   /// Takes note of a discontinuity of a motion, where a prescribed rate jumps at it.
   void add(const System& system, const Jump& jump);
-  /// What the user should know at the end of a run: a sentence, or none.
-  std::vector<std::string> doubts() const;
+  /// What the user should know at the end of a run: a sentence, or none. @param largest  energy in the run [J]
+  std::vector<std::string> doubts(double largest) const;
 
  private:
-  long count_ = 0;
+  std::vector<double> jumps_;    ///< of the energy, or the work of the impulse [J]
   std::string whose_;            ///< of the first, "drive 'lift'"
   double first_ = 0, work_ = 0;  ///< its time [s], and the work of its impulse [J]
 };

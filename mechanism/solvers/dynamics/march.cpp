@@ -153,12 +153,14 @@ void March::begin_step(MarchStep& step) {
   if (pending_ == Pending::restart) integration_.restart(h);
   std::optional<Jump> jump;  // the last, which is followed by the step
   if (pending_ == Pending::branch) begin_branch(h, jump);
+  begun_anew_ = pending_ != Pending::nothing;
   pending_ = Pending::nothing;
   if (!watch_.idle()) {
     pass_jumps(h, watch_.begin(integration_.state(), integration_.environment(), crossed_), jump, step);
   }
   crossed_.clear();
   if (!jump) return;
+  begun_anew_ = true;
   integration_.start_branch(h, jump->time);
   if (jump_listener_) jump_listener_(*jump);
 }
@@ -187,9 +189,11 @@ bool March::is_short(double h) const {
 }
 
 StepReport March::attempt(double h, double end, bool kink) {
-  constexpr double small = 1e-6;  // time constants that matter are longer
-  const StepReport report =
-      is_short(h) ? integration_.attempt_short(h, end, kink, h < small * size_) : integration_.attempt(h, end, kink);
+  constexpr double small = 1e-6;                      // time constants that matter are longer
+  const bool cut = !begun_anew_ && h < 0.49 * size_;  // much shorter than the step before
+  const StepReport report = is_short(h) ? integration_.attempt_short(h, end, kink, h < small * size_)
+                            : cut       ? integration_.attempt_settled(h, end, kink)
+                                        : integration_.attempt(h, end, kink);
   log_.iterations += report.iterations;
   log_.factorisations += report.factorisations;
   log_.shortened += report.shortened;
@@ -322,8 +326,9 @@ bool March::try_step(const Plan& plan, int& too_large, Trial& trial) {
   trial.report = attempt(plan.size, plan.end, plan.kink);
   if (trial.report.converged()) {
     const double pulse = missed(plan);
-    if (adaptive() && !integration_.is_short()) trial.error = std::max(norm_(integration_) / options_.tolerance, pulse);
-    trial.error_known = !integration_.is_short() && integration_.first_order_error_known();
+    const bool judged = !is_short(plan.size);  // a series over a short span has no error that matters
+    if (adaptive() && judged) trial.error = std::max(norm_(integration_) / options_.tolerance, pulse);
+    trial.error_known = judged && integration_.first_order_error_known();
     if (trial.error > 1) {
       tell(Attempt::Outcome::refused_by_error, plan, trial);
       ++too_large;

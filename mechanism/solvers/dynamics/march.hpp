@@ -143,6 +143,7 @@ class March {
   PulseWatch pulses_;
   std::vector<int> crossed_;  ///< past which the next step begins
   bool stopped_ = false;
+  bool begun_anew_ = false;     ///< the present step has start values of its own
   double last_crossing_ = 0;    ///< [s]
   long crossings_at_once_ = 0;  ///< that have followed each other without progress
   std::function<void(const Jump&)> jump_listener_;

@@ -275,6 +275,18 @@ StepReport TimeIntegration::attempt_short(double h, double end, bool kink, bool 
   }
 }
 
+StepReport TimeIntegration::attempt_settled(double h, double end, bool kink) {
+  const StepReport report = attempt(h, end, kink);
+  if (!report.converged() || system_.multipliers() == 0) return report;
+  try {
+    short_span_.settle(step_, correction_.saddle());
+    short_ = true;
+  } catch (const ComputationError&) {
+    // There are no accelerations that are consistent, or more than one set: those of the step remain.
+  }
+  return report;
+}
+
 /// The scheme's own values are none of a short span's.
 bool TimeIntegration::accept_short() {
   const bool branch_left = system_.accept(step_.trial(), environment_);

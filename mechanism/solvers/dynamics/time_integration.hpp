@@ -54,6 +54,9 @@ class TimeIntegration {
   /// a `restart` has to follow before the next step, unless a `begin_branch` does.
   /// @param small  whether it is shorter than any time constant that matters
   StepReport attempt_short(double h, double end, bool kink, bool small);
+  /// An attempt whose accelerations and multipliers are solved for at its end, of a step that is much shorter than
+  /// those before (short_span.hpp). A `restart` or a `begin_branch` has to follow where it `is_short`, as above.
+  StepReport attempt_settled(double h, double end, bool kink);
   /// Whether the last attempt was over a short span and owes nothing to the scheme.
   bool is_short() const { return short_; }
   /// Spans shorter than this leave accelerations of the scheme less than six digits, at the present state [s].
