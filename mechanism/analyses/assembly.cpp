@@ -5,14 +5,14 @@
 // A word is the name of a node; otherwise that of a joint, with its coordinate behind the last dot. A map may leave the
 // coordinate out where there is one only.
 #include <algorithm>
-#include <optional>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "mechanism/analyses/analysis_table.hpp"
+#include "mechanism/analyses/coordinate_reader.hpp"
 #include "mechanism/analyses/summary_text.hpp"
-#include "mechanism/reading/names.hpp"
+#include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -32,41 +32,10 @@ class AssemblyAnalysis : public Analysis {
   AssemblyOptions options_;
 };
 
-std::vector<std::string> names_of_coordinates(const Component& component) {
-  std::vector<std::string> names;
-  for (const StartCoordinate& each : component.start_coordinates()) names.push_back(each.name);
-  return names;
-}
-
-AssemblyOptions::Coordinate read_coordinate(const YamlValue& item, const Component& joint,
-                                            const std::optional<std::string>& name) {
-  const std::vector<std::string> names = names_of_coordinates(joint);
-  if (names.empty()) item.fail(fmt::format("joint '{}' ({}) has no coordinate to keep", joint.name(), joint.type()));
-  if (!name && names.size() > 1)
-    item.fail(
-        fmt::format("joint '{}' has several coordinates: give `coordinate`{}", joint.name(), did_you_mean("", names)));
-  const std::string wanted = name.value_or(names.front());
-  const auto found = std::find(names.begin(), names.end(), wanted);
-  if (found == names.end())
-    item.fail(fmt::format("joint '{}' has no coordinate '{}'{}", joint.name(), wanted, did_you_mean(wanted, names)));
-  return {&joint, static_cast<std::size_t>(found - names.begin())};
-}
-
-/// The joint of a word "joint.coordinate", or nullptr.
-const Component* joint_before_dot(const std::string& word, const Model& model) {
-  const std::size_t dot = word.rfind('.');
-  if (dot == std::string::npos) return nullptr;
-  const std::vector<std::size_t>& members = model.members_of({Section::joints, word.substr(0, dot)});
-  return members.empty() ? nullptr : model.members()[members.front()].component.get();
-}
-
 void read_kept(const YamlValue& item, const Model& model, AssemblyOptions& options) {
   if (item.is_map()) {
-    item.check_keys({"joint", "coordinate"}, "`keep`, which names a node or a coordinate of a joint");
-    const Component& joint = component_named_by(Section::joints, item.at("joint"), model);
-    const auto coordinate = item.find("coordinate");
-    options.kept_coordinates.push_back(read_coordinate(coordinate ? *coordinate : item, joint,
-                                                       coordinate ? std::optional(coordinate->text()) : std::nullopt));
+    options.kept_coordinates.push_back(
+        read_coordinate_map(item, "`keep`, which names a node or a coordinate of a joint", model));
     return;
   }
   const std::string word = item.text();

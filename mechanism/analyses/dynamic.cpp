@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/analyses/analysis_table.hpp"
+#include "mechanism/analyses/coordinate_reader.hpp"
 #include "mechanism/analyses/newton_reader.hpp"
 #include "mechanism/analyses/step_reader.hpp"
 #include "mechanism/analyses/summary_text.hpp"
@@ -175,7 +176,25 @@ std::string format_energy(const Session& session, const Motion& motion, const Dy
 
 }  // namespace
 
-std::unique_ptr<Analysis> read_dynamic(const YamlValue& entry, const Model&) {
+namespace {
+
+/// `start: as_given`, `start: equilibrium`, or `start: {equilibrium: true, hold: [shaft]}`.
+void read_start(const YamlValue& start, const Model& model, DynamicsOptions& options) {
+  if (!start.is_map()) {
+    options.equilibrium = start.word({"as_given", "equilibrium"}, "a start") == "equilibrium";
+    return;
+  }
+  start.check_keys({"equilibrium", "hold"}, "a start");
+  options.equilibrium = start.at("equilibrium").boolean();
+  const auto hold = start.find("hold");
+  if (!hold) return;
+  if (!options.equilibrium) hold->fail("is what stays while the rest comes into equilibrium: give `equilibrium: true`");
+  options.held = read_held_coordinates(*hold, model);
+}
+
+}  // namespace
+
+std::unique_ptr<Analysis> read_dynamic(const YamlValue& entry, const Model& model) {
   entry.check_keys({"type", "duration", "step", "tolerance", "largest_step", "scheme", "rho", "alpha", "constraints",
                     "start", "newton"},
                    "the analysis 'dynamic'");
@@ -185,8 +204,7 @@ std::unique_ptr<Analysis> read_dynamic(const YamlValue& entry, const Model&) {
   std::string scheme;
   options.scheme = read_scheme(entry, scheme);
   options.newton = read_newton(entry, true);
-  options.equilibrium =
-      entry.has("start") && entry.at("start").word({"as_given", "equilibrium"}, "a start") == "equilibrium";
+  if (const auto start = entry.find("start")) read_start(*start, model, options);
   if (entry.has("constraints")) {
     const std::string form =
         entry.at("constraints").word({"corrected", "position", "stabilized"}, "a form of constraints");

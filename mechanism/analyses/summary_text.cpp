@@ -43,6 +43,20 @@ std::string format_moved(const StartReport& start) {
   return text + rest(start.moved_coordinates.size(), "coordinates");
 }
 
+std::string format_carried(const CarriedPart& part) {
+  constexpr std::size_t most = 20;
+  const std::size_t shown = std::min(most, part.nodes.size());
+  std::string text = fmt::format("  {} carries as one rigid body: ", part.joint);
+  if (shown > 0)
+    text += fmt::format("{} '{}'", part.nodes.size() == 1 ? "node" : "nodes",
+                        fmt::join(part.nodes.begin(), part.nodes.begin() + static_cast<std::ptrdiff_t>(shown), "', '"));
+  if (part.nodes.size() > shown) text += fmt::format(" and {} more", part.nodes.size() - shown);
+  if (part.inner > 0)
+    text += fmt::format("{}{}", shown > 0 ? ", " : "",
+                        counted(part.inner, "node within elements", "nodes within elements"));
+  return text + "\n";
+}
+
 }  // namespace
 
 std::string format_energies(const Energy& energy) {
@@ -84,6 +98,7 @@ std::string format_start(const StartReport& start) {
   if (start.velocity_change > 1e-9)
     text += fmt::format("  start velocities were changed by up to {:.3g} m/s to satisfy joints and drives\n",
                         start.velocity_change);
+  for (const CarriedPart& part : start.carried) text += format_carried(part);
   if (!start.following.empty())
     text += fmt::format("  start rates that follow from others, and agree with them: {}\n",
                         fmt::join(start.following, ", "));

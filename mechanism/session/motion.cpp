@@ -11,8 +11,7 @@
 #include "mechanism/session/motion_steps.hpp"
 #include "mechanism/session/session.hpp"
 #include "mechanism/solvers/start/assemble_positions.hpp"
-#include "mechanism/solvers/start/consistent_velocities.hpp"
-#include "mechanism/solvers/start/start_rates.hpp"
+#include "mechanism/solvers/start/rigid_start.hpp"
 #include "mechanism/solvers/statics/load_ramp.hpp"
 #include "mechanism/solvers/statics/statics.hpp"
 #include "reduce/common/error.hpp"
@@ -31,13 +30,15 @@ Motion::Motion(Session& session, const DynamicsOptions& options) : session_(&ses
   apply_motions(system, 1, state);
   system.begin_motion(state, environment, false);
   const StartConditions conditions = session.start_conditions();
-  if (!conditions.empty()) assemble_positions(system, environment, state, start_, conditions);
-  if (options.equilibrium) settle(system, environment, options.newton, state, start_);
-  if (!conditions.empty()) {
-    MassSaddle saddle(system);
-    make_velocities_consistent(system, environment, state, start_, saddle);
-    set_start_rates(system, environment, state, conditions, saddle, start_);
+  if (!conditions.empty() || !options.held.empty())
+    assemble_positions(system, environment, state, start_, conditions);
+  if (options.equilibrium) {
+    AssemblyOptions held;
+    held.kept_coordinates = options.held;
+    settle(system, environment, options.newton, with_kept(system, environment, state, {}, held).coordinates, state,
+           start_);
   }
+  if (!conditions.empty()) begin_velocities(system, environment, state, conditions, start_);
   parts_.begin = state.time;
   end_ = parts_.begin + options.duration;
   const StepOptions stepping = stepping_of(options, system, parts_.begin, session.notes_);

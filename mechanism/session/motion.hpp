@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "mechanism/session/assembly_options.hpp"
 #include "mechanism/session/energy_balance.hpp"
 #include "mechanism/session/prescribed_jumps.hpp"
 #include "mechanism/session/step_record.hpp"
@@ -23,7 +24,8 @@ struct DynamicsOptions {
   Scheme scheme = Scheme::generalized_alpha(0.8);
   ConstraintForm form = ConstraintForm::corrected;
   NewtonOptions newton;
-  bool equilibrium = false;  ///< positions of static equilibrium first
+  bool equilibrium = false;                       ///< positions of static equilibrium first
+  std::vector<AssemblyOptions::Coordinate> held;  ///< coordinates that stay where they start while the rest settles
 };
 
 /// The session shows the state of its motion as long as that lives, and keeps the last one. A motion ends when the

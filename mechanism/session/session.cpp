@@ -10,8 +10,8 @@
 #include "mechanism/solvers/constraints/redundancy.hpp"
 #include "mechanism/solvers/start/assemble_positions.hpp"
 #include "mechanism/solvers/start/begin_first_order.hpp"
-#include "mechanism/solvers/start/consistent_velocities.hpp"
 #include "mechanism/solvers/start/redundancy_at_start.hpp"
+#include "mechanism/solvers/start/rigid_start.hpp"
 #include "mechanism/solvers/start/start_rates.hpp"
 #include "mechanism/system/check_state.hpp"
 #include "reduce/common/error.hpp"
@@ -68,9 +68,7 @@ StartReport Session::assemble(const AssemblyOptions& options) {
   system_.begin_motion(state_, environment_, false);
   const StartConditions conditions = with_kept(system_, environment_, state_, start_conditions(), options);
   assemble_positions(system_, environment_, state_, report, conditions);
-  MassSaddle saddle(system_);
-  make_velocities_consistent(system_, environment_, state_, report, saddle);
-  set_start_rates(system_, environment_, state_, conditions, saddle, report);
+  begin_velocities(system_, environment_, state_, conditions, report);
   started_ = true;
   begin_first_order(system_, environment_, state_);
   const VectorX memory = state_.memory;

@@ -5,8 +5,7 @@
 #include "mechanism/solvers/constraints/redundancy.hpp"
 #include "mechanism/solvers/start/assemble_positions.hpp"
 #include "mechanism/solvers/start/consistent_start.hpp"
-#include "mechanism/solvers/start/consistent_velocities.hpp"
-#include "mechanism/solvers/start/start_rates.hpp"
+#include "mechanism/solvers/start/rigid_start.hpp"
 
 namespace bielle::mechanism {
 
@@ -28,9 +27,7 @@ StandingState Session::standing() const {
   system_.begin_motion(state, environment, false);
   if (const StartConditions conditions = start_conditions(); !conditions.empty()) {
     assemble_positions(system_, environment, state, standing.start, conditions);
-    MassSaddle saddle(system_);
-    make_velocities_consistent(system_, environment, state, standing.start, saddle);
-    set_start_rates(system_, environment, state, conditions, saddle, standing.start);
+    begin_velocities(system_, environment, state, conditions, standing.start);
   }
   standing.start.add(make_consistent(system_, environment, state));
   return standing;

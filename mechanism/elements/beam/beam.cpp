@@ -10,16 +10,23 @@
 #include "mechanism/elements/beam/beam_geometry.hpp"
 #include "mechanism/elements/beam/distributed_load.hpp"
 #include "mechanism/reading/names.hpp"
+#include "mechanism/reading/start_motion.hpp"
 
 namespace bielle::mechanism {
 namespace {
 
-/// Velocities of a frame between two nodes: each end alone would move it rigidly.
-void set_start_velocity(Node& inner, const Node& a, const Node& b, double s) {
-  const Vector3 omega_a = a.frame.R * a.angular_velocity, omega_b = b.frame.R * b.angular_velocity;
-  inner.velocity = (1 - s) * (a.velocity + omega_a.cross(inner.frame.x - a.frame.x)) +
-                   s * (b.velocity + omega_b.cross(inner.frame.x - b.frame.x));
-  inner.angular_velocity = inner.frame.R.transpose() * ((1 - s) * omega_a + s * omega_b);
+/// The inner nodes start between their ends: each end alone would move them rigidly.
+void follow_ends(const std::vector<int>& nodes, Model& model) {
+  if (nodes.size() == 2) return;
+  when_motion_is_known(model, [nodes, &model] {
+    const StartMotion a = start_motion(model, nodes.front()), b = start_motion(model, nodes.back());
+    for (std::size_t k = 1; k + 1 < nodes.size(); ++k) {
+      if (model.node(nodes[k]).carrier) continue;
+      const double s = static_cast<double>(k) / static_cast<double>(nodes.size() - 1);
+      const Vector3 x = model.node(nodes[k]).frame.x;
+      set_start_motion(model, nodes[k], {x, (1 - s) * a.at(x) + s * b.at(x), (1 - s) * a.omega + s * b.omega});
+    }
+  });
 }
 
 /// Nodes of the beam from start to end, the inner ones made here.
@@ -33,11 +40,10 @@ std::vector<int> make_nodes(const std::string& name, const YamlValue& entry, con
     if (model.find_node(inner.name)) entry.fail(fmt::format("there is already a node '{}'", inner.name));
     inner.frame = sections[k];
     inner.internal = true;
-    set_start_velocity(inner, model.node(ends[0]), model.node(ends[1]),
-                       static_cast<double>(k) / static_cast<double>(count));
     nodes.push_back(model.add_node(std::move(inner)));
   }
   nodes.push_back(ends[1]);
+  follow_ends(nodes, model);
   return nodes;
 }
 
@@ -68,9 +74,10 @@ void read_beam(const std::string& name, const YamlValue& entry, Model& model) {
   const Matrix6 stiffness = section.at(0.5).stiffness;
   if (const double thickness = 2 * std::sqrt(std::max(stiffness(4, 4), stiffness(5, 5)) / stiffness(0, 0));
       thickness > line.length())
-    entry.at("section").doubt(fmt::format(
-        "is it meant? It is as stiff as one of some {:.2g} m in size, and the beam is {:.2g} m long; lengths are in metres",
-        thickness, line.length()));
+    entry.at("section").doubt(
+        fmt::format("is it meant? It is as stiff as one of some {:.2g} m in size, and the beam is {:.2g} m long; "
+                    "lengths are in metres",
+                    thickness, line.length()));
   const Matrix3 R_start = read_start_axes(entry, line.start_tangent());
   std::vector<Frame> sections;
   for (int k = 0; k <= count; ++k) sections.push_back(line.frame(static_cast<double>(k) / count, R_start, total_twist));

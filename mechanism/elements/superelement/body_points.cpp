@@ -1,5 +1,6 @@
 #include "mechanism/elements/superelement/body_points.hpp"
 
+#include <algorithm>
 #include <array>
 #include <map>
 
@@ -92,6 +93,13 @@ struct PointEntry {
   std::optional<PointInFile> named;
 };
 
+/// Whether a node's rotation is the body's: one that moves and is held from turning carries forces alone.
+bool tells_rotation(const Node& node) {
+  const auto rotations = node.freedom.begin() + 3;
+  const bool moves = std::count(node.freedom.begin(), rotations, Freedom::free) > 0;
+  return !moves || std::count(rotations, node.freedom.end(), Freedom::fixed) < 3;
+}
+
 void join(const PointEntry& point, int index, Model& model) {
   const std::vector<Component*> pieces = model.components_of({Section::elements, point.entry.at("element").text()});
   Attachment attachment;
@@ -101,11 +109,9 @@ void join(const PointEntry& point, int index, Model& model) {
     point.entry.at(point.named ? "point" : "at").fail(error.what());
   }
   SuperelementBody& body = *attachment.body;
-  const Vector6 motion = rigid_start_motion(model, body.nodes(), point.placement.x, body.matrices().gyration);
-  const Vector3 omega = motion.tail<3>();
-  Node& node = model.node(index);
-  node.velocity = motion.head<3>() + omega.cross(node.frame.x - point.placement.x);
-  node.angular_velocity = node.frame.R.transpose() * omega;
+  RigidlyFollowed interfaces{{}, {}, body.matrices().gyration};
+  for (const int node : body.nodes()) interfaces.add(node, tells_rotation(model.node(node)));
+  follow_rigidly(index, interfaces, model);
   SuperelementBody::Point attached;
   attached.name = point.name;
   attached.node = index;

@@ -8,6 +8,7 @@
 
 #include "mechanism/reading/names.hpp"
 #include "mechanism/reading/read_frame.hpp"
+#include "mechanism/reading/start_motion.hpp"
 #include "reduce/common/dense_solves.hpp"
 #include "reduce/common/plausible.hpp"
 #include "reduce/superelement/modal_damping.hpp"
@@ -46,7 +47,7 @@ void check_position(const YamlValue& value, const Node& node, const Interface& i
 
 /// A node for an interface that the file names none for.
 int create_node(const std::string& name, const YamlValue& entry, const Interface& interface, const Frame& placement,
-                const Vector6& motion, Model& model) {
+                Model& model) {
   const auto kept = std::count(interface.kept.begin(), interface.kept.begin() + 3, true);
   const int rotations = kept_rotations(interface);
   if (kept != 3 || (rotations != 0 && rotations != 3))
@@ -58,39 +59,45 @@ int create_node(const std::string& name, const YamlValue& entry, const Interface
   node.name = name + "." + interface.name;
   if (model.find_node(node.name)) entry.fail(fmt::format("there is already a node '{}'", node.name));
   node.frame = placement * Frame{interface.position, interface.rotation};
-  const Vector3 omega = motion.tail<3>();
-  node.velocity = motion.head<3>() + omega.cross(node.frame.x - placement.x);
-  node.angular_velocity = node.frame.R.transpose() * omega;
   // Nothing turns a node that carries forces alone.
-  if (rotations == 0) {
-    std::fill(node.freedom.begin() + 3, node.freedom.end(), Freedom::fixed);
-    node.angular_velocity.setZero();
-  }
+  if (rotations == 0) std::fill(node.freedom.begin() + 3, node.freedom.end(), Freedom::fixed);
   return model.add_node(std::move(node));
+}
+
+/// The rigid motion, at a place, that is nearest to that of nodes.
+StartMotion rigid_motion_of(const Model& model, const RigidlyFollowed& followed, const Vector3& place) {
+  Matrix6 normal = Matrix6::Zero();
+  Vector6 right = Vector6::Zero();
+  const double area = followed.size * followed.size;
+  for (std::size_t k = 0; k < followed.nodes.size(); ++k) {
+    const StartMotion node = start_motion(model, followed.nodes[k]);
+    Eigen::Matrix<double, 3, 6> rows;
+    rows << Matrix3::Identity(), -skew(node.x - place);
+    normal += rows.transpose() * rows;
+    right += rows.transpose() * node.v;
+    if (!followed.turns[k]) continue;
+    normal.bottomRightCorner<3, 3>() += area * Matrix3::Identity();
+    right.tail<3>() += area * node.omega;
+  }
+  // About what no node tells of (a line of points) it does not turn.
+  constexpr double little = 1e-12;
+  normal.bottomRightCorner<3, 3>() += little * area * Matrix3::Identity();
+  const Vector6 motion = solve_symmetric(normal, right);
+  return {place, motion.head<3>(), motion.tail<3>()};
 }
 
 }  // namespace
 
-Vector6 rigid_start_motion(const Model& model, const std::vector<int>& nodes, const Vector3& origin, double size) {
-  Matrix6 normal = Matrix6::Zero();
-  Vector6 right = Vector6::Zero();
-  for (const int index : nodes) {
-    if (index < 0) continue;
-    const Node& node = model.node(index);
-    Eigen::Matrix<double, 3, 6> rows;
-    rows << Matrix3::Identity(), -skew(node.frame.x - origin);
-    normal += rows.transpose() * rows;
-    right += rows.transpose() * node.velocity;
-    normal.bottomRightCorner<3, 3>() += size * size * Matrix3::Identity();
-    right.tail<3>() += size * size * (node.frame.R * node.angular_velocity);
-  }
-  if (normal.isZero()) return Vector6::Zero();
-  return solve_symmetric(normal, right);
+void follow_rigidly(int node, const RigidlyFollowed& followed, Model& model) {
+  if (followed.nodes.empty()) return;
+  when_motion_is_known(model, [node, followed, &model] {
+    if (model.node(node).carrier) return;
+    set_start_motion(model, node, rigid_motion_of(model, followed, model.node(node).frame.x));
+  });
 }
 
 void check_superelement_keys(const YamlValue& entry) {
-  std::vector<std::string> keys = {"type", "file", "nodes", "position", "damping", "loads", "frame",
-                                   "largest_error"};
+  std::vector<std::string> keys = {"type", "file", "nodes", "position", "damping", "loads", "frame", "largest_error"};
   keys.insert(keys.end(), orientation_keys().begin(), orientation_keys().end());
   entry.check_keys(keys, "a superelement");
 }
@@ -181,9 +188,14 @@ std::vector<int> read_interface_nodes(const std::string& name, const YamlValue& 
       check_position(value, model.node(nodes[k]), body.interfaces[k], body,
                      (placement * Frame{body.interfaces[k].position, Matrix3::Identity()}).x, placed);
     }
-  const Vector6 motion = rigid_start_motion(model, nodes, placement.x, size_of(body));
+  RigidlyFollowed named{{}, {}, size_of(body)};
   for (std::size_t k = 0; k < nodes.size(); ++k)
-    if (nodes[k] < 0) nodes[k] = create_node(name, entry, body.interfaces[k], placement, motion, model);
+    if (nodes[k] >= 0) named.add(nodes[k], kept_rotations(body.interfaces[k]) > 0);
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    if (nodes[k] >= 0) continue;
+    nodes[k] = create_node(name, entry, body.interfaces[k], placement, model);
+    follow_rigidly(nodes[k], named, model);
+  }
   return nodes;
 }
 

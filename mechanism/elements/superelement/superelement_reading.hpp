@@ -20,9 +20,19 @@ void read_body_frame(const YamlValue& frame, const Superelement& body, Superelem
 /// `loads: {pattern: factor}`, of the patterns that the body has.
 std::vector<SuperelementPlacement::Load> read_superelement_loads(const YamlValue& loads, const Superelement& body);
 
-/// The rigid motion [velocity at the body's origin; angular velocity], inertial, nearest to the start motion of nodes.
-/// @param nodes  those below 0 do not count @param origin  the body's in space @param size  of the body [m]
-Vector6 rigid_start_motion(const Model& model, const std::vector<int>& nodes, const Vector3& origin, double size);
+/// Nodes of a body that others of it follow where a motion begins.
+struct RigidlyFollowed {
+  std::vector<int> nodes;
+  std::vector<bool> turns;  ///< of each, whether its rotation is the body's: it is not where it carries forces alone
+  double size = 0;          ///< of the body [m]: rotations count at this arm
+  void add(int node, bool rotation) {
+    nodes.push_back(node);
+    turns.push_back(rotation);
+  }
+};
+
+/// A node starts with the rigid motion that is nearest to those of others; where there are none, as it is.
+void follow_rigidly(int node, const RigidlyFollowed& followed, Model& model);
 
 /// The model's node of each interface: those under `nodes`, which must stand where the interfaces are, and new ones
 /// `<name>.<interface>` for the others, which start with the rigid motion of the named ones.

@@ -106,7 +106,7 @@ LockTimes read_lock_times(const YamlValue& entry) {
 
 std::vector<std::string> joint_action_keys() {
   std::vector<std::string> all = keys;
-  all.push_back("friction");
+  all.insert(all.end(), {"friction", "carries"});
   return all;
 }
 
@@ -131,6 +131,7 @@ void read_joint_actions(const YamlValue& entry, Joint& joint, Model& model, cons
     }
     read_joint_start(find(sorted[k], "start"), find(sorted[k], "start_rate"), joint, k, model);
   }
+  if (const auto carries = entry.find("carries")) read_carried_start(*carries, joint, model);
   const bool takes_friction = std::find(own.begin(), own.end(), "friction") == own.end();
   if (const auto friction = entry.find("friction"); friction && takes_friction)
     read_joint_friction(*friction, joint, model);

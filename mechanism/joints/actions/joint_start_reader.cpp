@@ -1,10 +1,12 @@
 #include "mechanism/joints/actions/joint_start_reader.hpp"
 
 #include <cmath>
+#include <memory>
 
 #include <fmt/format.h>
 
 #include "mechanism/joints/actions/motion_drive.hpp"
+#include "mechanism/model/carried_start.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -54,6 +56,16 @@ void read_joint_start(const std::optional<YamlValue>& value, const std::optional
   model.add_start_condition(condition);
   model.when_read(Model::Stage::connections,
                   [value, rate, &joint, coordinate, &model] { check_drives(value, rate, joint, coordinate, model); });
+}
+
+void read_carried_start(const YamlValue& carries, const Joint& joint, Model& model) {
+  carries.word({"all"}, "what a joint carries at the start");
+  Declaration declaration;
+  joint.declare(declaration);
+  if (declaration.nodes.size() != 2)
+    carries.fail(
+        fmt::format("a {} joint stands between more than two nodes: it does not say what is behind it", joint.type()));
+  model.add(std::make_unique<CarriedStart>(joint), Entry{Section::joints, joint.name()}, Recorded::no);
 }
 
 }  // namespace bielle::mechanism

@@ -45,7 +45,7 @@ void read_bushing(const std::string& name, const YamlValue& entry, Model& model)
   std::vector<std::string> keys = joint_frame_keys();
   const std::vector<std::string>& own = elastic_law_keys();
   keys.insert(keys.end(), own.begin(), own.end());
-  for (const char* action : {"stops", "locked", "start", "start_rate"}) keys.push_back(action);
+  for (const char* action : {"stops", "locked", "start", "start_rate", "carries"}) keys.push_back(action);
   entry.check_keys(keys, "a bushing");
   auto made = std::make_unique<Bushing>(name, read_joint_frames(entry, model, AxisNeed::optional), model);
   const std::vector<CurveFormula> formulas = read_elastic_law(entry, made->law());

@@ -100,13 +100,14 @@ class Session:
 
     def dynamics(self, duration: float | str, step: float | str | None = None, *, tolerance: float | None = None,
                  largest_step: float | None = None, scheme: str | None = None, rho: float | None = None,
-                 alpha: float | None = None, constraints: str | None = None, start: str | None = None,
+                 alpha: float | None = None, constraints: str | None = None, start: str | dict | None = None,
                  newton: dict | None = None, saved: np.ndarray | None = None) -> Motion:
         """A motion from where the session stands: the analysis `dynamic`, with its keys and defaults, not yet moved.
 
         duration, step: [s]; with a tolerance steps are adaptive and `step` is the first.
         scheme: "generalized_alpha" (rho), "hht" (alpha) or "newmark". constraints: "corrected", "position", "stabilized".
-        start: "as_given" or "equilibrium". newton: {"tolerance": ..., "tangent": "reused" or "renewed", ...}.
+        start: "as_given", "equilibrium", or {"equilibrium": True, "hold": ["shaft"]}, which keeps coordinates of joints where
+        they are while the rest settles. newton: {"tolerance": ..., "tangent": "reused" or "renewed", ...}.
         saved: what `save` gave in a motion of this model: the motion goes on from there, to the last bit.
         """
         keys = _given(type="dynamic", duration=duration, step=step, tolerance=tolerance, largest_step=largest_step,

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "mechanism/solvers/constraints/reaction_norm.hpp"
 #include "mechanism/solvers/newton/balance_search.hpp"
@@ -94,7 +95,6 @@ class AccelerationEquations {
   /// @returns whether it has been found; otherwise the state is as it was
   bool continue_with_reactions() {
     constexpr int most = 8;
-    constexpr double accurate = 1e-11;
     const State begun = state_;
     const VectorX a_begun = a_;
     try {
@@ -105,7 +105,7 @@ class AccelerationEquations {
         if (!step_.allFinite()) break;
         move(1);
         const double size = size_of_all();
-        if (size <= accurate) return true;
+        if (settled(size, before)) return true;
         if (size > 0.3 * before) solved = saddle_.factor_with_reactions(environment_, state_);
         before = size;
         evaluate();
@@ -145,7 +145,8 @@ class AccelerationEquations {
     a_ = a_first;
     state_.multiplier = -guess;
     const Search mirrored = search();
-    if (!found.converged && !mirrored.converged) throw_without_solution(found.worst);
+    if (!found.converged && !mirrored.converged)
+      throw_without_solution(found.worst, found.flips(without) || mirrored.flips(without));
     if (found.converged && mirrored.converged) check_same(solution.multiplier, state_.multiplier);
     if (found.converged) {
       state_ = solution;
@@ -153,7 +154,7 @@ class AccelerationEquations {
       system_.set_rates(state_, v_, a_);
     }
     if ((found.converged ? found : mirrored).determinant_sign != without)
-      throw_ambiguous("the one found is not the continuation of what there is without such forces");
+      throw_ambiguous("the one found is not the continuation of what there is without such forces", -1);
   }
 
  private:
@@ -227,20 +228,40 @@ class AccelerationEquations {
   struct Search {
     bool converged = false;
     int determinant_sign = 0;
-    int worst = -1;  ///< the multiplier of the longest last step
+    int worst = -1;                                   ///< the multiplier of the longest last step
+    bool any_positive = false, any_negative = false;  ///< determinants on the way
+    void note(int sign) {
+      determinant_sign = sign;
+      any_positive = any_positive || sign > 0;
+      any_negative = any_negative || sign < 0;
+    }
+    /// Whether the determinant had another sign on the way than without forces that depend on reactions.
+    bool flips(int without) const { return without > 0 ? any_negative : any_positive; }
   };
+
+  /// Whether Newton's method is at its end: by the size of its last step, or because rounding (of forces of stiff
+  /// parts, of reactions that nearly repeat each other) lets steps become no shorter. Other solutions are much farther
+  /// away.
+  /// @param before  the size of the step before
+  static bool settled(double size, double before) {
+    constexpr double accurate = 1e-11, rounding = 1e-8;
+    return size <= accurate || (size <= rounding && size > 0.5 * before);
+  }
 
   /// Newton's method with the derivatives by multipliers, from where the state is. Steps over kinks are halved where
   /// the next one would be longer.
   Search search() {
     constexpr int most = 50;
-    constexpr double accurate = 1e-11;
     Search result;
+    double size_before = std::numeric_limits<double>::infinity();
     try {
       evaluate();
       for (int iteration = 0; iteration < most; ++iteration) {
-        if (!saddle_.factor_with_reactions(environment_, state_)) return result;
-        result.determinant_sign = saddle_.determinant_sign();
+        if (!saddle_.factor_with_reactions(environment_, state_)) {
+          result.any_positive = result.any_negative = true;  // between the two
+          return result;
+        }
+        result.note(saddle_.determinant_sign());
         solve();
         if (!step_.allFinite()) return result;
         step_.tail(system_.multipliers()).cwiseAbs().maxCoeff(&result.worst);
@@ -257,13 +278,15 @@ class AccelerationEquations {
           solve();
           if (step_.cwiseAbs().dot(weights()) <= (1 - part / 4) * before) break;
         }
-        if (size_of_all() <= accurate) {
+        const double size = size_of_all();
+        if (settled(size, size_before)) {
           move(1);
           // The branch that the solution lies on may be another than that of the last factors.
-          if (saddle_.factor_with_reactions(environment_, state_)) result.determinant_sign = saddle_.determinant_sign();
+          if (saddle_.factor_with_reactions(environment_, state_)) result.note(saddle_.determinant_sign());
           result.converged = true;
           return result;
         }
+        size_before = size;
       }
     } catch (const ComputationError&) {
       // refused by a component
@@ -376,28 +399,59 @@ class AccelerationEquations {
         std::max({one.lpNorm<Eigen::Infinity>(), other.lpNorm<Eigen::Infinity>(), 1e-6 * moved * saddle_.scale()});
     Eigen::Index most = 0;
     if ((one - other).cwiseAbs().maxCoeff(&most) <= 1e-6 * size) return;
-    throw_ambiguous(fmt::format("the multiplier {} may be {:.4g} or {:.4g}",
-                                system_.unknown_name(system_.size() - system_.multipliers() + static_cast<int>(most)),
-                                one[most], other[most]));
+    const int multiplier = static_cast<int>(most);
+    throw_ambiguous(
+        fmt::format("the multiplier {} may be {:.4g} or {:.4g}", multiplier_name(multiplier), one[most], other[most]),
+        multiplier);
   }
 
-  static constexpr const char* advice =
-      "; such forces (friction) are too strong for rigid parts in this position (Painleve's paradox): give a part or "
-      "the contact some compliance, or make them weaker";
-  [[noreturn]] void throw_ambiguous(const std::string& how) const {
+  std::string multiplier_name(int multiplier) const {
+    return system_.unknown_name(system_.size() - system_.multipliers() + multiplier);
+  }
+
+  /// What reads the reactions of the owner of a multiplier; where nothing does, or none is given, all that reads any.
+  std::string names_of_readers(int multiplier) const {
+    std::vector<std::string> names, all;
+    for (std::size_t m = 0; m < system_.slots().size(); ++m) {
+      const Member& member = system_.model().members()[m];
+      Declaration declaration;
+      member.component->declare(declaration);
+      if (!declaration.reads_reactions || declaration.passive) continue;
+      const std::string name = describe(member);
+      if (all.empty() || all.back() != name) all.push_back(name);
+      for (const Slots* read : system_.slots()[m].references)
+        if (multiplier >= read->multiplier_begin && multiplier < read->multiplier_begin + read->multipliers &&
+            (names.empty() || names.back() != name))
+          names.push_back(name);
+    }
+    return fmt::format("{}", fmt::join(names.empty() ? all : names, ", "));
+  }
+
+  std::string advice(int multiplier) const {
+    return fmt::format(
+        "; those of {} (friction) are too strong for rigid parts in this position (Painleve's paradox): give a part or "
+        "the "
+        "contact some compliance, or make them weaker",
+        names_of_readers(multiplier));
+  }
+  /// @param multiplier  that is not unique; -1: it is not known which
+  [[noreturn]] void throw_ambiguous(const std::string& how, int multiplier) const {
     throw ComputationError(fmt::format(
         "t = {:.6g} s: forces that depend on reactions leave more than one solution for the accelerations: {}{}",
-        state_.time, how, advice));
+        state_.time, how, advice(multiplier)));
   }
   /// @param worst  the multiplier that the search could not settle; -1: it was refused before
-  [[noreturn]] void throw_without_solution(int worst) const {
-    const std::string where = worst < 0
-                                  ? std::string()
-                                  : fmt::format(" (the search for {} did not settle)",
-                                                system_.unknown_name(system_.size() - system_.multipliers() + worst));
+  /// @param paradox  the equations have turned singular between forces that do not depend on reactions and these
+  [[noreturn]] void throw_without_solution(int worst, bool paradox) const {
+    const std::string where =
+        worst < 0 ? std::string() : fmt::format(" (the search for {} did not settle)", multiplier_name(worst));
+    if (paradox)
+      throw ComputationError(
+          fmt::format("t = {:.6g} s: forces that depend on reactions leave no solution for the accelerations{}{}",
+                      state_.time, where, advice(worst)));
     throw ComputationError(
-        fmt::format("t = {:.6g} s: forces that depend on reactions leave no solution for the accelerations{}{}",
-                    state_.time, where, advice));
+        fmt::format("t = {:.6g} s: no accelerations and reactions were found{}, where forces of {} depend on reactions",
+                    state_.time, where, names_of_readers(worst)));
   }
 
   const System& system_;

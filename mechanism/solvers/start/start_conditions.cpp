@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/model/carried_start.hpp"
 #include "mechanism/model/measure.hpp"
 #include "mechanism/system/node_relation.hpp"
 
@@ -39,6 +40,9 @@ StartConditions conditions_of_file(const System& system) {
   for (const StartCondition& each : system.model().start_conditions())
     conditions.coordinates.push_back(
         {system.member_of(*each.component), each.coordinate, each.value, each.rate, false});
+  for (const Member& member : system.model().members())
+    if (const auto* carried = dynamic_cast<const CarriedStart*>(member.component.get()))
+      conditions.carrying.push_back(system.member_of(carried->joint()));
   return conditions;
 }
 

@@ -20,8 +20,9 @@ struct CoordinateCondition {
 
 struct StartConditions {
   std::vector<CoordinateCondition> coordinates;
-  std::vector<int> kept_nodes;  ///< in all directions
-  bool empty() const { return coordinates.empty() && kept_nodes.empty(); }
+  std::vector<int> kept_nodes;        ///< in all directions
+  std::vector<std::size_t> carrying;  ///< members (joints) that carry what is behind them as one rigid body
+  bool empty() const { return coordinates.empty() && kept_nodes.empty() && carrying.empty(); }
 };
 
 /// Those of the input file.

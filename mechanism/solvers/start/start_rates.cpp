@@ -19,9 +19,10 @@ struct RateRow {
   VectorX w;  ///< (dofs)
 };
 
-/// Which of the rates follow from the constraints and the rates before them.
-std::vector<bool> dependent_rates(const System& system, const Environment& environment, const State& state,
-                                  const std::vector<RateRow>& rows) {
+}  // namespace
+
+std::vector<bool> dependent_rows(const System& system, const Environment& environment, const State& state,
+                                 const std::vector<VectorX>& rows) {
   std::vector<double> values;
   TangentWeights of_constraints{0, 0, 0, 0, 1, true};
   system.tangent(state, environment, of_constraints, nullptr, values);
@@ -41,10 +42,10 @@ std::vector<bool> dependent_rates(const System& system, const Environment& envir
   });
   for (std::size_t k = 0; k < rows.size(); ++k)
     for (int i = 0; i < system.dofs(); ++i)
-      if (rows[k].w[i] != 0) {
+      if (rows[k][i] != 0) {
         const int column = count + static_cast<int>(k);
-        entries.emplace_back(i, column, scaled(i, rows[k].w[i]));
-        squares[column] += scaled(i, rows[k].w[i]) * scaled(i, rows[k].w[i]);
+        entries.emplace_back(i, column, scaled(i, rows[k][i]));
+        squares[column] += scaled(i, rows[k][i]) * scaled(i, rows[k][i]);
       }
   for (Eigen::Triplet<double>& each : entries)
     each = {each.row(), each.col(), each.value() / std::sqrt(squares[each.col()])};
@@ -59,8 +60,6 @@ std::vector<bool> dependent_rates(const System& system, const Environment& envir
   return dependent;
 }
 
-}  // namespace
-
 void set_start_rates(const System& system, const Environment& environment, State& state,
                      const StartConditions& conditions, MassSaddle& saddle, StartReport& report) {
   std::vector<RateRow> rows;
@@ -73,7 +72,9 @@ void set_start_rates(const System& system, const Environment& environment, State
   }
   if (rows.empty()) return;
   if (!saddle.serves()) saddle.factor(environment, state);
-  const std::vector<bool> dependent = dependent_rates(system, environment, state, rows);
+  std::vector<VectorX> gradients;
+  for (const RateRow& row : rows) gradients.push_back(row.w);
+  const std::vector<bool> dependent = dependent_rows(system, environment, state, gradients);
   const auto missing = [&](const RateRow& row) {
     return *row.condition->rate -
            coordinate_row(system, environment, state, row.condition->member, row.condition->coordinate).rate;

@@ -6,6 +6,8 @@
 // A rate that follows from the constraints and the rates before it has no say: it has to agree with them.
 #pragma once
 
+#include <vector>
+
 #include "mechanism/solvers/constraints/mass_saddle.hpp"
 #include "mechanism/solvers/start/start_conditions.hpp"
 #include "mechanism/solvers/start/start_report.hpp"
@@ -17,5 +19,9 @@ namespace bielle::mechanism {
 /// @throws ComputationError naming a rate that contradicts constraints, drives or rates before it
 void set_start_rates(const System& system, const Environment& environment, State& state,
                      const StartConditions& conditions, MassSaddle& saddle, StartReport& report);
+
+/// Which rows over the dofs depend on the constraints and the rows before them; rows of zeros do.
+std::vector<bool> dependent_rows(const System& system, const Environment& environment, const State& state,
+                                 const std::vector<VectorX>& rows);
 
 }  // namespace bielle::mechanism

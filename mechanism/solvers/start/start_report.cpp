@@ -34,6 +34,7 @@ void StartReport::add(const StartReport& later) {
   moved_nodes.insert(moved_nodes.end(), later.moved_nodes.begin(), later.moved_nodes.end());
   moved_coordinates.insert(moved_coordinates.end(), later.moved_coordinates.begin(), later.moved_coordinates.end());
   following.insert(following.end(), later.following.begin(), later.following.end());
+  carried.insert(carried.end(), later.carried.begin(), later.carried.end());
 }
 
 void note_farthest(const System& system, const State& from, const State& to, double& distance, std::string& node) {

@@ -22,6 +22,13 @@ struct MovedCoordinate {
   double from = 0, to = 0;
 };
 
+/// What a joint carries at the start as one rigid body.
+struct CarriedPart {
+  std::string joint;               ///< "joint 'main'"
+  std::vector<std::string> nodes;  ///< that got their velocity by it, in the order of the file
+  int inner = 0;                   ///< further ones, within elements
+};
+
 struct StartReport {
   double largest_displacement = 0;     ///< of a node by the assembly of positions [m]
   std::string displaced_node;          ///< that node's name
@@ -41,6 +48,7 @@ struct StartReport {
   std::vector<MovedCoordinate> moved_coordinates;  ///< likewise
   std::vector<std::string>
       following;  ///< start rates that follow from others and agree with them: "angle of joint 'b'"
+  std::vector<CarriedPart> carried;
   void add(const StartReport& later);
 };
 

@@ -20,7 +20,7 @@ constexpr double least_share = 0.1;   // of a step that is shortened
 
 }  // namespace
 
-Equilibrium::Equilibrium(const LoadRamp& ramp, const NewtonOptions& options)
+Equilibrium::Equilibrium(const LoadRamp& ramp, const NewtonOptions& options, HeldCoordinates* held)
     : ramp_(ramp),
       system_(ramp.system()),
       options_(options),
@@ -28,6 +28,7 @@ Equilibrium::Equilibrium(const LoadRamp& ramp, const NewtonOptions& options)
       convergence_(system_, options),
       reactions_(system_),
       search_(system_),
+      coordinates_(held),
       r_(system_.size()),
       delta_(system_.size()) {}
 
@@ -65,6 +66,8 @@ int Equilibrium::attempt(double factor, State& state, const Iterations& iteratio
 template <class Iterations>
 int Equilibrium::attempt_once(const State& state, const Iterations& iterations) {
   judged_ = stepped_ = falls_ = false;
+  balanced_.resize(0);
+  if (coordinates_) coordinates_->begin();
   why_.clear();
   int count = -1;
   try {
@@ -115,7 +118,7 @@ int Equilibrium::iterate(double factor, State& state, void (Equilibrium::*improv
   const bool followed = ramp_.motion(factor) != state.motion_factor && follow_motions(factor, state);
   evaluate(state);
   for (int iteration = 0;; ++iteration) {
-    const bool reached = convergence_.reached(r_, scale_);
+    const bool reached = this->reached();
     judged_ = true;
     if (iteration > 0 && reached) return iteration + (followed ? 1 : 0);
     if (iteration == options_.iterations || !r_.allFinite()) return -1;
@@ -130,7 +133,7 @@ int Equilibrium::iterate_relaxing(double factor, State& state) {
   evaluate(state);
   double tau_squared = first_tau_squared(state);
   for (int iteration = 0; iteration < most_iterations && r_.allFinite(); ++iteration) {
-    const bool reached = convergence_.reached(r_, scale_);
+    const bool reached = this->reached();
     judged_ = true;
     if (iteration > 0 && reached) return iteration;
     this->factor(state, 1 / tau_squared);
@@ -193,9 +196,56 @@ bool Equilibrium::follow_motions(double factor, State& state) {
   return true;
 }
 
+bool Equilibrium::reached() {
+  const bool in_balance = convergence_.reached(r_, scale_);
+  return in_balance && (!coordinates_ || coordinates_->reached());
+}
+
+/// The largest force times the farthest that z moves a node, carried ones included; likewise of moments and turns.
+double Equilibrium::largest_work(const State& state, const VectorX& z) const {
+  State moving = state, resting = state;
+  const VectorX zero = VectorX::Zero(system_.dofs());
+  system_.set_rates(moving, z, zero);
+  system_.set_rates(resting, zero, zero);  // driven nodes have rates of their own
+  double largest = 0;
+  for (std::size_t k = 0; k < state.nodes.size(); ++k)
+    largest = std::max({largest, scale_[Kind::translation] * (moving.nodes[k].v - resting.nodes[k].v).norm(),
+                        scale_[Kind::rotation] * (moving.nodes[k].Omega - resting.nodes[k].Omega).norm()});
+  return largest;
+}
+
+/// What the last solution moves along motions that only StaticTangent holds is z = P P delta, P = (K + H)^-1 H, H that
+/// small stiffness: one for what is loose, next to nothing for all else. Where the load along it, z r, is rounding next
+/// to the largest forces at the arms that they have there (weights of a rotor's blades, drawn with some digits, that
+/// balance each other), it is taken for none: nothing moves along z, and the force H z (z r)/(z H z) is left out from
+/// here on.
+void Equilibrium::leave_balanced_out(const State& state) {
+  constexpr double share = 1e-7;  // of the largest
+  const int n = system_.dofs();
+  const VectorX& H = *held();
+  VectorX load = VectorX::Zero(system_.size()), loose = delta_;
+  for (int purified = 0; purified < 2; ++purified) {
+    load.head(n) = -H.cwiseProduct(loose.head(n));
+    if (coordinates_)
+      coordinates_->solve_along(tangent_, load, loose);
+    else
+      tangent_.solve(load, loose);
+  }
+  const VectorX z = loose.head(n), Hz = H.cwiseProduct(z);
+  const double along = r_.head(n).dot(z), stiffness = z.dot(Hz);
+  if (!(stiffness > 0) || !(std::abs(along) <= share * largest_work(state, z))) return;
+  if (balanced_.size() == 0) balanced_ = VectorX::Zero(n);
+  balanced_ += along / stiffness * Hz;
+  r_.head(n) -= along / stiffness * Hz;
+  delta_ -= loose;
+}
+
 /// Throws where the last solution runs away along what only StaticTangent holds.
 void Equilibrium::check_no_fall(const State& state) {
-  falls_ = held() && extent(state) > runaway;
+  falls_ = false;
+  if (!held()) return;
+  leave_balanced_out(state);
+  falls_ = extent(state) > runaway;
   if (falls_)
     throw ComputationError(fmt::format("nothing holds {} against its load", moves_most(system_, delta_, state)));
 }
@@ -251,10 +301,14 @@ void Equilibrium::factor(const State& state, double inertia) {
 
 void Equilibrium::solve() {
   ++solves_;
-  tangent_.solve(r_, delta_);
+  if (coordinates_)
+    coordinates_->solve(tangent_, r_, delta_);
+  else
+    tangent_.solve(r_, delta_);
 }
 
-void Equilibrium::move(State& state, const State& base, double part) const {
+void Equilibrium::move(State& state, const State& base, double part) {
+  if (coordinates_) coordinates_->move(part);
   system_.displace(state, base, part * delta_.head(system_.dofs()));
   state.first_order = base.first_order + part * delta_.segment(system_.dofs(), system_.first_orders());
   state.multiplier = base.multiplier + part * delta_.tail(system_.multipliers());
@@ -266,6 +320,8 @@ void Equilibrium::evaluate(State& state) {
   if (searches_) search_.find(environment_, state);
   residual_at_rest(system_, environment_, state, r_, &scale_);
   if (push_.size() > 0) r_.head(push_.size()) -= push_;
+  if (balanced_.size() > 0) r_.head(balanced_.size()) -= balanced_;
+  if (coordinates_) coordinates_->add_forces(environment_, state, r_);
 }
 
 }  // namespace bielle::mechanism

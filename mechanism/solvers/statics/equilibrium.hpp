@@ -6,6 +6,7 @@
 #include "mechanism/solvers/constraints/reaction_norm.hpp"
 #include "mechanism/solvers/newton/balance_search.hpp"
 #include "mechanism/solvers/newton/convergence.hpp"
+#include "mechanism/solvers/statics/held_coordinates.hpp"
 #include "mechanism/solvers/statics/load_ramp.hpp"
 #include "mechanism/solvers/statics/static_tangent.hpp"
 
@@ -13,7 +14,8 @@ namespace bielle::mechanism {
 
 class Equilibrium {
  public:
-  Equilibrium(const LoadRamp& ramp, const NewtonOptions& options);
+  /// @param held  coordinates that stay where they are; nullptr: none. It must outlive this
+  Equilibrium(const LoadRamp& ramp, const NewtonOptions& options, HeldCoordinates* held = nullptr);
 
   /// To be called where an analysis sets off: what nothing holds there stays where it is, see StaticTangent.
   void look_for_loose(double factor, const State& state) { tangent_.look_for_loose(state, ramp_.environment(factor)); }
@@ -58,6 +60,8 @@ class Equilibrium {
   /// An iteration of Newton's method that takes prescribed motions along. @returns false where nothing is prescribed
   bool follow_motions(double factor, State& state);
   void check_no_fall(const State& state);
+  double largest_work(const State& state, const VectorX& z) const;
+  void leave_balanced_out(const State& state);
   void note_promised(const State& state);
   void step(State& state);
   void search_step(State& state);
@@ -65,7 +69,8 @@ class Equilibrium {
   double largest_turn() const;
   double extent(const State& state) const;
   void factor(const State& state, double inertia = 0);
-  void move(State& state, const State& base, double part) const;
+  void move(State& state, const State& base, double part);
+  bool reached();
   void evaluate(State& state);
 
   const LoadRamp& ramp_;
@@ -83,6 +88,10 @@ class Equilibrium {
   bool stepped_ = false;  ///< there was such a step
   bool falls_ = false;
   VectorX push_;
+  HeldCoordinates* coordinates_;
+  /// Forces (dofs) along what nothing holds that are taken for none: rounding next to what they balance. Or none (size
+  /// 0).
+  VectorX balanced_;
   long solves_ = 0;
   VectorX r_, delta_;
   ResidualScale scale_;

@@ -82,7 +82,8 @@ StaticsLog solve_statics(const System& system, const Environment& environment, c
   const LoadRamp ramp(system, environment, steps.start);
   ramp.set_off(state);
   begin_states(system, ramp.environment(1), state);
-  Equilibrium equilibrium(ramp, options);
+  HeldCoordinates held(system, environment, state, steps.held);
+  Equilibrium equilibrium(ramp, options, held.any() ? &held : nullptr);
   const double begin = ramp.begin();
   const bool loaded = begin == 1;
   StaticsLog log;
@@ -136,17 +137,21 @@ StaticsLog solve_statics(const System& system, const Environment& environment, c
 namespace {
 
 void note_stability(const System& system, const Environment& environment, const State& state, StartReport& report) {
-  Stability stability(system);
+  StaticTangent tangent(system);
+  tangent.look_for_loose(state, environment);  // what nothing holds is indifferent: its sign is rounding
+  Stability stability(system, tangent.held());
   report.unstable = stability.count(state, environment).value_or(0);
   if (report.unstable > 0)
     if (const auto mode = stability.softest(state, environment)) report.unstable_motion = stability.describe(*mode);
 }
 
-void relax(const System& system, const Environment& environment, const NewtonOptions& options, State& state) {
+void relax(const System& system, const Environment& environment, const NewtonOptions& options,
+           const std::vector<CoordinateCondition>& held, State& state) {
   const LoadRamp ramp(system, environment, {1, 1});
   ramp.set_off(state);
   begin_states(system, ramp.environment(1), state);
-  Equilibrium equilibrium(ramp, options);
+  HeldCoordinates coordinates(system, environment, state, held);
+  Equilibrium equilibrium(ramp, options, coordinates.any() ? &coordinates : nullptr);
   if (equilibrium.relax(1, state) < 0)
     throw ComputationError(fmt::format(
         "static equilibrium at the start: none was found (what nothing holds has none); {}", equilibrium.why()));
@@ -155,8 +160,8 @@ void relax(const System& system, const Environment& environment, const NewtonOpt
 
 }  // namespace
 
-void settle(const System& system, const Environment& of_motion, const NewtonOptions& options, State& state,
-            StartReport& report) {
+void settle(const System& system, const Environment& of_motion, const NewtonOptions& options,
+            const std::vector<CoordinateCondition>& held, State& state, StartReport& report) {
   Environment environment = of_motion;
   environment.statics = true;
   assemble_positions(system, environment, state, report);
@@ -164,13 +169,18 @@ void settle(const System& system, const Environment& of_motion, const NewtonOpti
   system.get_rates(state, v, unused);
   const State assembled = state;
   try {
-    solve_statics(system, environment, LoadSteps(1, {0, 1}), options, state);
+    LoadSteps steps(1, {0, 1});
+    steps.held = held;
+    solve_statics(system, environment, steps, options, state);
   } catch (const ComputationError&) {
     state = assembled;
-    relax(system, environment, options, state);
+    relax(system, environment, options, held, state);
   }
-  report.loose = loose_unknown(system, environment, state);
-  note_stability(system, environment, state, report);
+  // What is held would count as loose, or as unstable.
+  if (held.empty()) {
+    report.loose = loose_unknown(system, environment, state);
+    note_stability(system, environment, state, report);
+  }
   system.set_rates(state, v, VectorX::Zero(system.dofs()));
   note_farthest(system, assembled, state, report.settled, report.settled_node);
   report.held = held_names(system, state);

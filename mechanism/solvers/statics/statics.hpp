@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mechanism/solvers/newton/convergence.hpp"
+#include "mechanism/solvers/start/start_conditions.hpp"
 #include "mechanism/solvers/start/start_report.hpp"
 #include "mechanism/solvers/statics/critical_point.hpp"
 #include "mechanism/solvers/statics/load_ramp.hpp"
@@ -23,7 +24,8 @@ struct LoadSteps {
   /// deflects it along the critical motion by this much of the mechanism's size, or in radians. 0: the path goes on,
   /// unstable.
   double branch = 0;
-  std::vector<double> stops;  ///< load factors at which an increment ends in any case, ascending
+  std::vector<double> stops;              ///< load factors at which an increment ends in any case, ascending
+  std::vector<CoordinateCondition> held;  ///< coordinates that stay where their values say
   LoadSteps(int steps, const Loaded& begin = {}) : count(steps), start(begin) {}
 };
 
@@ -60,8 +62,9 @@ StaticsLog solve_statics(const System& system, const Environment& environment, c
 
 /// Brings the state into equilibrium under the loads at its time, as the start of a motion: velocities stay as they
 /// are. Adds to the report what had to move, by assembly and by equilibrium.
+/// @param held  coordinates that stay where their values say, whatever loads them
 /// @throws ComputationError when there is no equilibrium near, or when the mechanism can move without resistance in it
-void settle(const System& system, const Environment& environment, const NewtonOptions& options, State& state,
-            StartReport& report);
+void settle(const System& system, const Environment& environment, const NewtonOptions& options,
+            const std::vector<CoordinateCondition>& held, State& state, StartReport& report);
 
 }  // namespace bielle::mechanism

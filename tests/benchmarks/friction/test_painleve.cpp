@@ -56,6 +56,6 @@ TEST_CASE("a dragged rod has the normal force of the closed form, and none beyon
     CHECK_THAT(force(mu, 1), WithinRel(g / (1 / m + l * l * c * (c + mu * s) / J), 1e-8));
   }
   // The plane holds from both sides: with a push or a pull, whose friction are opposite, there are none or two.
-  CHECK_THROWS_WITH(force(1.4, -1), Contains("Painleve"));
-  CHECK_THROWS_WITH(force(1.4, 1), Contains("Painleve"));
+  CHECK_THROWS_WITH(force(1.4, -1), Contains("Painleve") && Contains("joint 'tip'"));
+  CHECK_THROWS_WITH(force(1.4, 1), Contains("Painleve") && Contains("joint 'tip'"));
 }

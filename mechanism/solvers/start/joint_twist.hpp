@@ -1,0 +1,46 @@
+// The motion of one side of a joint relative to the other that its coordinates' rates ask for.
+#pragma once
+
+#include <vector>
+
+#include "mechanism/solvers/start/start_conditions.hpp"
+
+namespace bielle::mechanism {
+
+/// How a rigid body moves: the velocity [m/s] of its point at a place, and its angular velocity [rad/s]; inertial.
+struct RigidVelocity {
+  Vector3 place = Vector3::Zero(), v = Vector3::Zero(), omega = Vector3::Zero();
+  Vector3 at(const Vector3& x) const { return v + omega.cross(x - place); }
+};
+
+RigidVelocity rigid_velocity(const NodeState& node);
+void set_rigid_velocity(NodeState& node, const RigidVelocity& motion);
+
+/// Looks at members while nodes move in turn; the state is a scratch one, nodes are as they were afterwards.
+class JointTwist {
+ public:
+  JointTwist(const System& system, const Environment& environment, const State& state);
+
+  /// The motion of the moving side of a joint, relative motion included.
+  /// @param joint   member with two nodes @param moving,base  these @param conditions  start rates
+  /// @throws ComputationError where a start rate contradicts the joint, its drives or its locks
+  RigidVelocity of(std::size_t joint, int moving, int base, const StartConditions& conditions);
+  /// Whether the constraints of a member of two nodes allow one of them to move so while the other stays as it is.
+  bool allows(std::size_t member, const RigidVelocity& motion);
+  /// Takes other velocities of nodes.
+  void set_rates(const State& state);
+
+ private:
+  /// Rates (of the constraints that are on) of a member, with a node in motion.
+  VectorX constraint_rates(std::size_t member, int node, const RigidVelocity& motion);
+  VectorX all_rates(std::size_t joint, const std::vector<std::size_t>& drives, int moving, const RigidVelocity& motion);
+  void append_constraints(std::size_t member, VectorX& rates) const;
+  std::vector<std::size_t> acting_in(std::size_t joint) const;
+
+  const System& system_;
+  const Environment& environment_;
+  State state_;
+  double length_;
+};
+
+}  // namespace bielle::mechanism

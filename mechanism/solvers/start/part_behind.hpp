@@ -1,0 +1,30 @@
+// What is behind a joint: the nodes that move with one of its sides, the joint itself cut.
+//
+// Members with mass (beams, superelements) and constraints tie their nodes together. Others do not stop the motion of
+// the moving side relative to the rest: what has neither mass nor constraint (springs, contacts), and joints whose
+// constraints allow that very motion (a second bearing on the same axis). Where these alone lead to what is held, the
+// part ends there; what hangs on the part by nothing else is behind the joint as well.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "mechanism/system/system.hpp"
+
+namespace bielle::mechanism {
+
+struct PartBehind {
+  std::vector<int> nodes;  ///< ascending; empty: it is joined back to what is held, or to the other side
+  std::string way_back;    ///< then, by which members: "joint 'b', element 'link'"
+};
+
+/// @param joint   the member that is cut @param moving,base  its nodes: the one that moves, and the other one
+/// @param allows  whether a member's constraints allow the motion of the moving side
+PartBehind part_behind(const System& system, std::size_t joint, int moving, int base,
+                       const std::function<bool(std::size_t)>& allows);
+
+/// Whether a node is held in all directions.
+bool all_held(const Node& node);
+
+}  // namespace bielle::mechanism
