@@ -13,7 +13,7 @@ namespace {
 
 constexpr double accurate = 1e-6;  // of the place of a turn
 constexpr int most_steps = 1000;
-constexpr std::size_t kept = 8;  // points of the continuation
+constexpr std::size_t kept = 3;  // points of the continuation
 
 }  // namespace
 
@@ -23,9 +23,7 @@ PathWatch::Verdict PathWatch::look(const Point& from, Point& to) {
   verdict.followed = true;
   verdict.sign_changed = equilibrium_.sign_changed();
   Point below = from;
-  // What an analysis sets off from may be no equilibrium yet.
-  if (equilibrium_.find(from.factor, below.state) < 0) return verdict;
-  if (follow(below, to.factor)) {
+  if (follow(below, to.factor, finest, &to.state)) {
     verdict.moved = !measure_.small(motions_between(below.state, to.state));
     if (verdict.moved) to = below;
     return verdict;
@@ -66,15 +64,22 @@ bool PathWatch::arrive(Point& point, const Point& reached, const Continuation& t
   return true;
 }
 
-bool PathWatch::follow(Point& point, double factor, double least) {
+bool PathWatch::follow(Point& point, double factor, double least, const State* expected) {
   const double whole = factor - point.factor;
   if (whole == 0) return true;
   double step = whole / 4;
+  bool refused = false;
   // The last ones: near its turn the continuation may go a little too far.
   std::deque<Point> points{point};
   std::deque<Continuation> rates(1);
   try {
     equilibrium_.respond(point.factor, point.state, nullptr, rates[0]);
+    // An analysis may set off from what is no equilibrium yet.
+    if (!measure_.small(motions_along(system_, point.state, rates[0].correction, 0))) {
+      if (equilibrium_.find(point.factor, point.state) < 0) return false;
+      points[0] = point;
+      equilibrium_.respond(point.factor, point.state, nullptr, rates[0]);
+    }
   } catch (const ComputationError&) {
     return false;
   }
@@ -84,7 +89,10 @@ bool PathWatch::follow(Point& point, double factor, double least) {
     Point trial{end, here.state};
     Continuation there;
     const double bend = advance(here, rates.back(), trial, there);
-    step = (end - here.factor) * std::clamp(0.7 / bend, bend <= 1 ? 0.5 : 0.1, bend <= 1 ? 3 : 0.5);
+    // After a refusal steps grow slowly again.
+    const double most = refused ? 1.3 : 2.5;
+    refused = bend > 1;
+    step = (end - here.factor) * (refused ? std::clamp(0.7 / bend, 0.2, 0.5) : std::clamp(0.7 / bend, 0.5, most));
     if (bend > 1) continue;
     points.push_back(std::move(trial));
     rates.push_back(std::move(there));
@@ -94,6 +102,14 @@ bool PathWatch::follow(Point& point, double factor, double least) {
     }
   }
   const bool came = points.back().factor == factor;
+  if (came && expected) {
+    const State end =
+        displaced(system_, points.back().state, points.back().state.motion_factor, rates.back().correction);
+    if (measure_.small(motions_between(end, *expected))) {
+      point = {factor, *expected};
+      return true;
+    }
+  }
   for (; !points.empty() && points.back().factor != point.factor; points.pop_back(), rates.pop_back())
     if (arrive(point, points.back(), rates.back())) return came && point.factor == factor;
   return false;
@@ -101,21 +117,28 @@ bool PathWatch::follow(Point& point, double factor, double least) {
 
 /// A step of the continuation. @returns how far it is from what its ends tell: more than one is too far
 double PathWatch::advance(const Point& here, const Continuation& at_begin, Point& trial, Continuation& at_end) {
+  constexpr int corrections = 3;  // until what they leave is small
   const double change = trial.factor - here.factor, motion = ramp_.motion(trial.factor) - here.state.motion_factor;
   try {
+    const NodeMotions begin = motions_along(system_, here.state, change * at_begin.rate, motion);
+    NodeMotions found = begin;
+    State before = here.state;
     trial.state =
         displaced(system_, here.state, ramp_.motion(trial.factor), at_begin.correction + change * at_begin.rate);
-    equilibrium_.respond(trial.factor, trial.state, &here.state, at_end);
-    const NodeMotions begin = motions_along(system_, here.state, change * at_begin.rate, motion),
-                      end = motions_along(system_, trial.state, change * at_end.rate, motion),
-                      correction = motions_along(system_, trial.state, at_end.correction, 0),
-                      second = motions_along(system_, trial.state, at_end.second, 0);
-    NodeMotions found = begin;
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      found[i].displacement += correction[i].displacement;
-      found[i].turn += correction[i].turn;
+    for (int k = 1;; ++k) {
+      equilibrium_.respond(trial.factor, trial.state, &before, at_end);
+      const NodeMotions correction = motions_along(system_, trial.state, at_end.correction, 0);
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        found[i].displacement += correction[i].displacement;
+        found[i].turn += correction[i].turn;
+      }
+      const double bend =
+          measure_.bend(begin, motions_along(system_, trial.state, change * at_end.rate, motion), found);
+      const double unsettled = measure_.unsettled(correction, motions_along(system_, trial.state, at_end.second, 0));
+      if (bend > 1 || unsettled <= 1 || k == corrections) return std::max(bend, unsettled);
+      before = trial.state;
+      trial.state = displaced(system_, before, before.motion_factor, at_end.correction);
     }
-    return std::max(measure_.bend(begin, end, found), measure_.unsettled(correction, second));
   } catch (const ComputationError&) {
     return INFINITY;  // a trial that a component refuses, or where the equations are singular
   }
@@ -124,8 +147,10 @@ double PathWatch::advance(const Point& here, const Continuation& at_begin, Point
 /// Brings the last equilibrium before a turn of the path close to it. @param beyond  past the turn
 void PathWatch::close_in(Point& below, double beyond) {
   const double least = accurate * std::abs(beyond - below.factor);
-  while (std::abs(beyond - below.factor) > least) {
-    Point middle{0.5 * (below.factor + beyond), below.state};
+  // Mostly it stands there already: short reaches come first.
+  for (double reach = least; std::abs(beyond - below.factor) > least; reach *= 8) {
+    const double gap = beyond - below.factor;
+    Point middle{below.factor + std::copysign(std::min(reach, 0.5 * std::abs(gap)), gap), below.state};
     if (equilibrium_.find(middle.factor, middle.state) >= 0 && told_by_ends(below, middle))
       below = middle;
     else if (!follow(below, middle.factor, 1e-5))

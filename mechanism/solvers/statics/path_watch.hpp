@@ -42,11 +42,13 @@ class PathWatch {
 
   /// Follows the path from an equilibrium to a load factor. @returns whether it came there; otherwise `point` is the
   /// last equilibrium that was found before the path turns or is lost
-  /// @param least  steps that are a smaller part of the way than this are too short
-  bool follow(Point& point, double factor, double least = 1e-7);
+  /// @param least     steps that are a smaller part of the way than this are too short
+  /// @param expected  an equilibrium at the end that is taken where the path leads next to it, or null
+  bool follow(Point& point, double factor, double least = finest, const State* expected = nullptr);
   LoadJump jump_between(const Point& below, const Point& above) const;
 
  private:
+  static constexpr double finest = 1e-7;
   bool told_by_ends(const Point& from, const Point& to);
   double advance(const Point& here, const Continuation& at_begin, Point& trial, Continuation& at_end);
   bool arrive(Point& point, const Point& reached, const Continuation& there);
