@@ -1,4 +1,4 @@
-// Which increments of the load factor a static analysis makes.
+// The increments of the load factor that a static analysis makes.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace bielle::mechanism {
 
-/// Which part of the way from the first load factor to the full load is gone next.
+/// Decides how much of the way from the first load factor to the full load is gone next.
 class Increments {
  public:
   /// @param count  equal parts; 0: chosen by how fast Newton's method converges
@@ -21,7 +21,7 @@ class Increments {
 
   bool ended() const { return made_ == 1; }
   double made() const { return made_; }
-  /// Where the next one ends: at most at the next point of the grid.
+  /// The end of the next one: at most at the next point of the grid.
   double end() const {
     constexpr double rounding = 1e-9;
     double end = made_ + part_;

@@ -3,7 +3,7 @@
 // one although the path goes on.
 //
 // Each increment is judged by its ends (node_motion.hpp), which takes a residual and a solution with factors at hand,
-// and by the sign of the determinant at both. Where they do not tell all of it, the path is followed through the
+// and by the sign of the determinant at both. If they do not tell all of it, the path is followed through the
 // increment by Newton's continuation (P. Deuflhard, Newton Methods for Nonlinear Problems, Springer 2004, ch. 5): at
 // each point
 //     K c = -r,   K b = -dr/ds,   q <- q o (c + b ds),

@@ -115,7 +115,7 @@ int LoadStepping::find(double factor, bool& falls) {
   return iterations;
 }
 
-/// Where Newton's method finds nothing.
+/// The last means when Newton's method finds nothing. @returns the iterations, or -1
 int LoadStepping::follow(double factor) {
   const long solves = equilibrium_.solves();
   PathWatch::Point point{this->factor(), state_};
@@ -154,7 +154,7 @@ bool LoadStepping::judge(const PathWatch::Point& from, double factor) {
   return verdict.followed;
 }
 
-/// Where a jump has led to an equilibrium that cannot stay: lets the mechanism go down from where it began.
+/// Lets the mechanism go down from where a jump began, if it has led to an equilibrium that cannot stay.
 void LoadStepping::land(PathWatch::Point& to, const PathWatch::Verdict& verdict, LoadJump& jump) {
   if (!watch_.less_stable(to.factor, to.state) && !verdict.sign_changed) return;
   PathWatch::Point down{to.factor, verdict.below->state};
