@@ -61,8 +61,12 @@ std::string format_stability(const StaticsLog& log, bool path, bool hint) {
                         : point.after > point.before ? "instability"
                                                      : "stability again",
                         point.factor, point.after > point.before ? "becomes negative" : "is positive again",
-                        counted(std::abs(point.after - point.before), "motion"), point.motion,
-                        point.left ? "; the branch that leaves there was followed" : "");
+                        counted(std::abs(point.after - point.before), "motion") +
+                            (std::abs(point.after - point.before) > 1 ? " at once" : ""),
+                        point.motion,
+                        !point.left                      ? ""
+                        : point.after - point.before > 1 ? "; of the branches that leave there one was followed"
+                                                         : "; the branch that leaves there was followed");
   if (log.unstable.value_or(0) > 0)
     text += fmt::format("  the equilibrium at the end is unstable: its stiffness is negative along {}{}\n",
                         counted(*log.unstable, "motion"),

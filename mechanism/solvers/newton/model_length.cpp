@@ -11,10 +11,16 @@ double model_length(const State& state) {
   return squared > 0 ? std::sqrt(squared) : 1;
 }
 
-double model_extent(const State& state) {
+double spread(const State& state) {
+  constexpr double rounding = 1e-13;  // of positions that formulas place at the same point
   Eigen::AlignedBox3d box;
   for (std::size_t i = 1; i < state.nodes.size(); ++i) box.extend(state.nodes[i].x);
   const double length = state.nodes.size() > 1 ? box.diagonal().norm() : 0;
+  return length > rounding * model_length(state) ? length : 0;
+}
+
+double model_extent(const State& state) {
+  const double length = spread(state);
   return length > 0 ? length : model_length(state);
 }
 

@@ -9,7 +9,11 @@ namespace bielle::mechanism {
 /// stand there.
 double model_length(const State& state);
 
-/// Diagonal of the box around all nodes but the ground, which stands at the origin wherever the mechanism is [m].
+/// Diagonal of the box around all nodes but the ground, which stands at the origin wherever the mechanism is [m]; 0
+/// where they stand in one point, to rounding.
+double spread(const State& state);
+
+/// The same, or `model_length` of nodes in one point: never zero.
 double model_extent(const State& state);
 
 /// The scale that each constraint's residual is compared with: sum_j |B_ij| s_j, s_j the model's length for

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/solvers/constraints/redundancy.hpp"
+#include "mechanism/solvers/newton/model_length.hpp"
 #include "mechanism/solvers/statics/equilibrium.hpp"
 #include "mechanism/solvers/statics/held_states.hpp"
 #include "mechanism/solvers/statics/path_step.hpp"
@@ -85,7 +86,8 @@ class Path {
         stability_(ramp.system(), step_.held()),
         end_(path.end, ramp, step_),
         gap_(end_.gap(state, factor_)),
-        whole_(std::abs(gap_)) {
+        whole_(std::abs(gap_)),
+        drawn_in_a_point_(spread(state) == 0) {
     set_off();
     unstable_ = stability_.count(state_, ramp_.environment(factor_));
   }
@@ -151,7 +153,7 @@ class Path {
                       "move without resistance",
                       factor_));
     const double response = step_.length(b);
-    if (step_.held() && response > runaway)
+    if (response > runaway && step_.runs_loose(b))
       throw ComputationError(fmt::format("static path: nothing holds {} against its load, at load factor {:.6g}",
                                          moves_most(system_, b, state_), factor_));
     if (!(response > resolved))
@@ -332,7 +334,11 @@ class Path {
     going_ = limit ? -going_ : after.slope < 0 ? -1 : 1;
     // A step that was cut at a limit point says nothing against the arc that led there.
     if (!limit) arc_ = length * std::clamp(std::sqrt(easy_iterations / std::max(1, trial_.iterations)), 0.5, 2.0);
-    arc_ = std::min(arc_, most_arc_);
+    travelled_ += length;
+    // Drawn in one point, a mechanism has no size but how far it has come.
+    const double longest =
+        drawn_in_a_point_ && path_.steps == 0 ? std::max(most_arc_, longest_arc * travelled_) : most_arc_;
+    arc_ = std::min(arc_, longest);
     point.load_factor = factor_;
     point.iterations = trial_.iterations;
     point.limit = limit;
@@ -349,6 +355,8 @@ class Path {
   Stability stability_;
   EndCondition end_;
   double gap_, whole_;
+  bool drawn_in_a_point_;
+  double travelled_ = 0;  ///< length of the path so far
   double first_arc_ = 0, most_arc_ = 0, arc_ = 0;
   Tangent tangent_;
   double going_ = 1;  ///< sign of the load factor's slope after the last point

@@ -9,7 +9,7 @@
 #include "mechanism/solvers/constraints/redundancy.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
 #include "mechanism/solvers/start/consistent_accelerations.hpp"
-#include "mechanism/solvers/start/start_report.hpp"
+#include "mechanism/solvers/statics/node_motion.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -32,8 +32,12 @@ Equilibrium::Equilibrium(const LoadRamp& ramp, const NewtonOptions& options, Hel
       r_(system_.size()),
       delta_(system_.size()) {}
 
-int Equilibrium::find(double factor, State& state) {
-  return attempt(factor, state, [&] { return iterate(factor, state, &Equilibrium::step); });
+int Equilibrium::find(double factor, State& state, const State* before) {
+  return attempt(factor, state, [&] {
+    stepped_ = before;
+    if (before) before_ = *before;
+    return iterate(factor, state, &Equilibrium::step);
+  });
 }
 
 int Equilibrium::search(double factor, State& state) {
@@ -107,15 +111,46 @@ void Equilibrium::accept(double factor, State& state) const {
   }
 }
 
-/// The first iteration has led to the state.
-void Equilibrium::note_promised(const State& state) {
-  std::string node;
-  promised_ = 0;
-  note_farthest(system_, start_, state, promised_, node);
+/// The last solution is that of the first iteration.
+void Equilibrium::note_first() {
+  first_response_ = delta_;
+  first_sign_ = last_sign_;
+}
+
+void Equilibrium::factor_derivative(double factor, const State& state, Eigen::Ref<VectorX> result) const {
+  if (follows_)
+    ramp_.factor_derivative(state, factor, result);
+  else
+    ramp_.load_derivative(state, factor, result);
+}
+
+VectorX Equilibrium::response(double factor, const State& state, double change) {
+  factor_derivative(factor, state, r_);
+  r_ *= change;
+  tangent_.solve(r_, delta_);
+  return delta_;
+}
+
+void Equilibrium::respond(double factor, State& state, const State* before, Continuation& point) {
+  environment_ = ramp_.environment(factor);
+  evaluate(state);
+  if (!r_.allFinite()) throw ComputationError("a residual is beyond all numbers (overflow)");
+  environment_.before = before;
+  tangent_.factor(state, environment_);
+  environment_.before = nullptr;
+  solve();
+  point.correction = delta_;
+  point.rate = response(factor, state, 1);
+  State corrected = displaced(system_, state, state.motion_factor, point.correction);
+  evaluate(corrected);
+  tangent_.solve(r_, delta_);
+  point.second = delta_;
 }
 
 int Equilibrium::iterate(double factor, State& state, void (Equilibrium::*improve)(State&)) {
-  const bool followed = ramp_.motion(factor) != state.motion_factor && follow_motions(factor, state);
+  const bool behind = ramp_.motion(factor) != state.motion_factor;
+  if (behind) follows_ = follow_motions(factor, state);
+  const bool followed = behind && follows_;
   evaluate(state);
   for (int iteration = 0;; ++iteration) {
     const bool reached = this->reached();
@@ -123,7 +158,7 @@ int Equilibrium::iterate(double factor, State& state, void (Equilibrium::*improv
     if (iteration > 0 && reached) return iteration + (followed ? 1 : 0);
     if (iteration == options_.iterations || !r_.allFinite()) return -1;
     (this->*improve)(state);
-    if (iteration == 0 && !followed) note_promised(state);
+    if (iteration == 0 && !followed) note_first();
   }
 }
 
@@ -188,11 +223,11 @@ bool Equilibrium::follow_motions(double factor, State& state) {
   this->factor(state);
   r_ += (ramp_.motion(factor) - state.motion_factor) * by_motion;
   solve();
+  note_first();
   before_ = state;
   stepped_ = true;
   state.motion_factor = ramp_.motion(factor);
   move(state, before_, 1);
-  note_promised(state);
   return true;
 }
 
@@ -245,7 +280,7 @@ void Equilibrium::check_no_fall(const State& state) {
   falls_ = false;
   if (!held()) return;
   leave_balanced_out(state);
-  falls_ = extent(state) > runaway;
+  falls_ = extent(state) > runaway && tangent_.runs_loose(delta_);
   if (falls_)
     throw ComputationError(fmt::format("nothing holds {} against its load", moves_most(system_, delta_, state)));
 }
@@ -295,6 +330,7 @@ void Equilibrium::factor(const State& state, double inertia) {
   environment_.before = stepped_ ? &before_ : nullptr;
   tangent_.factor(state, environment_, inertia);
   environment_.before = nullptr;
+  last_sign_ = tangent_.linear().determinant_sign();
   convergence_.measure_rounding(tangent_.linear(), state);
   convergence_.measure_by(scale_);
 }

@@ -12,6 +12,13 @@
 
 namespace bielle::mechanism {
 
+/// A point of Newton's continuation: what Newton's method would change there, and how the equilibrium goes on.
+struct Continuation {
+  VectorX correction;  ///< c = -K^-1 r (size)
+  VectorX second;      ///< the next one with the same factors: what the correction has left (size)
+  VectorX rate;        ///< b = -K^-1 dr/ds (size), s the load factor
+};
+
 class Equilibrium {
  public:
   /// @param held  coordinates that stay where they are; nullptr: none. It must outlive this
@@ -25,7 +32,8 @@ class Equilibrium {
   /// iteration: the free nodes follow them by the tangent. Stiffness comes from predicted stress (Environment::before);
   /// steps are shortened that turn a node by more than two radians, or that a component refuses.
   /// @returns the iterations, or -1 with the state as it was; then `why` tells
-  int find(double factor, State& state);
+  /// @param before  from where one linear step led to the state, or null
+  int find(double factor, State& state, const State* before = nullptr);
   /// The same with exact tangents, and steps that are shortened where they make the largest residual larger: slower
   /// where both find it, and now and then the only way.
   int search(double factor, State& state);
@@ -40,8 +48,16 @@ class Equilibrium {
   /// Whether the last `find` met a load on something that nothing holds (an arm drawn away from where it hangs):
   /// `relax` lets it go down.
   bool falls() const { return falls_; }
-  /// How far the first iteration of the last `find` or `search` moved a node [m]: the linear response.
-  double promised() const { return promised_; }
+  /// The first iteration of the last `find` or `search` (size): the linear response to the increment, motions included.
+  const VectorX& first_response() const { return first_response_; }
+  /// Whether the determinant's sign was another one in its last iteration than in its first.
+  bool sign_changed() const { return last_sign_ != first_sign_; }
+  /// The linear response (size) of an equilibrium that was just found to a change of the load factor, with the factors
+  /// of the last iteration.
+  VectorX response(double factor, const State& state, double change);
+  /// Newton's continuation at a state: one factorisation. @param before  the point from which one step led to it, or
+  /// null; @throws ComputationError where a component refuses the state or the equations are singular
+  void respond(double factor, State& state, const State* before, Continuation& point);
   /// Why the last attempt failed: what a component refused, what is singular, or where Newton's method stalled.
   const std::string& why() const { return why_; }
   /// Hands an equilibrium to the components, constraints set aside included.
@@ -62,7 +78,8 @@ class Equilibrium {
   void check_no_fall(const State& state);
   double largest_work(const State& state, const VectorX& z) const;
   void leave_balanced_out(const State& state);
-  void note_promised(const State& state);
+  void factor_derivative(double factor, const State& state, Eigen::Ref<VectorX> result) const;
+  void note_first();
   void step(State& state);
   void search_step(State& state);
   void solve();
@@ -83,9 +100,11 @@ class Equilibrium {
   bool searches_ = false;    ///< balances that may be flat are searched for at each iterate
   Environment environment_;  ///< of the load factor in hand
   State start_;              ///< of the attempt in hand
-  double promised_ = 0;
-  State before_;          ///< the last step led from it to the state in hand
-  bool stepped_ = false;  ///< there was such a step
+  VectorX first_response_;
+  int first_sign_ = 0, last_sign_ = 0;  ///< of the determinant
+  bool follows_ = false;                ///< something is prescribed that moves with the load factor
+  State before_;                        ///< the last step led from it to the state in hand
+  bool stepped_ = false;                ///< there was such a step
   bool falls_ = false;
   VectorX push_;
   HeldCoordinates* coordinates_;

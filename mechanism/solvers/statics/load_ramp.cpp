@@ -19,14 +19,19 @@ Environment LoadRamp::environment(double factor) const {
 }
 
 void LoadRamp::factor_derivative(const State& state, double factor, Eigen::Ref<VectorX> result) const {
+  load_derivative(state, factor, result);
+  if (motion_rate() == 0) return;
+  VectorX r(system_.size());
+  motion_derivative(state, environment(factor), r);
+  result += motion_rate() * r;
+}
+
+void LoadRamp::load_derivative(const State& state, double factor, Eigen::Ref<VectorX> result) const {
   // Residuals are linear in loads and gravity.
   VectorX r(system_.size());
   residual_at_rest(system_, environment(factor), state, r);
   residual_at_rest(system_, environment(factor + 1), state, result);
   result -= r;
-  if (motion_rate() == 0) return;
-  motion_derivative(state, environment(factor), r);
-  result += motion_rate() * r;
 }
 
 void LoadRamp::motion_derivative(const State& state, const Environment& environment, Eigen::Ref<VectorX> result) const {

@@ -30,6 +30,8 @@ class LoadRamp {
   double motion(double factor) const { return 1 - motion_rate() * (1 - factor); }
   /// dr/ds (size) at a state at rest under a load factor.
   void factor_derivative(const State& state, double factor, Eigen::Ref<VectorX> result) const;
+  /// The part of it that loads and gravity make, prescribed motions left where they are.
+  void load_derivative(const State& state, double factor, Eigen::Ref<VectorX> result) const;
   /// dr/dm (size): exact to some 1e-8, by central differences of the positions.
   void motion_derivative(const State& state, const Environment& environment, Eigen::Ref<VectorX> result) const;
 

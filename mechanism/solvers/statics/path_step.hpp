@@ -39,6 +39,7 @@ class PathStep {
   double length(const VectorX& a) const { return std::sqrt(product(a, a)); }
   double extent() const { return extent_; }  ///< [m]
   const VectorX* held() const { return tangent_.held(); }
+  bool runs_loose(const VectorX& delta) const { return tangent_.runs_loose(delta); }  ///< see StaticTangent
 
   /// Sets trial.state from its increments and its load factor.
   void place(const State& base, PathTrial& trial) const;

@@ -25,6 +25,9 @@ class Stability {
   explicit Stability(const System& system, const VectorX* held = nullptr)
       : system_(system), linear_(system), held_(held ? *held : VectorX()) {}
 
+  /// The same from now on.
+  void hold(const VectorX& held) { held_ = held; }
+
   /// How many independent small motions meet a negative stiffness at a state at rest; none where that is not known.
   /// @param environment  in which it is in equilibrium
   std::optional<int> count(const State& state, const Environment& environment);

@@ -42,11 +42,11 @@ void StabilityWatch::look(double factor, State& state, StaticsLog& log) {
     CriticalPoint point = locate(factor, state, *now);
     if (branch_ > 0 && point.after > point.before && mode_) {
       if (!follow(factor, *mode_, state))
-        throw ComputationError(
-            fmt::format("statics: at load factor {:.6g} the equilibrium becomes unstable along {}, and no branch was "
-                        "found that leaves there: it may lead back to lower loads (`arc_length`), or be farther away "
-                        "than `branch`",
-                        point.factor, point.motion));
+        throw ComputationError(fmt::format(
+            "statics: at load factor {:.6g} the equilibrium becomes unstable along {}{}, and no branch was "
+            "found that leaves there: it may lead back to lower loads (the mechanism snaps), or be farther "
+            "away than `branch`",
+            point.factor, point.after - point.before > 1 ? "several motions at once, most along " : "", point.motion));
       point.left = true;
       now = count(factor, state);
       log.critical.push_back(point);
@@ -119,11 +119,19 @@ bool StabilityWatch::follow(double factor, const Stability::Mode& mode, State& s
     equilibrium_.push(times * branch_ * stiffness * mode.force);
     const bool led = lead(factor, trial);
     equilibrium_.push({});
+    if (led) hold_neutral(factor, trial);
     if (!led || equilibrium_.find(factor, trial) < 0 || !is_stable(trial, factor)) continue;
     state = trial;
     return true;
   }
   return false;
+}
+
+/// A branch that leaves along two motions at once may be one of a circle of them, along which nothing resists (a round
+/// rod that buckles to any side): such a motion is held like what is loose.
+void StabilityWatch::hold_neutral(double factor, const State& state) {
+  equilibrium_.look_for_loose(factor, state);
+  if (equilibrium_.held()) stability_.hold(*equilibrium_.held());
 }
 
 bool StabilityWatch::is_stable(const State& state, double factor) {

@@ -20,12 +20,18 @@ class StabilityWatch {
   /// An equilibrium is about to be accepted. If stability has changed since the last one, finds where; puts the state
   /// onto the branch, if one is to be followed. @throws ComputationError when there is none to be found
   void look(double factor, State& state, StaticsLog& log);
+  /// Whether an equilibrium is unstable along more motions than the last one; false where that is not known.
+  bool less_stable(double factor, const State& state) {
+    const std::optional<int> now = count(factor, state);
+    return now && last_count_ && *now > *last_count_;
+  }
 
  private:
   std::optional<int> count(double factor, const State& state);
   void remember(double factor, const State& state, const std::optional<int>& count);
   CriticalPoint locate(double factor, const State& state, int count);
   bool follow(double factor, const Stability::Mode& mode, State& state);
+  void hold_neutral(double factor, const State& state);
   bool lead(double factor, State& state);
   bool is_stable(const State& state, double factor);  ///< as the last equilibrium was
 

@@ -52,6 +52,17 @@ bool StaticTangent::try_factor(const State& state, const Environment& environmen
   return linear_.try_factor(state, environment, tangent_at_rest, nullptr, held());
 }
 
+bool StaticTangent::runs_loose(const VectorX& delta) const {
+  constexpr double most = 0.5;
+  if (!held()) return false;
+  const Eigen::Index n = held_.size();
+  VectorX load = VectorX::Zero(system_.size()), loose(system_.size());
+  load.head(n) = -held_.cwiseProduct(delta.head(n));
+  linear_.solve(load, loose);
+  const double all = std::sqrt(held_.dot(delta.head(n).cwiseAbs2()));
+  return !(std::sqrt(held_.dot(loose.head(n).cwiseAbs2())) <= most * all);
+}
+
 std::string moves_most(const System& system, const VectorX& motion, const State& state) {
   const double length = model_extent(state) > 0 ? model_extent(state) : 1;
   int most = 0;

@@ -13,7 +13,8 @@
 
 namespace bielle::mechanism {
 
-/// A linear response that is longer (turns [rad], or of the mechanism's size) runs away along what is loose: e is 1e-9.
+/// A linear response that is longer (turns [rad], or of the mechanism's size) may run away along what is loose: e is
+/// 1e-9. Whether it does says StaticTangent::runs_loose: a mechanism drawn in a small space moves far along springs.
 constexpr double runaway = 1e3;
 
 class StaticTangent {
@@ -29,6 +30,10 @@ class StaticTangent {
   bool try_factor(const State& state, const Environment& environment);
   void solve(const Eigen::Ref<const VectorX>& r, Eigen::Ref<VectorX> delta) const { linear_.solve(r, delta); }
   const LinearStep& linear() const { return linear_; }
+  /// Whether a solution with the last factors lies along what nothing but e D holds. With P = (K + e D)^-1 e D, which
+  /// leaves such motions as they are and makes e D/K of others, |P delta| > |delta|/2 in the norm of D: no length
+  /// decides. @param delta  (dofs or more)
+  bool runs_loose(const VectorX& delta) const;
   /// e D (dofs) where something was loose, otherwise none.
   const VectorX* held() const { return held_.size() > 0 ? &held_ : nullptr; }
 

@@ -1,16 +1,16 @@
 #include "mechanism/solvers/statics/statics.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <utility>
-#include <vector>
+#include <string>
 
 #include <fmt/format.h>
 
 #include "mechanism/solvers/start/assemble_positions.hpp"
 #include "mechanism/solvers/statics/equilibrium.hpp"
+#include "mechanism/solvers/statics/held_coordinates.hpp"
 #include "mechanism/solvers/statics/held_states.hpp"
-#include "mechanism/solvers/statics/jump_watch.hpp"
+#include "mechanism/solvers/statics/increments.hpp"
+#include "mechanism/solvers/statics/path_watch.hpp"
 #include "mechanism/solvers/statics/stability.hpp"
 #include "mechanism/solvers/statics/stability_watch.hpp"
 #include "mechanism/solvers/statics/static_tangent.hpp"
@@ -19,59 +19,152 @@ namespace bielle::mechanism {
 
 namespace {
 
-/// Which part of the way from the first load factor to the full load is gone next.
-class Increments {
+/// A static analysis by load steps.
+class LoadStepping {
  public:
-  /// @param count  equal parts; 0: chosen by how fast Newton's method converges
-  /// @param stops  where one ends in any case, ascending
-  Increments(int count, std::vector<double> stops)
-      : grid_(count > 0 ? 1.0 / count : 0),
-        part_(count > 0 ? grid_ : 0.1),
-        least_(part_ / 1024),
-        stops_(std::move(stops)) {}
+  LoadStepping(const LoadRamp& ramp, const Environment& environment, const LoadSteps& steps,
+               const NewtonOptions& options, State& state)
+      : steps_(steps),
+        line_search_(options.line_search),
+        state_(state),
+        begin_(ramp.begin()),
+        loaded_(begin_ == 1),
+        increments_(loaded_ ? 1 : steps.count, parts_of_the_way(steps.stops, begin_)),
+        held_(ramp.system(), environment, state, steps.held),
+        equilibrium_(ramp, options, held_.any() ? &held_ : nullptr),
+        watch_(ramp, ready(equilibrium_, state), steps.branch),
+        path_(ramp, equilibrium_, state) {
+    if (!loaded_) watch_.begin(begin_, state_);
+  }
 
-  bool ended() const { return made_ == 1; }
-  double made() const { return made_; }
-  /// Where the next one ends: at most at the next point of the grid.
-  double end() const {
-    constexpr double rounding = 1e-9;
-    double end = made_ + part_;
-    if (grid_ > 0) end = std::min(end, grid_ * (std::floor(made_ / grid_ + rounding) + 1));
-    if (end > 1 - rounding) end = 1;
-    const auto stop = std::upper_bound(stops_.begin(), stops_.end(), made_);
-    return stop != stops_.end() && *stop < end * (1 + rounding) ? *stop : end;
-  }
-  /// Increments have been halved so often that another way is tried.
-  bool stuck() const { return part_ <= 16 * least_; }
-  /// @returns false when they have become too small
-  bool halve() {
-    part_ = (end() - made_) / 2;
-    calm_ = 0;
-    return part_ >= least_;
-  }
-  void accept(int iterations) {
-    made_ = end();
-    ++calm_;
-    if (grid_ > 0) {
-      if (iterations <= easy || calm_ > 1) part_ = std::min(grid_, 2 * part_);
-    } else {
-      part_ = std::min(1.0, part_ * std::clamp(static_cast<double>(easy) / std::max(1, iterations), 0.5, 2.0));
-    }
+  bool ended() const { return increments_.ended(); }
+  /// Makes an increment, or a smaller one the next. @returns the iterations, or -1 where it was refused
+  int advance();
+  double factor() const { return factor_at(increments_.made()); }
+  StaticsLog log() {
+    log_.solves = equilibrium_.solves();
+    return log_;
   }
 
  private:
-  static constexpr int easy = 6;  // iterations of Newton's method
-  double grid_, part_, least_, made_ = 0;
-  std::vector<double> stops_;
-  int calm_ = 0;  ///< increments since one was refused
+  Equilibrium& ready(Equilibrium& equilibrium, const State& state) const {
+    equilibrium.look_for_loose(factor_at(increments_.end()), state);
+    return equilibrium;
+  }
+  double factor_at(double part) const;
+  int find(double factor, bool& falls);
+  void refuse(double factor, bool falls);
+  int follow(double factor);
+  bool judge(const PathWatch::Point& from, double factor);
+  void land(PathWatch::Point& to, const PathWatch::Verdict& verdict, LoadJump& jump);
+
+  const LoadSteps& steps_;
+  bool line_search_;
+  State& state_;
+  double begin_;
+  bool loaded_;  ///< all of the load acts already
+  Increments increments_;
+  HeldCoordinates held_;
+  Equilibrium equilibrium_;
+  StabilityWatch watch_;
+  PathWatch path_;
+  StaticsLog log_;
+  std::string why_;  ///< nothing was found
 };
 
-/// Load factors after the first one, as parts of the way from there to the full load.
-std::vector<double> parts_of_the_way(const std::vector<double>& factors, double begin) {
-  std::vector<double> parts;
-  for (const double factor : factors)
-    if (factor > begin && factor <= 1) parts.push_back(factor == 1 ? 1 : (factor - begin) / (1 - begin));
-  return parts;
+double LoadStepping::factor_at(double part) const {
+  if (part == 1) return 1.0;
+  const double factor = begin_ + part * (1 - begin_);
+  for (const double stop : steps_.stops)  // to the last bit
+    if (std::abs(stop - factor) <= 1e-12) return stop;
+  return factor;
+}
+
+int LoadStepping::advance() {
+  const double factor = factor_at(increments_.end());
+  const PathWatch::Point before{this->factor(), state_};
+  bool falls = false, followed = false;
+  const long solves = equilibrium_.solves();
+  int iterations = find(factor, falls);
+  if (iterations < 0) {
+    refuse(factor, falls);
+    return -1;
+  }
+  if (falls) log_.fell = why_;
+  if (!loaded_ && !falls && !held_.any()) {  // the path of what is held is another one
+    followed = judge(before, factor);
+    if (followed) iterations = static_cast<int>(equilibrium_.solves() - solves);
+  }
+  watch_.look(factor, state_, log_);
+  equilibrium_.accept(factor, state_);
+  increments_.accept(iterations, followed);
+  return iterations;
+}
+
+/// @param falls  set where something has been let go
+int LoadStepping::find(double factor, bool& falls) {
+  int iterations = equilibrium_.find(factor, state_);
+  falls = equilibrium_.falls();
+  if (iterations < 0) why_ = equilibrium_.why();
+  const bool last_means = !falls && (loaded_ || increments_.stuck());
+  if (iterations < 0 && last_means && line_search_) {
+    iterations = equilibrium_.search(factor, state_);
+    why_ = equilibrium_.why();
+  }
+  if (iterations < 0 && last_means && !loaded_) iterations = follow(factor);
+  if (iterations < 0 && (loaded_ || falls)) {
+    iterations = equilibrium_.relax(factor, state_);
+    if (!falls) why_ = equilibrium_.why();
+  }
+  return iterations;
+}
+
+/// The last means when Newton's method finds nothing. @returns the iterations, or -1
+int LoadStepping::follow(double factor) {
+  const long solves = equilibrium_.solves();
+  PathWatch::Point point{this->factor(), state_};
+  if (!path_.follow(point, factor)) return -1;
+  state_ = point.state;
+  return static_cast<int>(equilibrium_.solves() - solves);
+}
+
+void LoadStepping::refuse(double factor, bool falls) {
+  ++log_.refused;
+  log_.refused_at = factor;
+  log_.why_refused = why_;
+  const double size = (increments_.end() - increments_.made()) * (1 - begin_);
+  if (!loaded_ && !falls && increments_.halve()) return;
+  throw ComputationError(
+      fmt::format("statics: no equilibrium found at load factor {:.6g} (increment {:.3g}): {}{}", factor, size, why_,
+                  loaded_ || falls ? "" : "; if the load has a maximum there, `arc_length` follows the path past it"));
+}
+
+/// An increment has been found: puts the state onto its path, and notes where it jumps. @returns whether the path had
+/// to be followed
+bool LoadStepping::judge(const PathWatch::Point& from, double factor) {
+  PathWatch::Point to{factor, state_};
+  const PathWatch::Verdict verdict = path_.look(from, to);
+  if (verdict.jump) {
+    LoadJump jump = *verdict.jump;
+    const PathWatch::Point found = to;
+    land(to, verdict, jump);
+    log_.jumps.push_back(jump);
+    // Stability is watched along paths, not across jumps.
+    const bool same = path_.jump_between(found, to).distance == 0;
+    const PathWatch::Point& landing = verdict.landing && same ? *verdict.landing : to;
+    watch_.begin(landing.factor, landing.state);
+  }
+  state_ = to.state;
+  return verdict.followed;
+}
+
+/// Lets the mechanism go down from where a jump began, if it has led to an equilibrium that cannot stay.
+void LoadStepping::land(PathWatch::Point& to, const PathWatch::Verdict& verdict, LoadJump& jump) {
+  if (!watch_.less_stable(to.factor, to.state) && !verdict.sign_changed) return;
+  PathWatch::Point down{to.factor, verdict.below->state};
+  if (equilibrium_.relax(to.factor, down.state) < 0 || watch_.less_stable(down.factor, down.state)) return;
+  jump = path_.jump_between(*verdict.below, down);
+  to = down;
 }
 
 }  // namespace
@@ -82,56 +175,12 @@ StaticsLog solve_statics(const System& system, const Environment& environment, c
   const LoadRamp ramp(system, environment, steps.start);
   ramp.set_off(state);
   begin_states(system, ramp.environment(1), state);
-  HeldCoordinates held(system, environment, state, steps.held);
-  Equilibrium equilibrium(ramp, options, held.any() ? &held : nullptr);
-  const double begin = ramp.begin();
-  const bool loaded = begin == 1;
-  StaticsLog log;
-  Increments increments(loaded ? 1 : steps.count, parts_of_the_way(steps.stops, begin));
-  const auto factor_at = [&](double part) {
-    if (part == 1) return 1.0;
-    const double factor = begin + part * (1 - begin);
-    for (const double stop : steps.stops)  // to the last bit
-      if (std::abs(stop - factor) <= 1e-12) return stop;
-    return factor;
-  };
-  equilibrium.look_for_loose(factor_at(increments.end()), state);
-  StabilityWatch watch(ramp, equilibrium, steps.branch);
-  JumpWatch jumps(ramp.system(), equilibrium);
-  if (!loaded) watch.begin(begin, state);
-  while (!increments.ended()) {
-    const double end = increments.end(), factor = factor_at(end);
-    const State before = state;
-    int iterations = equilibrium.find(factor, state);
-    const bool falls = equilibrium.falls();
-    const std::string why_falls = falls ? equilibrium.why() : "";
-    if (iterations < 0 && !falls && options.line_search && (loaded || increments.stuck()))
-      iterations = equilibrium.search(factor, state);
-    if (iterations < 0 && (loaded || falls)) iterations = equilibrium.relax(factor, state);
-    if (iterations < 0) {
-      ++log.refused;
-      log.refused_at = factor;
-      log.why_refused = equilibrium.why();
-      if (loaded || falls || !increments.halve())
-        throw ComputationError(
-            fmt::format("statics: no equilibrium found at load factor {:.6g} (increment {:.3g}): {}{}", factor,
-                        (end - increments.made()) * (1 - begin), falls ? why_falls : equilibrium.why(),
-                        loaded || falls ? ""
-                                        : "; if the load has a maximum there, `arc_length` "
-                                          "follows the path past it"));
-      continue;
-    }
-    if (falls) log.fell = why_falls;
-    if (!loaded && !falls)
-      if (const auto jump = jumps.look({factor_at(increments.made()), before}, {factor, state}))
-        log.jumps.push_back(*jump);
-    watch.look(factor, state, log);
-    equilibrium.accept(factor, state);
-    increments.accept(iterations);
-    if (record) record(state, factor, iterations);
+  LoadStepping stepping(ramp, environment, steps, options, state);
+  while (!stepping.ended()) {
+    const int iterations = stepping.advance();
+    if (iterations >= 0 && record) record(state, stepping.factor(), iterations);
   }
-  log.solves = equilibrium.solves();
-  return log;
+  return stepping.log();
 }
 
 namespace {

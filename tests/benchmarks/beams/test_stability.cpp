@@ -94,6 +94,19 @@ TEST_CASE("the branch of a column is its elastica") {
   CHECK(errors[1] < 0.35 * errors[0]);
 }
 
+TEST_CASE("the branch of a square column is the same elastica, to whatever side") {
+  // As above; EI is the same about both axes.
+  constexpr double K = 1.685750354812596, E = 1.467462209339427, k = 0.5;
+  const Found found = run(
+      column(16, std::pow(2 * K / pi, 2), "{EA: 1e6, GAy: 1e6, GAz: 1e6, GJ: 1, EIy: 1, EIz: 1}", "[]", 1), 10, 1e-3);
+  REQUIRE(found.report.log.critical.size() == 1);
+  CHECK(found.report.log.critical[0].after == 2);
+  CHECK(found.report.log.critical[0].left);
+  CHECK(found.report.log.unstable == 0);
+  CHECK(found.tip.tail<2>().norm() == Approx(2 * k / K).epsilon(1e-3));
+  CHECK(found.tip[0] == Approx(2 * E / K - 1).epsilon(1e-3));
+}
+
 TEST_CASE("a right-angle frame's critical loads are found by counting") {
   // References of test_frame_buckling.cpp.
   for (const auto& [direction, exact] : {std::pair{1, 1.0840875933}, {-1, 0.6789283208}})

@@ -81,6 +81,48 @@ TEST_CASE("a twisted shaft hockles at Greenhill's moment, under tension, without
     }
 }
 
+TEST_CASE("the branch of a shaft that is turned at its end: two motions at once, and as the root of what is too much") {
+  // Turned by its end it hockles at Greenhill's moment, at the angle M L/GJ; stiff in torsion it stays on the helix. To
+  // any side: along the circle of such helices nothing resists.
+  struct Turned {
+    StaticsReport report;
+    double deflection;
+  };
+  constexpr double GJ = 50;
+  const auto turned = [&](int elements, double angle) {
+    const MechanismFile file = read_mechanism_text(
+        fmt::format(
+            "nodes: {{a: {{position: [0, 0, 0], fixed: true}}, b: {{position: [1, 0, 0], fixed: [y, z, ry, rz], "
+            "motion: {{rx: {:.17g}}}}}}}\n"
+            "elements: {{shaft: {{type: beam, nodes: [a, b], elements: {}, orientation: [0, 1, 0], section: {{EA: "
+            "1e8, GAy: 1e8, GAz: 1e8, GJ: {}, EIy: 1, EIz: 1}}}}}}\n",
+            angle, elements, GJ),
+        "model.yaml");
+    Session session(file.model);
+    StaticsOptions options;
+    options.steps = 4;
+    options.branch = 1e-3;
+    Turned result;
+    result.report = session.statics(options);
+    result.deflection = session.node(fmt::format("shaft.{}", elements / 2)).x.tail<2>().norm();
+    return result;
+  };
+  std::vector<double> critical;
+  for (const int elements : {12, 24}) {
+    const double expected = 8.98681891581813 / GJ;
+    const StaticsReport report = turned(elements, 1.2 * expected).report;
+    REQUIRE(report.log.critical.size() == 1);
+    CHECK(report.log.critical[0].before == 0);
+    CHECK(report.log.critical[0].after == 2);
+    CHECK(report.log.critical[0].left);
+    CHECK(report.log.unstable == 0);
+    critical.push_back(1.2 * expected * report.log.critical[0].factor);
+  }
+  CHECK((4 * critical[1] - critical[0]) / 3 == Approx(8.98681891581813 / GJ).epsilon(1e-3));
+  const double near = turned(12, 1.02 * critical[0]).deflection, far = turned(12, 1.04 * critical[0]).deflection;
+  CHECK(far * far / (near * near) == Approx(2).epsilon(0.05));
+}
+
 TEST_CASE("the closed form has Euler's load of a clamped column for its limit without a moment") {
   // 4 pi^2 EI/L^2 of a column whose end does not move sideways.
   CHECK(critical_factor(1e-4, -100) * 100 == Approx(4 * std::pow(M_PI, 2)).epsilon(1e-6));

@@ -62,6 +62,51 @@ TEST_CASE("an increment that jumps past a limit point says where, and how far") 
   }
 }
 
+TEST_CASE("a jump is told whatever the load and the steps, in any unit of length") {
+  // Half of the truss: its apex at height h next to a support, on one spring. Some of these loads are such that
+  // Newton's method goes straight to the far equilibrium (a tangent of a cubic meets it once more).
+  constexpr double height = 0.1, stiffness = 1e4;
+  const double free = std::hypot(1, height), shortest = std::cbrt(free), y = std::sqrt(shortest * shortest - 1);
+  const double limit = stiffness * (free - shortest) * y / shortest;  // 1.9149 N
+  for (const double unit : {1.0, 1e-9, 1e3})
+    for (const double load : {2.5, 10.0, 30.0, 40.0})
+      for (const int steps : {0, 1, 2, 4, 8}) {
+        CAPTURE(unit, load, steps);
+        const StaticsReport report =
+            run(fmt::format(
+                    "nodes: {{a: {{fixed: true}}, c: {{position: [{:.17g}, 0, {:.17g}], fixed: [x, y, rx, ry, rz]}}}}\n"
+                    "elements: {{s: {{type: spring_damper, nodes: [a, c], stiffness: {:.17g}}}}}\n"
+                    "loads: {{l: {{node: c, force: [0, 0, {:.17g}]}}}}\nanalysis: [{{type: static}}]\n",
+                    unit, height * unit, stiffness, -load * unit),
+                steps);
+        REQUIRE(report.log.jumps.size() == 1);
+        CHECK(report.log.jumps[0].factor == Approx(limit / load).epsilon(1e-5));
+        CHECK(report.log.jumps[0].node == "c");
+        CHECK(report.log.unstable == 0);
+      }
+}
+
+TEST_CASE("a jump in one of many members is told, and where the others go on as before") {
+  // The same under a load that bends a cantilever of the same size at the same time.
+  const auto both = [](double load) {
+    return fmt::format(
+        "nodes:\n  a: {{fixed: true}}\n  c: {{position: [1, 0, 0.1], fixed: [x, y, rx, ry, rz]}}\n"
+        "  root: {{position: [0, 1, 0], fixed: true}}\n  tip: {{position: [1, 1, 0]}}\n"
+        "elements:\n  s: {{type: spring_damper, nodes: [a, c], stiffness: 1e4}}\n"
+        "  b: {{type: beam, nodes: [root, tip], elements: 8, section: {{EA: 1e5, GAy: 1e5, GAz: 1e5, GJ: 10, EIy: 10, "
+        "EIz: 10}}}}\nloads:\n  l: {{node: c, force: [0, 0, {:.17g}]}}\n  p: {{node: tip, force: [0, 0, 10]}}\n"
+        "analysis: [{{type: static}}]\n",
+        -load);
+  };
+  for (const int steps : {1, 4}) {
+    CAPTURE(steps);
+    const StaticsReport jumps = run(both(10), steps);
+    REQUIRE(jumps.log.jumps.size() == 1);
+    CHECK(jumps.log.jumps[0].node == "c");
+    CHECK(run(both(1), steps).log.jumps.empty());
+  }
+}
+
 TEST_CASE("a path that softens, however steeply, is no jump") {
   for (const int steps : {1, 4}) {
     CAPTURE(steps);
