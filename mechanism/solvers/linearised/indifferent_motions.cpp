@@ -192,7 +192,9 @@ class IndifferentSearch {
       for (const Ritz& each : all) {
         const VectorXc x = X_.cast<Complex>() * each.x, y = Y_.topRows(e_.unknowns()).cast<Complex>() * each.y;
         const double delta = rounding_(y, 0, x);
-        if (std::abs(each.tau) > delta) {
+        // Where neither stiffness nor left vectors of the motion are there (rolling, integrals), R is known no better.
+        constexpr double of_resistance = 1e-13;
+        if (std::abs(each.tau) > std::max(delta, of_resistance)) {
           least = least > 0 ? std::min(least, std::abs(each.tau)) : std::abs(each.tau);
           continue;
         }

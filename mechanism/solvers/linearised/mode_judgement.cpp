@@ -53,9 +53,11 @@ void ModeJudgement::judge(Mode& mode) const {
 }
 
 bool ModeJudgement::is_nothing(Complex s, const VectorXc& u) const {
-  const VectorXc rate = s * u + e_.W.cast<Complex>() * u;
-  const VectorXc added = e_.M.cast<Complex>() * (s * rate) + e_.C.cast<Complex>() * (s * u);
-  return std::abs(u.dot(added)) <= rounding_(u.conjugate(), 0, u);
+  // Each term by itself: those of a motion that a damper slows down cancel.
+  const Complex damping =
+                    s * u.dot(VectorXc(e_.C.cast<Complex>() * u + e_.M.cast<Complex>() * (e_.W.cast<Complex>() * u))),
+                inertia = s * s * u.dot(e_.M.cast<Complex>() * u);
+  return std::abs(damping) + std::abs(inertia) <= rounding_(u.conjugate(), 0, u);
 }
 
 }  // namespace bielle::mechanism

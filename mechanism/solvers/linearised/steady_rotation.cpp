@@ -186,7 +186,7 @@ double farthest_between(const State& a, const State& b) {
 void settle_in_rotation(const System& system, const Environment& environment, const SteadyRotation& rotation,
                         State& state) {
   // Increments of the square of the speed, to which the forces of inertia are proportional.
-  constexpr double least = 1.0 / 1024, far = 0.5;
+  constexpr double least = 1.0 / 4096, far = 0.15;
   RotationEquilibrium equilibrium(system, environment);
   double made = 0, part = 1;
   while (made < 1) {
