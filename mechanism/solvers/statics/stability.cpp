@@ -110,8 +110,14 @@ VectorX Stability::rounding(const State& state) const {
       if (row >= first && column < dofs && b > 0) act(row, column, b);
     });
   };
+  constexpr double counts = 0.1;  // share of the row's largest entry: others may be rounding of its axes
+  VectorX largest = VectorX::Zero(system_.size());
   each_arm([&](int row, int column, double b) {
-    if (system_.kind(column) == Kind::translation) reaction[row] = std::max(reaction[row], force[column] / b);
+    if (system_.kind(column) == Kind::translation) largest[row] = std::max(largest[row], b);
+  });
+  each_arm([&](int row, int column, double b) {
+    if (system_.kind(column) == Kind::translation && b >= counts * largest[row])
+      reaction[row] = std::max(reaction[row], force[column] / b);
   });
   each_arm([&](int row, int column, double b) {
     if (system_.kind(column) == Kind::rotation) doubt[column] += b * reaction[row];

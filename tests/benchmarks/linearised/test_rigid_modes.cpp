@@ -102,7 +102,7 @@ TEST_CASE("the slowest modes of a stressed free body are those that a search nex
   const ModesOf model(tied_beam(-2, beam_of_elements), true);
   for (const int dense : {0, 300}) {
     const std::vector<double> slowest = rates_of(model({.count = 6, .dense = dense})),
-                              near = rates_of(model({.count = 6, .near = slowest[2] / two_pi, .dense = dense}));
+                              near = rates_of(model({.count = 6, .near = 1.03 * slowest[2] / two_pi, .dense = dense}));
     std::vector<double> known = slowest;
     known.resize(6);
     check_rates(first_of(near, 3), first_of(known, 3), 1e-9);
