@@ -47,7 +47,9 @@ class ModeSearch {
   /// Whether a state that is left of the rigid ones: what is left of a double zero is a single one, which rounding
   /// does not split.
   bool is_zero(const Eigenpair& pair) const {
-    constexpr double of_shift = 1e-8;
+    constexpr double of_shift = 1e-8, of_units_of_their_own = 1e-4;
+    // First-order unknowns have units of their own, in which u^T D u means nothing.
+    if (e_.unknowns() != e_.dofs) return std::abs(pair.s) <= of_units_of_their_own * shift();
     return std::abs(pair.s) <= of_shift * shift() || judgement_.is_nothing(pair.s, pair.x.head(e_.unknowns()));
   }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include <Eigen/SparseCholesky>
@@ -15,19 +14,6 @@ namespace {
 
 const TangentWeights stiffness_alone{1, 0, 0, 0, 1, true};
 constexpr double give = 1e-4;  // of constraints, see the head of stability.hpp
-
-/// Gives the translations of each node, and its turns, the largest value among them.
-void spread_over_nodes(const System& system, VectorX& values) {
-  const int scalars = system.kinematics().unknowns();
-  const auto goes_on = [&](int a, int b) {
-    return b < scalars && system.kind(a) == system.kind(b) &&
-           system.kinematics().node_of(a) == system.kinematics().node_of(b);
-  };
-  for (int begin = 0, end = 0; begin < scalars; begin = end) {
-    while (end < scalars && goes_on(begin, end)) ++end;
-    values.segment(begin, end - begin).setConstant(values.segment(begin, end - begin).maxCoeff());
-  }
-}
 
 }  // namespace
 
@@ -63,8 +49,6 @@ std::optional<int> Stability::count(const State& state, const Environment& envir
                        scale[row] * scale[column] * 0.5 * (value + transposed));
   });
   if (!known) return {};
-  const VectorX doubt = rounding(state);
-  for (int i = 0; i < dofs; ++i) lower.emplace_back(i, i, doubt[i]);
   for (int i = dofs; i < first; ++i) lower.emplace_back(i, i, 1);
   int constraints = 0;
   for (int i = first; i < system_.size(); ++i) {
@@ -79,51 +63,6 @@ std::optional<int> Stability::count(const State& state, const Environment& envir
   if (factors.info() != Eigen::Success) return {};
   const auto pivots = factors.vectorD();
   return static_cast<int>((pivots.array() < 0).count()) - constraints;
-}
-
-/// What each stiffness may be too small by, along the diagonal: entries are known to a part eps of the block of a
-/// node's translations, or turns, that they belong to, and |K_ij| a b <= |K_ij| (a^2 (d_i/d_j)^1/2 + b^2
-/// (d_j/d_i)^1/2)/2. Reactions that are made of nothing but rounding of the forces next to them turn nodes as well.
-VectorX Stability::rounding(const State& state) const {
-  constexpr double eps = std::numeric_limits<double>::epsilon(), of_entries = 64 * eps, of_positions = 4 * eps;
-  const std::vector<double>& values = linear_.values();
-  const SparsePattern& pattern = system_.pattern();
-  const int dofs = system_.dofs(), first = system_.size() - system_.multipliers();
-  const double length = model_length(state);
-  const auto size = [&](int i) { return system_.kind(i) == Kind::translation ? length : 1.0; };
-  VectorX block(dofs);
-  for (int i = 0; i < dofs; ++i) block[i] = std::abs(linear_.diagonal(i));
-  spread_over_nodes(system_, block);
-  VectorX doubt = VectorX::Zero(dofs), force = VectorX::Zero(dofs);
-  pattern.for_each([&](int place, int row, int column) {
-    const double k = std::abs(values[static_cast<std::size_t>(place)]);
-    if (k == 0 || row >= dofs || column >= dofs) return;
-    const bool both = block[row] > 0 && block[column] > 0;
-    doubt[row] += of_entries * (both ? k * std::sqrt(block[row] / block[column]) : k);
-    force[row] += of_positions * k * size(column);
-  });
-  spread_over_nodes(system_, doubt);
-  VectorX reaction = VectorX::Zero(system_.size());
-  const auto each_arm = [&](const auto& act) {
-    pattern.for_each([&](int place, int row, int column) {
-      const double b = std::abs(values[static_cast<std::size_t>(place)]);
-      if (row >= first && column < dofs && b > 0) act(row, column, b);
-    });
-  };
-  constexpr double counts = 0.1;  // share of the row's largest entry: others may be rounding of its axes
-  VectorX largest = VectorX::Zero(system_.size());
-  each_arm([&](int row, int column, double b) {
-    if (system_.kind(column) == Kind::translation) largest[row] = std::max(largest[row], b);
-  });
-  each_arm([&](int row, int column, double b) {
-    if (system_.kind(column) == Kind::translation && b >= counts * largest[row])
-      reaction[row] = std::max(reaction[row], force[column] / b);
-  });
-  each_arm([&](int row, int column, double b) {
-    if (system_.kind(column) == Kind::rotation) doubt[column] += b * reaction[row];
-  });
-  spread_over_nodes(system_, doubt);
-  return doubt;
 }
 
 /// 1 for unknowns; of each constraint the root of the stiffness that it meets: the largest K_jj/B_ij^2 along its row,
@@ -166,57 +105,19 @@ VectorX Stability::row_scales() const {
 }
 
 std::optional<Stability::Mode> Stability::softest(const State& state, const Environment& environment) {
-  if (!linear_.try_factor(state, environment, stiffness_alone, nullptr, held())) return {};
-  return iterate(state, MatrixX(system_.dofs(), 0));
-}
-
-std::optional<Stability::Mode> Stability::softest_resisted(const State& state, const Environment& environment) {
-  constexpr double clearly = 1e3;  // so much of rounding holds what nothing else does
-  constexpr int most = 30;
-  linear_.assemble(state, environment, stiffness_alone, nullptr, held());
-  VectorX holding = clearly * rounding(state);
-  const VectorX of_rounding = holding;
-  if (held()) holding += *held();
-  if (!linear_.try_factor(state, environment, stiffness_alone, nullptr, &holding)) return {};
-  const double length = model_extent(state) > 0 ? model_extent(state) : 1;
-  MatrixX left_out(system_.dofs(), 0);
-  for (int k = 0; k < most; ++k) {
-    const auto mode = iterate(state, left_out);
-    if (!mode) return {};
-    VectorX shape = mode->shape;
-    for (int i = 0; i < system_.dofs(); ++i)
-      if (system_.kind(i) == Kind::translation) shape[i] /= length;
-    const double size = shape.norm(), by_rounding = of_rounding.dot(mode->shape.cwiseAbs2()) / (size * size);
-    if (std::abs(mode->stiffness) > 2 * by_rounding) return mode;
-    left_out.conservativeResize(Eigen::NoChange, k + 1);
-    left_out.col(k) = shape / size;
-  }
-  return {};
-}
-
-/// With the factors in hand. @param left_out  (dofs, any) unit vectors of turns and displacements relative to the size
-std::optional<Stability::Mode> Stability::iterate(const State& state, const MatrixX& left_out) {
   constexpr int most = 60;
   constexpr double settled = 1e-8;
+  if (!linear_.try_factor(state, environment, stiffness_alone, nullptr, held())) return {};
   const double length = model_extent(state) > 0 ? model_extent(state) : 1;
   const int n = system_.dofs();
   VectorX weight(n);  // what makes turns and displacements comparable
   for (int i = 0; i < n; ++i) weight[i] = system_.kind(i) == Kind::translation ? 1 / (length * length) : 1;
-  const VectorX root = weight.cwiseSqrt();
-  const auto leave_out = [&](auto x, const VectorX& scale) {
-    for (Eigen::Index k = 0; k < left_out.cols(); ++k) {
-      const double part = left_out.col(k).dot(scale.cwiseProduct(x));
-      x -= part * left_out.col(k).cwiseQuotient(scale);
-    }
-  };
   VectorX v = VectorX::Zero(system_.size()), load = VectorX::Zero(system_.size());
   // Something along everything: a symmetric start would miss what is antisymmetric.
   for (int i = 0; i < n; ++i) load[i] = 1 + 0.618 * std::sin(1.0 + 2.399963 * i);
   double before = 0, stiffness = 0;
   for (int iteration = 0; iteration < most; ++iteration) {
-    leave_out(load.head(n), root.cwiseInverse());
     linear_.solve(-load, v);
-    leave_out(v.head(n), root);
     const double size = std::sqrt(v.head(n).cwiseAbs2().dot(weight));
     if (!std::isfinite(size) || size == 0) return {};
     v /= size;

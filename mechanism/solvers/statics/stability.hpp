@@ -8,9 +8,6 @@
 // motions do not notice. It is read off the pivots of a symmetric factorisation. The sign of a determinant would miss
 // two eigenvalues that change sign together, as of a square column.
 //
-// What rounding may make of each stiffness is added to it first: a motion that nothing resists (a free body, a rod that
-// turns about its own axis between ball joints) is no unstable one.
-//
 // Where the tangent is not symmetric (forces that follow, moments about fixed axes, friction), or forces depend on
 // first-order unknowns (controllers, hydraulics), stability is a question of motion, and nothing is counted.
 #pragma once
@@ -41,15 +38,11 @@ class Stability {
   };
   /// By inverse iteration. @returns none where the tangent is singular
   std::optional<Mode> softest(const State& state, const Environment& environment);
-  /// The same among motions that meet more than rounding: not those that nothing resists.
-  std::optional<Mode> softest_resisted(const State& state, const Environment& environment);
   /// "z at node 'tip'"
   std::string describe(const Mode& mode) const;
 
  private:
-  VectorX row_scales() const;                  ///< S, of all rows
-  VectorX rounding(const State& state) const;  ///< (dofs) stiffness that rounding of the last tangent may hide
-  std::optional<Mode> iterate(const State& state, const MatrixX& left_out);
+  VectorX row_scales() const;  ///< S, of all rows
   const VectorX* held() const { return held_.size() > 0 ? &held_ : nullptr; }
   const System& system_;
   LinearStep linear_;

@@ -139,8 +139,7 @@ void note_stability(const System& system, const Environment& environment, const 
   Stability stability(system);
   report.unstable = stability.count(state, environment).value_or(0);
   if (report.unstable > 0)
-    if (const auto mode = stability.softest_resisted(state, environment))
-      report.unstable_motion = stability.describe(*mode);
+    if (const auto mode = stability.softest(state, environment)) report.unstable_motion = stability.describe(*mode);
 }
 
 void relax(const System& system, const Environment& environment, const NewtonOptions& options, State& state) {
