@@ -73,7 +73,7 @@ std::string format_mode_lines(const SweptModes& swept) {
   for (std::size_t k = 0; k < first.tracks.size(); ++k) {
     const TrackedMode& mode = last.tracks[k];
     const double ratio = mode.found ? -mode.s.real() / std::abs(mode.s) : NAN;
-    constexpr double rounding = 1e-10;
+    const double rounding = mode.found ? std::max(1e-10, mode.uncertainty / std::abs(mode.s)) : 0;
     text += fmt::format("  {:>4}  {:>12}  {:>12}  {:>11.4g}  {}\n", k + 1, format_frequency(first.tracks[k]),
                         format_frequency(mode), std::abs(ratio) < rounding ? 0 : ratio,
                         mode.found ? whirl_name(mode.whirl) : "");
@@ -112,10 +112,9 @@ std::string CampbellAnalysis::format(const Campbell& found) const {
                          : fmt::format("  modes {} and {} cross at {}, {:.6g} Hz\n", each.first + 1, each.second + 1,
                                        at(each.value, each.speed), each.frequency);
   for (std::size_t k = 0; k < swept.points.front().tracks.size(); ++k) {
-    constexpr double rounding = 1e-8;
     for (const SweepPoint& point : swept.points) {
       const TrackedMode& mode = point.tracks[k];
-      if (!mode.found || !(mode.s.real() > rounding * std::abs(mode.s))) continue;
+      if (!mode.found || !mode.grows) continue;
       text += fmt::format("  UNSTABLE: mode {} grows at {}, the first value of the sweep at which it does\n", k + 1,
                           at(point.value, point.speed));
       break;

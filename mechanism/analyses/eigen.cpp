@@ -33,8 +33,35 @@ std::string main_parts(const ModeParts& parts, Eigen::Index mode) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
-/// A number of the size of 1 as people read it.
-double without_rounding(double number) { return std::abs(number) < 1e-10 ? 0 : number; }
+/// The damping ratio, 0 where it cannot be told from that.
+double shown_damping(const Mode& mode) {
+  constexpr double rounding = 1e-10;
+  const bool nothing = std::abs(mode.s.real()) <= std::max(mode.uncertainty, rounding * std::abs(mode.s));
+  return nothing ? 0 : mode.damping_ratio();
+}
+
+/// Of eigenvalues that are hardly known, how well.
+std::string format_uncertain(const std::vector<Mode>& modes) {
+  constexpr double well_known = 1e-3;
+  std::string text;
+  double slowest = INFINITY, resolution = 0;
+  for (const Mode& mode : modes) {
+    if (mode.kind == ModeKind::rigid)
+      resolution = std::max(resolution, mode.uncertainty);
+    else
+      slowest = std::min(slowest, std::abs(mode.s));
+  }
+  if (std::isfinite(slowest) && resolution > well_known * slowest)
+    text += fmt::format(
+        "  what moves more slowly than {:.2g} Hz cannot be told from rigid motions: rounding of the "
+        "stiffness is as much\n",
+        resolution / (2 * std::numbers::pi));
+  for (std::size_t k = 0; k < std::min(most_listed, modes.size()); ++k)
+    if (modes[k].kind != ModeKind::rigid && modes[k].uncertainty > well_known * std::abs(modes[k].s))
+      text += fmt::format("  mode {}: rounding leaves its eigenvalue uncertain by {:.2g} 1/s, {:.2g} % of it\n", k + 1,
+                          modes[k].uncertainty, 100 * modes[k].uncertainty / std::abs(modes[k].s));
+  return text;
+}
 
 std::string format_table(const ModesReport& report, const ModeParts& parts) {
   std::string text =
@@ -42,7 +69,7 @@ std::string format_table(const ModesReport& report, const ModeParts& parts) {
   const std::vector<Mode>& modes = report.found.modes;
   for (std::size_t k = 0; k < std::min(most_listed, modes.size()); ++k)
     text += fmt::format("  {:>4}  {:>10.6g} Hz  {:>11.4g}  {:<11}  {}\n", k + 1, modes[k].frequency(),
-                        without_rounding(modes[k].damping_ratio()), mode_kind_name(modes[k].kind),
+                        shown_damping(modes[k]), mode_kind_name(modes[k].kind),
                         main_parts(parts, static_cast<Eigen::Index>(k)));
   if (modes.size() > most_listed) text += fmt::format("  and {} more\n", modes.size() - most_listed);
   return text;
@@ -66,6 +93,7 @@ std::string format_remarks(const ModesReport& report) {
                         growing.size() == 1 ? "mode" : "modes", fmt::join(growing, ", "),
                         growing.size() == 1 ? "grows" : "grow", std::numbers::ln2 / fastest);
   if (rigid > 0) text += fmt::format("  {}: no force resists\n", counted(rigid, "rigid mode"));
+  text += format_uncertain(report.found.modes);
   text += format_setting(report, "modes");
   return text;
 }

@@ -50,6 +50,10 @@ class ModeWriter {
     write_each("damped_frequency", "Hz", "|Im s| / 2 pi", [](const Mode& mode) { return mode.damped_frequency(); });
     write_each("damping_ratio", "-", "-Re s / |s|; 0 of rigid modes",
                [](const Mode& mode) { return mode.damping_ratio(); });
+    write_each(
+        "uncertainty", "1/s",
+        "of the eigenvalue, by rounding of the equations; of rigid modes: what is slower is no different; 0: not known",
+        [](const Mode& mode) { return mode.uncertainty; });
     write_each("residual", "-", "error of the eigenpair as a state of the inverted operator, relative",
                [](const Mode& mode) { return mode.residual; });
     std::vector<double> eigenvalues;

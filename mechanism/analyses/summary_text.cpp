@@ -81,9 +81,9 @@ std::string format_start(const StartReport& start) {
     text += fmt::format("  static equilibrium moved node '{}' by {:.3g} m\n", start.settled_node, start.settled);
   if (start.unstable > 0)
     text += fmt::format(
-        "  the static equilibrium is unstable: its stiffness is negative along {}, most at {}. It stands as on its "
-        "tip\n",
-        counted(start.unstable, "motion"), start.unstable_motion);
+        "  the static equilibrium is unstable: its stiffness is negative along {}{}. It stands as on its tip\n",
+        counted(start.unstable, "motion"),
+        start.unstable_motion.empty() ? "" : fmt::format(", most at {}", start.unstable_motion));
   if (!start.loose.empty()) text += format_loose(start.loose);
   if (!start.held.empty()) text += fmt::format("  {}\n", describe_held(start.held));
   if (start.balanced > 1e-9)

@@ -122,7 +122,7 @@ class StateSpaceBuilder {
 /// |s| of the slowest mode that is not rigid.
 double slowest_motion(const LinearisedEquations& equations) {
   ModeOptions few;
-  few.count = 12;  // six may be rigid
+  few.count = 1;
   for (const Mode& mode : find_modes(equations, few).modes)
     if (mode.kind != ModeKind::rigid) return std::abs(mode.s);
   return slowest_rate(equations);

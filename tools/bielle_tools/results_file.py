@@ -21,6 +21,7 @@ SHAPES = {("nodes", "position"): (3,), ("nodes", "rotation"): (4,), ("nodes", "v
           ("elements", "frame"): (7,), ("elements", "coordinates"): (None,), ("elements", "rotation"): (None, 4),
           ("elements", "position"): (None, 3), ("elements", "resultants"): (None, 6)}
 LARGEST = 1e100  # no quantity is larger
+WITHOUT_ROWS = ("eigen", "campbell", "frequency_response", "state_space")  # what analyses write that record nothing over time
 # What other files of Bielle are for.
 OTHERS = {"bielle superelement": "'bielle-reduce --inspect {0}' describes it",
           "bielle cut body": "'bielle-reduce --inspect {0}' describes it",
@@ -66,7 +67,7 @@ class Results:
                     raise InputError(f"'{path}' holds no analysis {analysis} (it has {known})")
                 self.root = self.file[f"analysis_{analysis}"]
             self._stacked = StackedLayout(self.root) if _text(self.file.attrs.get("layout", "named")) == "stacked" else None
-            other = any(name in self.root for name in ("eigen", "frequency_response", "state_space"))
+            other = any(name in self.root for name in WITHOUT_ROWS)
             complete = bool(np.all(self.file.attrs.get("complete", True)))
         self.time = self._times()
         if not len(self.time) and not other:

@@ -1,5 +1,9 @@
 #include "mechanism/solvers/linearised/equations.hpp"
 
+#include <limits>
+
+#include "mechanism/solvers/newton/model_length.hpp"
+
 namespace bielle::mechanism {
 namespace {
 
@@ -60,6 +64,35 @@ Sparse chosen_rows(const Sparse& A, const std::vector<int>& number) {
   return chosen;
 }
 
+/// Translations of a node, its turns, and every other unknown are a group each.
+void number_groups(const System& system, LinearisedEquations& equations) {
+  const int n = equations.unknowns();
+  equations.turns.assign(static_cast<std::size_t>(n), 0);
+  equations.group.resize(static_cast<std::size_t>(n));
+  int groups = 0;
+  for (int i = 0; i < n; ++i) {
+    const int scalars = system.kinematics().unknowns();
+    equations.turns[static_cast<std::size_t>(i)] = i < scalars && system.kind(i) == Kind::rotation;
+    const bool goes_on = i > 0 && i < scalars && system.kind(i) == system.kind(i - 1) &&
+                         system.kinematics().node_of(i) == system.kinematics().node_of(i - 1);
+    equations.group[static_cast<std::size_t>(i)] = goes_on ? groups - 1 : groups++;
+  }
+}
+
+/// The residual, and what rounding of positions, turns and amplitudes makes of forces.
+VectorX left_over(const System& system, const Environment& environment, const State& state, const Sparse& K) {
+  constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+  VectorX residual(system.size()), sizes = VectorX::Zero(K.cols());
+  system.residual(state, environment, residual);
+  const double length = model_length(state);
+  const int scalars = system.kinematics().unknowns();
+  for (int i = 0; i < scalars; ++i) sizes[i] = system.kind(i) == Kind::translation ? length : 1;
+  sizes.segment(scalars, state.amplitude.size()) = state.amplitude.cwiseAbs();
+  sizes.tail(state.first_order.size()) = state.first_order.cwiseAbs();
+  const VectorX by_rounding = rounding * (K.cwiseAbs() * sizes);
+  return residual.head(K.rows()).cwiseAbs().cwiseMax(by_rounding);
+}
+
 }  // namespace
 
 LinearisedEquations linearised_equations(const System& system, const Environment& environment, const State& state,
@@ -85,6 +118,8 @@ LinearisedEquations linearised_equations(const System& system, const Environment
   equations.K = std::move(matrices.K);
   equations.M = std::move(matrices.M);
   equations.C = Sparse(matrices.C + equations.M * Z);
+  number_groups(system, equations);
+  equations.left_over = left_over(system, environment, state, equations.K);
   return equations;
 }
 

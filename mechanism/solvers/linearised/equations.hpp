@@ -31,6 +31,11 @@ struct LinearisedEquations {
   Sparse B, S, F;  ///< (constraints, n), (constraints, n), (n, constraints): of those in the equations alone
   std::vector<char> nonholonomic;  ///< of each constraint
   std::vector<int> multiplier;     ///< its number in the system
+  /// Of each unknown: translations, or turns, of one node are a group, whose blocks rounding errors fill whatever the
+  /// axes; other unknowns are one each. Empty: all are one each.
+  std::vector<int> group;
+  std::vector<char> turns;  ///< (n) whether the unknown is a turn of a node
+  VectorX left_over;        ///< (n) how well the equations of motion hold: residual, and rounding of the unknowns
 
   int unknowns() const { return static_cast<int>(K.rows()); }     ///< n
   int constraints() const { return static_cast<int>(B.rows()); }  ///< in the equations

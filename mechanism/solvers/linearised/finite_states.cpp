@@ -1,5 +1,9 @@
 #include "mechanism/solvers/linearised/finite_states.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include "mechanism/solvers/linearised/modes.hpp"
 #include "reduce/common/dense_solves.hpp"
 #include "reduce/common/orthogonal_factors.hpp"
 
@@ -25,6 +29,34 @@ MatrixX consistent_states(const LinearisedEquations& e, const VectorX& scale) {
     if (const double size = rows.row(k).norm(); size > 0) rows.row(k) /= size;
   constexpr double dependent = 1e-11;
   return null_space(rows, dependent);
+}
+
+namespace {
+
+/// Whether every motion that the constraints allow has inertia, relative to that of its unknowns.
+bool all_has_inertia(const LinearisedEquations& e, const VectorX& scale) {
+  if (e.unknowns() != e.dofs) return false;
+  constexpr double dependent = 1e-11, rounding = 1e-12;
+  MatrixX rows = MatrixX(e.B) * scale.head(e.dofs).asDiagonal();
+  for (int k = 0; k < e.constraints(); ++k)
+    if (const double size = rows.row(k).norm(); size > 0) rows.row(k) /= size;
+  const MatrixX allowed =
+      scale.head(e.dofs).asDiagonal() *
+      (e.constraints() > 0 ? null_space(rows, dependent) : MatrixX(MatrixX::Identity(e.dofs, e.dofs)));
+  MatrixX mass = allowed.transpose() * MatrixX(e.M * allowed);
+  mass.diagonal().array() -= rounding;  // M is scaled to a diagonal of ones
+  return is_positive_definite(mass);
+}
+
+}  // namespace
+
+Eigen::Index count_finite_eigenvalues(const LinearisedEquations& equations, const ShiftedOperator& T) {
+  if (all_has_inertia(equations, T.scale())) return consistent_states(equations, T.scale()).cols();
+  // Rates far from the shift look infinite to it: the middle between the slowest and the fastest shows most.
+  Eigen::Index most = T.is_real() ? FiniteStates(equations, T).size() : 0;
+  const ShiftedOperator middle(equations, std::sqrt(slowest_rate(equations) * fastest_rate(equations)));
+  if (middle.regular()) most = std::max(most, FiniteStates(equations, middle).size());
+  return most;
 }
 
 FiniteStates::FiniteStates(const LinearisedEquations& equations, const ShiftedOperator& T)

@@ -19,6 +19,10 @@ namespace bielle::mechanism {
 /// An orthonormal basis of the scaled states that satisfy the constraints and their rates.
 MatrixX consistent_states(const LinearisedEquations& equations, const VectorX& scale);
 
+/// How many finite eigenvalues the equations have: the degree of det D(s). Dense algebra.
+/// @param T  at some shift
+Eigen::Index count_finite_eigenvalues(const LinearisedEquations& equations, const ShiftedOperator& T);
+
 class FiniteStates {
  public:
   /// @param T  of a real shift; must outlive this

@@ -24,10 +24,4 @@ struct ModalPole {
 /// @throws ComputationError  where an eigenvalue is defective, or nearly so
 std::vector<ModalPole> modal_poles(const LinearisedEquations& equations, const std::vector<Mode>& modes);
 
-/// D(s) q and D(s)^T q. @param q  (n + constraints)
-Eigen::VectorXcd equations_times(const LinearisedEquations& equations, std::complex<double> s,
-                                 const Eigen::VectorXcd& q);
-Eigen::VectorXcd transposed_equations_times(const LinearisedEquations& equations, std::complex<double> s,
-                                            const Eigen::VectorXcd& q);
-
 }  // namespace bielle::mechanism

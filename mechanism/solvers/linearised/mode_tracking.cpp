@@ -136,6 +136,8 @@ class Following {
     after.found = true;
     after.correlation = pairing.correlation;
     after.s = pairing.conjugate ? std::conj(mode.s) : mode.s;
+    after.uncertainty = mode.uncertainty;
+    after.grows = mode.kind == ModeKind::growing;
     after.whirl = alone ? (pairing.conjugate ? -1 : 1) * sample_.whirl[pairing.mode] : NAN;
     after.u = shape_of(mode, pairing.conjugate);
     if (alone) return after;
@@ -169,6 +171,8 @@ std::vector<TrackedMode> begin_tracks(const ModeSample& sample, int count) {
     TrackedMode& track = tracks.emplace_back();
     track.found = true;
     track.s = sample.modes[k].s;
+    track.uncertainty = sample.modes[k].uncertainty;
+    track.grows = sample.modes[k].kind == ModeKind::growing;
     track.u = sample.modes[k].u;
     track.correlation = 1;
     track.whirl = alone ? sample.whirl[k] : NAN;

@@ -21,6 +21,8 @@ namespace bielle::mechanism {
 struct TrackedMode {
   bool found = false;
   std::complex<double> s;  ///< [1/s]; Im s < 0 after a passage through zero
+  double uncertainty = 0;  ///< of s [1/s], see Mode
+  bool grows = false;      ///< by more than that
   Eigen::VectorXcd u;      ///< its shape; of a mode that was not found, the last one known
   double correlation = 0;  ///< with itself at the state before, 0..1; 1 at the first state
   double whirl = 0;        ///< see whirl.hpp; NaN without a sense, or where frequencies coincide

@@ -3,56 +3,28 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <memory>
 #include <numbers>
 
+#include "mechanism/solvers/linearised/eigenpairs_around.hpp"
 #include "mechanism/solvers/linearised/finite_states.hpp"
-#include "mechanism/solvers/linearised/shifted_operator.hpp"
+#include "mechanism/solvers/linearised/indifferent_motions.hpp"
+#include "mechanism/solvers/linearised/mode_judgement.hpp"
 #include "reduce/common/error.hpp"
-#include "reduce/common/symmetric_eigenpairs.hpp"
-#include "reduce/spectral/operator_eigenpairs.hpp"
 
 namespace bielle::mechanism {
 namespace {
 
 using Complex = std::complex<double>;
 using VectorXc = Eigen::VectorXcd;
-using MatrixXc = Eigen::MatrixXcd;
-using Sparse = LinearisedEquations::Sparse;
 
-/// An orthonormal basis of the same span, by Gram and Schmidt twice; what rounding makes of a repeated column is left
-/// out.
-MatrixX orthonormal(const MatrixX& vectors) {
-  constexpr double repeated = 1e-13;
-  MatrixX basis(vectors.rows(), vectors.cols());
-  Eigen::Index found = 0;
-  for (Eigen::Index k = 0; k < vectors.cols(); ++k) {
-    VectorX x = vectors.col(k).normalized();
-    for (int twice = 0; twice < 2; ++twice) {
-      const VectorX parts = basis.leftCols(found).transpose() * x;
-      x -= basis.leftCols(found) * parts;
-    }
-    if (x.norm() > repeated) basis.col(found++) = x.normalized();
-  }
-  return basis.leftCols(found);
-}
-
-struct Found {
-  Complex s;
-  VectorXc x;  ///< scaled state
-  double residual;
-};
-
-/// Eigenpairs around a shift, nearest first, and how far around it all are known.
-struct Around {
-  std::vector<Found> pairs;
-  bool rejected = false;  ///< some belonged to infinite eigenvalues, or to ones too large for the shift to show
-  double radius = 0;      ///< |s - sigma|; infinite where all are there
-};
-
-class Search {
+class ModeSearch {
  public:
-  Search(const LinearisedEquations& equations, const ModeOptions& options) : e_(equations), options_(options) {}
+  ModeSearch(const LinearisedEquations& equations, const ModeOptions& options)
+      : e_(equations),
+        options_(options),
+        rounding_(equations),
+        around_(equations, options.dense),
+        judgement_(equations, rounding_) {}
 
   Modes run() {
     Modes result;
@@ -61,314 +33,211 @@ class Search {
       result.all = true;
       return result;
     }
+    rigid_ = find_indifferent_motions(e_, rounding_, options_.dense);
+    MatrixX states(e_.states(), rigid_.shapes.cols());
+    states.topRows(e_.unknowns()) = rigid_.shapes;
+    states.bottomRows(e_.dofs) = (e_.W * rigid_.shapes).topRows(e_.dofs);
+    around_.keep_out(states);
     return options_.near ? around_frequency(2 * std::numbers::pi * *options_.near) : slowest();
   }
 
  private:
-  /// Makes the operator, at a shift next to this one where it is an eigenvalue.
-  void set_shift(Complex shift) {
-    constexpr double factors[] = {1, 1.0137, 13.7, 1370, 1.37e5};
-    for (const double factor : factors) {
-      if (factor > 2 && shift.real() == 0) break;  // a frequency that was asked for
-      operator_ = std::make_unique<ShiftedOperator>(e_, factor * shift);
-      if (operator_->regular()) return;
-    }
-    throw SingularEquations(operator_->singular());
-  }
+  double shift() const { return std::abs(around_.T().shift()); }
 
-  bool dense() const {
-    constexpr int most = 2000;  // states, for the null space of the constraints
-    return e_.states() - 2 * e_.constraints() <= options_.dense && e_.states() <= most && options_.dense > 0;
-  }
-
-  enum class Look { roughly, exactly };
-
-  Around look(Eigen::Index count, Look how = Look::exactly) const {
-    const ShiftedOperator& T = *operator_;
-    OperatorEigenpairs found;
-    MatrixX basis;
-    if (dense()) {
-      basis = consistent_states(e_, T.scale());
-      OperatorEigenOptions all;
-      all.dense = basis.cols();
-      if (T.is_real())
-        found = largest_eigenpairs(LinearOperator<double>{basis.cols(),
-                                                          [&](const VectorX& z) -> VectorX {
-                                                            return basis.transpose() * T.apply(VectorX(basis * z));
-                                                          }},
-                                   count, all);
-      else
-        found = largest_eigenpairs(LinearOperator<Complex>{basis.cols(),
-                                                           [&](const VectorXc& z) -> VectorXc {
-                                                             return basis.transpose().cast<Complex>() *
-                                                                    T.apply(VectorXc(basis.cast<Complex>() * z));
-                                                           }},
-                                   count, all);
-    } else {
-      OperatorEigenOptions sparse;
-      sparse.dense = 0;
-      if (how == Look::roughly) {
-        sparse.tolerance = 1e-6;
-        sparse.copies = false;
-      }
-      const Eigen::Index size = e_.states();
-      if (T.is_real())
-        found = largest_eigenpairs(LinearOperator<double>{size, [&](const VectorX& x) { return T.apply(x); }}, count,
-                                   sparse);
-      else
-        found = largest_eigenpairs(LinearOperator<Complex>{size, [&](const VectorXc& x) { return T.apply(x); }}, count,
-                                   sparse);
-    }
-    Around around;
-    around.radius = found.all ? INFINITY : 1 / std::abs(found.values[found.values.size() - 1]);
-    for (Eigen::Index k = 0; k < found.values.size(); ++k) {
-      const Complex mu = found.values[k];
-      if (mu == 0.0) continue;
-      VectorXc x = found.vectors.col(k);
-      if (dense()) x = basis.cast<Complex>() * x;
-      // Nothing is left of what belongs to an infinite eigenvalue.
-      const VectorXc once = T.apply(x) / mu;
-      constexpr double same = 1e-2;
-      if (!((T.apply(once) / mu - x).norm() < same * x.norm())) {
-        around.rejected = true;
-        continue;
-      }
-      Complex value = T.shift() + 1.0 / mu;
-      // Of a complex operator real eigenvalues are real but for rounding.
-      constexpr double rounding = 1e-9;
-      if (!T.is_real() && std::abs(value.imag()) < rounding * std::abs(value)) value = value.real();
-      around.pairs.push_back({value, once / once.norm(), (once - x).norm() / x.norm()});
-    }
-    return around;
-  }
-
-  /// Whether s is zero to rounding: relative to the shift (a double zero is split by the square root of
-  /// rounding, a triple one by its cube root), or because what the rates add is less than rounding errors of the other
-  /// terms.
-  bool is_zero(const Found& pair) const {
-    const int n = e_.unknowns();
-    constexpr double of_shift = 1e-4, of_stiffness = 1e-14;
-    if (std::abs(pair.s) <= of_shift * std::abs(operator_->shift())) return true;
-    const VectorX& scale = operator_->scale();
-    const VectorXc u = scale.head(n).asDiagonal() * pair.x.head(n);
-    const auto size_of = [&](const auto& forces) {
-      double sum = 0;
-      for (int i = 0; i < n; ++i) sum += std::norm(Complex(forces[i]) * weight(i));
-      return std::sqrt(sum);
-    };
-    const VectorXc added =
-        pair.s * (e_.C.cast<Complex>() * u + e_.M.cast<Complex>() * (pair.s * u + e_.W.cast<Complex>() * u));
-    const VectorX stiff = absolute_K() * u.cwiseAbs();
-    return size_of(added) <= of_stiffness * size_of(stiff);
-  }
-  double weight(int i) const { return i < e_.dofs ? operator_->scale()[i] : 1 / operator_->scale()[i]; }
-  const Sparse& absolute_K() const {
-    if (K_.size() == 0) K_ = Sparse(e_.K.cwiseAbs()) + Sparse(Sparse(e_.C * e_.W).cwiseAbs());
-    return K_;
-  }
-
-  Mode mode_of(const Found& pair, ModeKind kind) const {
-    const int n = e_.unknowns();
-    const VectorXc x = operator_->scale().asDiagonal() * pair.x;
-    return {pair.s, kind, x.head(n), x.tail(e_.dofs), pair.residual};
-  }
-
-  /// Rounding splits double eigenvalues that have one shape, by far more than itself: growth is that of their mean.
-  static ModeKind kind_of(Complex s, const std::vector<Found>& pairs) {
-    constexpr double rounding = 1e-8, split = 1e-4;
-    Complex sum = 0;
-    double count = 0;
-    for (const Found& pair : pairs)
-      if (std::abs(pair.s - s) <= split * std::abs(s)) {
-        sum += pair.s;
-        ++count;
-      }
-    const Complex mean = count > 0 ? sum / count : s;
-    if (mean.real() > rounding * std::abs(s)) return ModeKind::growing;
-    return s.imag() == 0 ? ModeKind::decaying : ModeKind::oscillating;
-  }
-
-  /// Independent shapes of eigenvalues that are zero. These come in pairs of nearly the same vector, which tell their
-  /// number badly. With D(s) u = 0 the equations, a shape that costs nothing is one that D(sigma)^-1 (D(sigma) - D(0))
-  /// leaves as it is, and all others become shorter.
-  std::vector<Mode> rigid_modes(const std::vector<Found>& zeros) const {
-    std::vector<Mode> modes;
-    if (zeros.empty()) return modes;
-    const int n = e_.unknowns();
-    const double shift = operator_->shift().real();
-    const auto scale = operator_->scale().head(n);
-    const auto count = std::min<Eigen::Index>(n, static_cast<Eigen::Index>(zeros.size()));
-    double residual = 0;
-    MatrixX shapes(n, count);
-    for (Eigen::Index k = 0; k < count; ++k) {
-      const Found& zero = zeros[static_cast<std::size_t>(k)];
-      residual = std::max(residual, zero.residual);
-      shapes.col(k) = zero.x.head(n).real().normalized();
-      // Vectors that repeat each other have to be told apart.
-      for (Eigen::Index i = 0; i < n; ++i)
-        shapes(i, k) += 0.3 / std::sqrt(n) * std::cos(static_cast<double>((i + 1) * (2 * k + 1) % 7919));
-    }
-    const auto answer = [&](const VectorX& x) {
-      const VectorX u = scale.cwiseProduct(x);
-      VectorX right = VectorX::Zero(n + e_.constraints());
-      right.head(n) = shift * (e_.C * u + e_.M * (shift * u + e_.W * u));
-      const VectorX of_constraints = shift * (e_.B * u);
-      for (int k = 0; k < e_.constraints(); ++k)
-        if (e_.nonholonomic[static_cast<std::size_t>(k)]) right[n + k] = of_constraints[k];
-      return VectorX(operator_->solve(right.cast<Complex>()).head(n).real().cwiseQuotient(scale));
-    };
-    constexpr int rounds = 100;
-    constexpr double stays = 1e-8, settled = 1e-22, leaves = 1e-3;  // squares of changes
-    SymmetricEigenpairs change;
-    for (int round = 0; round < rounds; ++round) {
-      shapes = orthonormal(shapes);
-      MatrixX answers(n, shapes.cols());
-      for (Eigen::Index k = 0; k < shapes.cols(); ++k) answers.col(k) = answer(shapes.col(k));
-      const MatrixX changes = answers - shapes;
-      change = symmetric_eigenpairs(MatrixX(changes.transpose() * changes));
-      // Others become shorter by a half each time, as the shift is of the size of the slowest of them.
-      constexpr int separated = 60;
-      if (round > separated && std::all_of(change.values.begin(), change.values.end(),
-                                           [](double value) { return value < settled || value > leaves; }))
-        break;
-      if (round + 1 < rounds) shapes = answers;
-    }
-    for (Eigen::Index k = 0; k < change.values.size() && change.values[k] < stays; ++k) {
-      const VectorX u = scale.cwiseProduct(shapes * change.vectors.col(k));
-      const VectorX w = (e_.W * u).head(e_.dofs);
-      modes.push_back({0, ModeKind::rigid, u.cast<Complex>(), w.cast<Complex>(), residual});
-    }
-    return modes;
+  /// Whether a state that is left of the rigid ones: what is left of a double zero is a single one, which rounding
+  /// does not split.
+  bool is_zero(const Eigenpair& pair) const {
+    constexpr double of_shift = 1e-8, of_units_of_their_own = 1e-4;
+    // First-order unknowns have units of their own, in which u^T D u means nothing.
+    if (e_.unknowns() != e_.dofs) return std::abs(pair.s) <= of_units_of_their_own * shift();
+    return std::abs(pair.s) <= of_shift * shift() || judgement_.is_nothing(pair.s, pair.x.head(e_.unknowns()));
   }
 
   /// Of conjugate pairs one.
   static bool represents(Complex s) { return s.imag() >= 0; }
 
-  Modes collect(const std::vector<Found>& pairs, const std::function<bool(Complex)>& wanted) const {
-    Modes result;
-    result.states = e_.states();
-    std::vector<Found> zeros;
-    for (const Found& pair : pairs) {
-      if (is_zero(pair))
-        zeros.push_back(pair);
-      else if (wanted(pair.s) && represents(pair.s))
-        result.modes.push_back(mode_of(pair, kind_of(pair.s, pairs)));
+  void add_modes(const std::vector<Eigenpair>& pairs, const std::function<bool(Complex)>& wanted, Modes& result) const {
+    for (const Eigenpair& pair : pairs) {
+      if (!wanted(pair.s) || !represents(pair.s) || is_zero(pair)) continue;
+      Mode mode{pair.s, ModeKind::oscillating, pair.x.head(e_.unknowns()), pair.x.tail(e_.dofs), 0, pair.residual};
+      judgement_.judge(mode);
+      result.modes.push_back(std::move(mode));
     }
-    if (operator_->is_real() && wanted(0))
-      for (Mode& mode : rigid_modes(zeros)) result.modes.push_back(std::move(mode));
-    std::stable_sort(result.modes.begin(), result.modes.end(),
+  }
+
+  static void sort_by_rate(std::vector<Mode>& modes) {
+    std::stable_sort(modes.begin(), modes.end(),
                      [](const Mode& a, const Mode& b) { return std::abs(a.s) < std::abs(b.s); });
-    return result;
+  }
+
+  /// At the beginning.
+  void add_rigid_modes(Modes& result) const {
+    std::vector<Mode> rigid;
+    const VectorX& scale = around_.T().scale();
+    for (Eigen::Index k = 0; k < rigid_.shapes.cols(); ++k) {
+      const VectorX u = rigid_.shapes.col(k), w = (e_.W * u).head(e_.dofs);
+      VectorX x(e_.states());
+      x << u, w;
+      x = x.cwiseQuotient(scale).eval();
+      const double residual = (x + shift() * around_.T().apply(x)).norm() / x.norm();
+      rigid.push_back({0, ModeKind::rigid, u.cast<Complex>(), w.cast<Complex>(), rigid_.resolution, residual});
+    }
+    result.modes.insert(result.modes.begin(), rigid.begin(), rigid.end());
   }
 
   /// The smallest |s| that is not zero, or 0.
-  double slowest_of(const std::vector<Found>& pairs) const {
+  double slowest_of(const std::vector<Eigenpair>& pairs) const {
     double least = INFINITY;
-    for (const Found& pair : pairs)
+    for (const Eigenpair& pair : pairs)
       if (!is_zero(pair)) least = std::min(least, std::abs(pair.s));
     return std::isfinite(least) ? least : 0;
   }
 
-  /// The largest |s| that counts as zero.
-  double fastest_zero(const std::vector<Found>& pairs) const {
-    double most = 0;
-    for (const Found& pair : pairs)
-      if (is_zero(pair)) most = std::max(most, std::abs(pair.s));
-    return most;
-  }
-  /// What rounding makes of a double zero, relative to the shift.
-  static constexpr double rounded_pair = 1e-7;
-
-  /// A shift of the size of the slowest mode that is not rigid. A shift that is too small shows that mode well, one
+  /// A shift of the size of the slowest mode that is not kept out. A shift that is too small shows that mode well, one
   /// that is too large shows it as zero, like many others.
-  void choose_shift(Eigen::Index count) {
-    // What is slower than that shows itself in the second look.
-    constexpr double hardly_moves = 1e-2;  // [1/s]
-    set_shift(std::max({1e-3 * slowest_rate(e_), 1e-6 * fastest_rate(e_), hardly_moves}));
-    const double first = operator_->shift().real();
+  void choose_shift(Eigen::Index count, double begin) {
+    around_.set_shift(begin);
+    const double first = shift();
     double highest = first;
     constexpr int most_shifts = 14;
-    bool seen = false;
     for (int k = 0; k < most_shifts; ++k) {
-      const double shift = operator_->shift().real();
-      Around around;
+      EigenpairsNearby nearby;
       try {
-        around = look(count, Look::roughly);
+        nearby = around_.look(count, EigenpairsAround::Look::roughly);
       } catch (const ComputationError&) {
-        set_shift(shift / 30);  // many eigenvalues next to each other, as slow ones are to a large shift
+        around_.set_shift(shift() / 30);  // many eigenvalues next to each other, as slow ones are to a large shift
         continue;
       }
-      const double slow = slowest_of(around.pairs);
+      const double slow = slowest_of(nearby.pairs);
       constexpr double far = 30;
-      if (const double zero = fastest_zero(around.pairs); !seen && zero > rounded_pair * shift) {
-        seen = true;  // zero to a shift that is much too large, perhaps
-        set_shift(100 * zero);
-      } else if (slow > 0 && (slow > far * shift || slow < shift / far)) {
-        set_shift(0.9 * slow);
-      } else if (slow == 0 && std::isfinite(around.radius)) {
+      if (slow > 0 && (slow > far * shift() || slow < shift() / far)) {
+        around_.set_shift(0.9 * slow);
+      } else if (slow == 0 && std::isfinite(nearby.radius)) {
         count *= 2;
       } else if (constexpr double farthest = 1e7, step = 300;
-                 slow == 0 && around.rejected && highest < farthest * first) {
+                 slow == 0 && nearby.rejected && highest < farthest * first) {
         highest *= step;
-        set_shift(highest);  // it may be too small to show anything that is faster than zero
+        around_.set_shift(highest);  // it may be too small to show anything that is faster than zero
       } else {
         return;
       }
     }
   }
 
+  double first_shift() const {
+    constexpr double hardly_moves = 1e-2;  // [1/s], where nothing else is known
+    if (rigid_.slowest > 0) return 0.9 * rigid_.slowest;
+    return std::max({1e-3 * slowest_rate(e_), 1e-6 * fastest_rate(e_), hardly_moves});
+  }
+
+  /// Eigenvalues that are neither kept out nor among these: slow modes may keep fast ones from being seen.
+  bool any_missing(const std::vector<Eigenpair>& pairs) {
+    constexpr int most = 2000;  // states, to be counted
+    if (e_.states() > most) return true;
+    if (finite_ < 0) finite_ = count_finite_eigenvalues(e_, around_.T());
+    return around_.kept_out() + static_cast<Eigen::Index>(pairs.size()) < finite_;
+  }
+
+  /// Those that are known well. @returns false where there are none
+  bool keep_out(const std::vector<Eigenpair>& pairs, std::vector<Eigenpair>& kept) {
+    constexpr double accurate = 1e-6;
+    std::vector<VectorX> states;
+    for (const Eigenpair& pair : pairs) {
+      if (!(pair.residual <= accurate)) continue;
+      kept.push_back(pair);
+      if (!represents(pair.s)) continue;
+      states.emplace_back(pair.z.real());
+      if (pair.s.imag() > 0) states.emplace_back(pair.z.imag());
+    }
+    MatrixX columns(e_.states(), static_cast<Eigen::Index>(states.size()));
+    for (std::size_t k = 0; k < states.size(); ++k) columns.col(static_cast<Eigen::Index>(k)) = states[k];
+    around_.keep_out(columns);
+    return !states.empty();
+  }
+
   Modes slowest() {
     const bool limited = options_.below.has_value();
     const double limit = limited ? 2 * std::numbers::pi * *options_.below : INFINITY;
-    Eigen::Index count = 2 * (limited ? 10 : options_.count) + 4;
-    choose_shift(count);
-    Around around = look(count);
-    while (true) {
-      // Nearest to the shift is not the same as slowest: within this circle none is missing.
-      const double known = around.radius - std::abs(operator_->shift());
-      const bool whole = !std::isfinite(around.radius);
-      Modes result = collect(around.pairs, [&](Complex s) { return std::abs(s) <= std::min(known, limit); });
-      const bool enough = limited ? known >= limit : static_cast<int>(result.modes.size()) >= options_.count;
-      if (!whole && !enough) {
-        count += std::max<Eigen::Index>(10, count / 2);
-        around = look(count);
-        continue;
+    const Eigen::Index begin = 2 * (limited ? 10 : options_.count) + 4 + rigid_.shapes.cols();
+    Modes before;
+    constexpr int most_rounds = 6;
+    double from = first_shift();
+    for (int round = 0;; ++round) {
+      Eigen::Index count = begin;
+      choose_shift(count, from);
+      EigenpairsNearby nearby = around_.look(count, EigenpairsAround::Look::exactly);
+      while (true) {
+        // Nearest to the shift is not the same as slowest: within this circle none is missing.
+        const double known = nearby.radius - shift();
+        const bool whole = !std::isfinite(nearby.radius);
+        Modes result = before;
+        add_modes(
+            nearby.pairs, [&](Complex s) { return std::abs(s) <= std::min(known, limit); }, result);
+        const bool enough = limited ? known >= limit : static_cast<int>(result.modes.size()) >= options_.count;
+        if (!whole && !enough) {
+          count += std::max<Eigen::Index>(10, count / 2);
+          nearby = around_.look(count, EigenpairsAround::Look::exactly);
+          continue;
+        }
+        const bool missing =
+            whole && (limited || static_cast<int>(result.modes.size()) <= options_.count) && any_missing(nearby.pairs);
+        std::vector<Eigenpair> known_well;
+        if (missing && !(enough && !limited) && round < most_rounds && keep_out(nearby.pairs, known_well)) {
+          add_modes(
+              known_well, [&](Complex s) { return std::abs(s) <= limit; }, before);
+          constexpr double beyond = 1e3;
+          for (const Eigenpair& pair : known_well) from = std::max(from, beyond * std::abs(pair.s));
+          break;
+        }
+        return finished(std::move(result), whole && !missing && !limited);
       }
-      result.all = whole && !limited && static_cast<int>(result.modes.size()) <= options_.count;
-      if (!limited && static_cast<int>(result.modes.size()) > options_.count)
-        result.modes.resize(static_cast<std::size_t>(options_.count));
-      return result;
     }
   }
 
+  Modes finished(Modes result, bool all) const {
+    const auto count = static_cast<std::size_t>(options_.count);
+    result.states = e_.states();
+    result.all = all && result.modes.size() <= count;
+    sort_by_rate(result.modes);
+    if (!options_.below && result.modes.size() > count) result.modes.resize(count);
+    add_rigid_modes(result);
+    return result;
+  }
+
   Modes around_frequency(double omega) {
-    set_shift(Complex(0, omega));
+    around_.set_shift(Complex(0, omega));
     Eigen::Index count = options_.count + 4;
     while (true) {
-      const Around around = look(count);
-      Modes result = collect(around.pairs, [](Complex) { return true; });
-      const bool whole = !std::isfinite(around.radius);
+      const EigenpairsNearby nearby = around_.look(count, EigenpairsAround::Look::exactly);
+      Modes result;
+      result.states = e_.states();
+      add_modes(
+          nearby.pairs, [](Complex) { return true; }, result);
+      const bool whole = !std::isfinite(nearby.radius);
       if (!whole && static_cast<int>(result.modes.size()) < options_.count) {
         count += std::max<Eigen::Index>(10, count / 2);
         continue;
       }
-      result.all = whole && static_cast<int>(result.modes.size()) <= options_.count;
+      result.all = whole && static_cast<int>(result.modes.size()) <= options_.count && rigid_.shapes.cols() == 0 &&
+                   !any_missing(nearby.pairs);
       if (static_cast<int>(result.modes.size()) > options_.count) {
-        const auto distance = [&](const Mode& mode) { return std::abs(mode.s - operator_->shift()); };
+        const auto distance = [&](const Mode& mode) { return std::abs(mode.s - around_.T().shift()); };
         std::stable_sort(result.modes.begin(), result.modes.end(),
                          [&](const Mode& a, const Mode& b) { return distance(a) < distance(b); });
         result.modes.resize(static_cast<std::size_t>(options_.count));
-        std::stable_sort(result.modes.begin(), result.modes.end(),
-                         [](const Mode& a, const Mode& b) { return std::abs(a.s) < std::abs(b.s); });
       }
+      sort_by_rate(result.modes);
       return result;
     }
   }
 
   const LinearisedEquations& e_;
   const ModeOptions& options_;
-  std::unique_ptr<ShiftedOperator> operator_;
-  mutable Sparse K_;
+  EquationRounding rounding_;
+  EigenpairsAround around_;
+  ModeJudgement judgement_;
+  IndifferentMotions rigid_;
+  Eigen::Index finite_ = -1;  ///< number of finite eigenvalues, once it is known
 };
 
 }  // namespace
@@ -425,7 +294,7 @@ double slowest_rate(const LinearisedEquations& equations) {
 }
 
 Modes find_modes(const LinearisedEquations& equations, const ModeOptions& options) {
-  return Search(equations, options).run();
+  return ModeSearch(equations, options).run();
 }
 
 }  // namespace bielle::mechanism

@@ -3,9 +3,13 @@
 // Shapes move as exp(s t). Of a conjugate pair the one with Im s >= 0 is given. Small systems are solved densely on the
 // states that satisfy the constraints, large ones by ARPACK; both around a shift (shifted_operator.hpp) whose size
 // follows from the slowest mode. Eigenvalues that belong to no motion (constraints, algebraic unknowns, directions
-// without mass) are infinite, and recognised by two applications of the operator, which leave nothing of them. What is
-// zero to rounding is a rigid mode: a motion that costs nothing, counted by shapes, not by eigenvalues (of a free body
-// there are twice as many, in pairs).
+// without mass) are infinite, and recognised by two applications of the operator, which leave nothing of them.
+//
+// Rigid modes, motions that cost nothing, are found first (indifferent_motions.hpp) and kept out: the operator acts on
+// the complement of their states, an invariant subspace. They are counted by shapes, not by eigenvalues (of a free body
+// there are twice as many, in pairs). Where modes are so slow that the shift which shows them does not show the others,
+// they are kept out as well, and the rest is looked at from a shift of its own. That these are all modes is said where
+// their number is that of the finite eigenvalues.
 #pragma once
 
 #include <complex>
@@ -23,8 +27,11 @@ const char* mode_kind_name(ModeKind kind);  ///< "oscillating"
 struct Mode {
   std::complex<double> s;  ///< [1/s]; 0 of rigid modes
   ModeKind kind = ModeKind::oscillating;
-  Eigen::VectorXcd u;               ///< increments of dofs and first-order unknowns (n), of any size
-  Eigen::VectorXcd w;               ///< variations of the dofs' rates that go with them
+  Eigen::VectorXcd u;  ///< increments of dofs and first-order unknowns (n), of any size
+  Eigen::VectorXcd w;  ///< variations of the dofs' rates that go with them
+  /// |ds| [1/s] by rounding of the equations and errors of the equilibrium (equation_rounding.hpp); 0 where not known:
+  /// of unsymmetric equations it is computed for what seems to grow. Of rigid modes: rates up to it are no different.
+  double uncertainty = 0;
   double residual = 0;              ///< |T x - x / (s - sigma)| |s - sigma| / |x|, x the scaled state
   double frequency() const;         ///< |s| / 2 pi [Hz]
   double damped_frequency() const;  ///< |Im s| / 2 pi [Hz]
@@ -32,7 +39,7 @@ struct Mode {
 };
 
 struct ModeOptions {
-  int count = 20;                    ///< of modes; where `below` is given, it does not count
+  int count = 20;                    ///< of modes that are not rigid; where `below` is given, it does not count
   std::optional<double> near = {};   ///< those nearest to this frequency [Hz] > 0; no rigid ones
   std::optional<double> below = {};  ///< all with |s| / 2 pi up to this frequency [Hz] > 0
   int dense = 300;                   ///< systems of up to so many independent states are solved densely; 0: none
@@ -40,7 +47,7 @@ struct ModeOptions {
 
 struct Modes {
   std::vector<Mode> modes;  ///< |s| ascending
-  bool all = false;         ///< there are no others
+  bool all = false;         ///< there are no others: as many as the equations have finite eigenvalues
   int states = 0;
 };
 

@@ -15,6 +15,15 @@ double rate_of(const TrackedMode& track) { return std::abs(track.s.imag()); }
 
 bool kept(const TrackedMode& track) { return track.found && track.correlation >= lost_below; }
 
+/// How far the rate of a mode is from a multiple of the speed, and zero where they are the same to rounding: a rigid
+/// motion seen in axes that turn has the speed for its frequency.
+double excess_of(const SweepPoint& point, std::size_t mode, double order) {
+  constexpr double rounding = 1e-12;
+  const TrackedMode& track = point.tracks[mode];
+  const double excess = rate_of(track) - order * std::abs(point.speed);
+  return std::abs(excess) <= track.uncertainty + rounding * rate_of(track) ? 0 : excess;
+}
+
 /// Their frequencies are the same to rounding.
 bool together(double a, double b) {
   constexpr double same = 1e-6;
@@ -57,7 +66,8 @@ SweepSample SpeedSweep::sample_at(double value) {
 SweepPoint SpeedSweep::begin() {
   count_ = modes_ + 8;
   SweepSample sample = sample_at(values_.front());
-  while (!sample.modes.all && static_cast<int>(sample.modes.modes.size()) < modes_ + 2) {
+  const auto exhausted = [&] { return sample.modes.all || count_ > 2 * M_.rows(); };
+  while (!exhausted() && static_cast<int>(sample.modes.modes.size()) < modes_ + 2) {
     count_ *= 2;
     sample = sample_at(values_.front());
   }
@@ -110,8 +120,7 @@ void SpeedSweep::find_critical(const SweepPoint& a, const SweepPoint& b) {
   for (std::size_t i = 0; i < b.tracks.size(); ++i) {
     if (!a.tracks[i].found || !b.tracks[i].found) continue;
     for (const double order : orders_) {
-      const double at_a = rate_of(a.tracks[i]) - order * std::abs(a.speed),
-                   at_b = rate_of(b.tracks[i]) - order * std::abs(b.speed);
+      const double at_a = excess_of(a, i, order), at_b = excess_of(b, i, order);
       if ((at_a > 0) != (at_b > 0)) locate(a, b, i, order);
     }
   }

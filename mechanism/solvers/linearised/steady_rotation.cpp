@@ -5,7 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/math/so3.hpp"
 #include "mechanism/solvers/linearised/shifted_operator.hpp"
+#include "mechanism/solvers/newton/convergence.hpp"
+#include "mechanism/solvers/newton/linear_step.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
 #include "reduce/common/error.hpp"
 
@@ -28,45 +31,117 @@ void turn(const System& system, const SteadyRotation& rotation, State& state) {
   state.first_order_rate.setZero();
 }
 
-/// Newton's method from the state. @returns whether it has converged
-bool settle_at(const System& system, const Environment& environment, const SteadyRotation& rotation, State& state) {
-  constexpr int most = 30;
-  constexpr double small = 1e-10;  // relative to the mechanism's size, and [rad]: below, the last step ends it
-  const double length = model_length(state), rate = rotation.omega.norm();
-  const int n = system.dofs() + system.first_orders();
-  VectorX r(system.size());
-  double before = INFINITY;
-  for (int iteration = 0; iteration < most; ++iteration) {
-    turn(system, rotation, state);
-    system.residual(state, environment, r);
-    const LinearisedEquations equations = linearised_equations(system, environment, state, ModeAxes::turning);
+/// Newton's method for the equilibrium at one angular velocity, with the safeguards of statics (equilibrium.hpp):
+/// stiffness comes from the stress that the last step predicted, and steps are shortened that turn a node far or that a
+/// component refuses.
+class RotationEquilibrium {
+ public:
+  RotationEquilibrium(const System& system, const Environment& environment)
+      : system_(system), environment_(environment), linear_(system), convergence_(system, tolerances()) {}
+
+  /// @returns whether it was found; otherwise the state is some iterate
+  bool find(const SteadyRotation& rotation, State& state) {
+    constexpr int most = 40;
+    constexpr double small = 1e-10;    // relative to the mechanism's size, and [rad]: below, the last step ends it
+    constexpr double balanced = 1e-6;  // the same of a step after which nothing but rounding is left of the residual
+    bool stepped = false;
+    State before = state;
+    VectorX r(system_.size());
+    for (int iteration = 0; iteration < most; ++iteration) {
+      turn(system_, rotation, state);
+      if (!calc_step(rotation, state, stepped ? &before : nullptr, r)) return false;
+      const double size = size_of(state);
+      if (!std::isfinite(size)) return false;
+      before = state;
+      stepped = true;
+      if (!go(rotation, before, shortened(state), state)) return false;
+      if (size < small || (size < balanced && reached(state))) {
+        turn(system_, rotation, state);
+        return true;
+      }
+    }
+    return false;
+  }
+
+ private:
+  static NewtonOptions tolerances() {
+    NewtonOptions options;
+    options.tolerance = 1e-12;
+    return options;
+  }
+
+  /// @returns false where the equations are singular
+  bool calc_step(const SteadyRotation& rotation, const State& state, const State* before, VectorX& r) {
+    const int n = system_.dofs() + system_.first_orders();
+    system_.residual(state, environment_, r);
+    Environment predicted = environment_;
+    predicted.before = before;
+    const LinearisedEquations equations = linearised_equations(system_, predicted, state, ModeAxes::turning);
     // A little inertia, so that what nothing holds (a free shaft) stays where it is.
-    const ShiftedOperator D(equations, 1e-3 * rate);
+    const ShiftedOperator D(equations, 1e-3 * rotation.omega.norm());
     if (!D.regular()) return false;
     VectorX right(n + equations.constraints());
     right.head(n) = -r.head(n);
     for (int k = 0; k < equations.constraints(); ++k)
       right[n + k] = -r[n + equations.multiplier[static_cast<std::size_t>(k)]];
-    const VectorX step = D.solve(right.cast<std::complex<double>>()).real();
-    if (!step.allFinite()) return false;
-    double size = 0;
-    for (int i = 0; i < system.dofs(); ++i)
-      if (system.kind(i) != Kind::amplitude)
-        size = std::max(size, std::abs(step[i]) / (system.kind(i) == Kind::translation ? length : 1));
-    constexpr double farthest = 0.5;
-    if (!(size < farthest) || (iteration > 5 && size > before)) return false;
-    system.displace(state, State(state), step.head(system.dofs()));
-    state.first_order += step.segment(system.dofs(), system.first_orders());
+    const VectorX found = D.solve(right.cast<std::complex<double>>()).real();
+    step_ = VectorX::Zero(system_.size());
+    step_.head(n) = found.head(n);
     for (int k = 0; k < equations.constraints(); ++k)
-      state.multiplier[equations.multiplier[static_cast<std::size_t>(k)]] += step[n + k];
-    if (size < small) {
-      turn(system, rotation, state);
-      return true;
-    }
-    before = size;
+      step_[n + equations.multiplier[static_cast<std::size_t>(k)]] = found[n + k];
+    return step_.allFinite();
   }
-  return false;
-}
+
+  /// Largest displacement relative to the mechanism's size, or turn [rad].
+  double size_of(const State& state) const {
+    const double length = model_length(state);
+    double size = 0;
+    for (int i = 0; i < system_.dofs(); ++i)
+      if (system_.kind(i) != Kind::amplitude)
+        size = std::max(size, std::abs(step_[i]) / (system_.kind(i) == Kind::translation ? length : 1));
+    return size;
+  }
+  double shortened(const State& state) const {
+    constexpr double longest = 2;  // turns [rad], and of the mechanism's size
+    const double size = size_of(state);
+    return size > longest ? longest / size : 1;
+  }
+
+  /// Takes a part of the step, or less where a component refuses. @returns false where they refuse all
+  bool go(const SteadyRotation& rotation, const State& from, double part, State& state) {
+    constexpr double least = 0.1;
+    const int n = system_.dofs() + system_.first_orders();
+    for (VectorX r(system_.size()); part > least / 16; part /= 2) {
+      try {
+        state = from;
+        system_.displace(state, from, part * step_.head(system_.dofs()));
+        state.first_order += part * step_.segment(system_.dofs(), system_.first_orders());
+        state.multiplier += part * step_.tail(system_.size() - n);
+        turn(system_, rotation, state);
+        system_.residual(state, environment_, r);
+        if (r.allFinite()) return true;
+      } catch (const ComputationError&) {
+        continue;
+      }
+    }
+    return false;
+  }
+
+  bool reached(const State& state) {
+    VectorX r(system_.size());
+    ResidualScale scale;
+    system_.residual(state, environment_, r, &scale);
+    linear_.assemble(state, environment_, TangentWeights{1, 0, 0, 0, 1, true}, nullptr);
+    convergence_.measure_rounding(linear_, state);
+    return convergence_.reached(r, scale);
+  }
+
+  const System& system_;
+  Environment environment_;
+  LinearStep linear_;
+  Convergence convergence_;
+  VectorX step_;  ///< (size)
+};
 
 /// What keeps the mechanism from turning as a whole.
 void check_turns(const System& system, const Environment& environment, const SteadyRotation& rotation,
@@ -95,29 +170,50 @@ void check_turns(const System& system, const Environment& environment, const Ste
   }
 }
 
+/// How far nodes have turned or moved relative to the mechanism's size: an increment that leads far may have led to
+/// another equilibrium than the one that the path goes through.
+double farthest_between(const State& a, const State& b) {
+  const double length = model_length(a);
+  double most = 0;
+  for (std::size_t k = 0; k < a.nodes.size(); ++k)
+    most = std::max({most, (b.nodes[k].x - a.nodes[k].x).norm() / length,
+                     log_so3(Matrix3(a.nodes[k].R.transpose() * b.nodes[k].R)).norm()});
+  return most;
+}
+
 }  // namespace
 
 void settle_in_rotation(const System& system, const Environment& environment, const SteadyRotation& rotation,
                         State& state) {
-  const State begin = state;
-  for (int steps = 1; steps <= 16; steps *= 4) {
-    state = begin;
-    bool good = true;
-    for (int k = 1; k <= steps && good; ++k) {
-      SteadyRotation part = rotation;
-      part.omega *= std::sqrt(static_cast<double>(k) / steps);
-      try {
-        good = settle_at(system, environment, part, state);
-      } catch (const ComputationError&) {
-        good = false;  // a wild iterate that a component refuses
-      }
+  // Increments of the square of the speed, to which the forces of inertia are proportional.
+  constexpr double least = 1.0 / 4096, far = 0.15;
+  RotationEquilibrium equilibrium(system, environment);
+  double made = 0, part = 1;
+  while (made < 1) {
+    const double end = std::min(1.0, made + part);
+    SteadyRotation slower = rotation;
+    slower.omega *= std::sqrt(end);
+    State trial = state;
+    bool good = false;
+    try {
+      good = equilibrium.find(slower, trial);
+    } catch (const ComputationError&) {
+      // A wild iterate that a component refuses.
     }
-    if (!good) continue;
-    check_turns(system, environment, rotation, state);
-    return;
+    if (!good || (part > 16 * least && farthest_between(state, trial) > far)) {
+      part /= 2;
+      if (part < least)
+        throw ComputationError(
+            fmt::format("no equilibrium in steady rotation at {:.6g} rad/s was found; the "
+                        "mechanism was followed up to {:.6g} rad/s",
+                        rotation.omega.norm(), std::sqrt(made) * rotation.omega.norm()));
+      continue;
+    }
+    state = trial;
+    made = end;
+    part *= 2;
   }
-  throw ComputationError(
-      fmt::format("no equilibrium in steady rotation at {:.6g} rad/s was found", rotation.omega.norm()));
+  check_turns(system, environment, rotation, state);
 }
 
 }  // namespace bielle::mechanism

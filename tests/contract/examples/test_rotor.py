@@ -115,7 +115,7 @@ class Rotor(unittest.TestCase):
                 turns = modes["rotation"][:, disc] @ [1, 1j]
         # Sense of rotation of x + i y: from the phase between the two.
         senses = [np.sign((turn[0].conjugate() * turn[1]).imag) for turn in turns[2:6]]
-        self.assertEqual(len(shapes), 8)
+        self.assertEqual(len(shapes), 9)  # the rigid one, and eight others
         self.assertEqual(sorted(senses), [-1, -1, 1, 1])
 
 

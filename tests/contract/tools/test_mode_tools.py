@@ -61,6 +61,22 @@ class Tools(InFolder):
         self.assertIn(part, done.stderr)
 
 
+class AnalysesWithoutRows(Tools):
+    def test_modes_over_a_speed_alone_are_drawn(self):
+        self.write("rotor.yaml", """\
+nodes: {hub: {position: [0, 0, 0]}, disc: {position: [0, 0, 0], angular_velocity: [0, 0, speed]}}
+parameters: {speed: 0}
+elements: {disc: {type: rigid_body, node: disc, mass: 5, inertia: [0.02, 0.02, 0.035]}}
+joints:
+  mount: {type: bushing, nodes: [ground, hub], stiffness: [2e5, 1e5, 3e5, 800, 800, 500]}
+  axle: {type: hinge, nodes: [hub, disc], position: [0, 0, 0], axis: [0, 0, 1]}
+analysis: [{type: campbell, parameter: speed, speeds: {to: 100, count: 5}, modes: 3}]
+""")
+        subprocess.run([os.path.join(PROGRAMS, "bielle-mechanism"), "rotor.yaml"], cwd=self.folder, check=True, capture_output=True)
+        self.assertIn("campbell.png", self.succeed("bielle-plot", "rotor.h5"))
+        self.assertGreater(os.path.getsize(self.path("rotor-plots/campbell.png")), 20000)
+
+
 class Whirl(Tools):
     def setUp(self):
         super().setUp()

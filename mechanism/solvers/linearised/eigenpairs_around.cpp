@@ -1,0 +1,138 @@
+#include "mechanism/solvers/linearised/eigenpairs_around.hpp"
+
+#include <cmath>
+
+#include "mechanism/solvers/linearised/finite_states.hpp"
+#include "mechanism/solvers/linearised/modes.hpp"
+#include "mechanism/solvers/linearised/orthonormal.hpp"
+#include "reduce/common/dense_solves.hpp"
+#include "reduce/common/orthogonal_factors.hpp"
+#include "reduce/spectral/operator_eigenpairs.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+using Complex = std::complex<double>;
+using VectorXc = Eigen::VectorXcd;
+using MatrixXc = Eigen::MatrixXcd;
+
+/// Of the operator on the orthogonal complement of Q, in coordinates of a basis where one is given.
+template <class Scalar>
+OperatorEigenpairs search_complement(const ShiftedOperator& T, const MatrixX& Q, const MatrixX* basis,
+                                     Eigen::Index count, const OperatorEigenOptions& options) {
+  using Vector = Eigen::Vector<Scalar, Eigen::Dynamic>;
+  using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+  if (basis) {
+    const Matrix V = basis->cast<Scalar>();
+    return largest_eigenpairs(
+        LinearOperator<Scalar>{V.cols(),
+                               [&](const Vector& z) { return Vector(V.transpose() * T.apply(Vector(V * z))); }},
+        count, options);
+  }
+  const Matrix known = Q.cast<Scalar>();
+  const auto without = [&](Vector x) {
+    for (int twice = 0; twice < 2 && known.cols() > 0; ++twice) {
+      const Vector parts = known.transpose() * x;
+      x -= known * parts;
+    }
+    return x;
+  };
+  return largest_eigenpairs(
+      LinearOperator<Scalar>{T.scale().size(), [&](const Vector& x) { return without(T.apply(without(x))); }}, count,
+      options);
+}
+
+}  // namespace
+
+void EigenpairsAround::keep_out(const MatrixX& states) {
+  MatrixX all(e_.states(), known_.cols() + states.cols());
+  all << MatrixX(known_.cols() > 0 ? known_ : MatrixX(e_.states(), 0)), states;
+  known_ = std::move(all);
+}
+
+bool EigenpairsAround::dense() const {
+  constexpr int most = 2000;  // states, for the null space of the constraints
+  return e_.states() - 2 * e_.constraints() <= dense_ && e_.states() <= most && dense_ > 0;
+}
+
+void EigenpairsAround::set_shift(Complex shift) {
+  constexpr double factors[] = {1, 1.0137, 13.7, 1370, 1.37e5};
+  for (const double factor : factors) {
+    if (factor > 2 && shift.real() == 0) break;  // a frequency that was asked for
+    operator_ = std::make_unique<ShiftedOperator>(e_, factor * shift);
+    if (operator_->regular()) break;
+  }
+  if (!operator_->regular()) throw SingularEquations(operator_->singular());
+  const ShiftedOperator& T_now = *operator_;
+  Q_ = MatrixX(e_.states(), 0);
+  if (known_.cols() > 0) Q_ = orthonormal_columns(MatrixX(T_now.scale().cwiseInverse().asDiagonal() * known_));
+  TQ_.resize(Q_.cols(), Q_.cols());
+  for (Eigen::Index k = 0; k < Q_.cols(); ++k)
+    TQ_.col(k) = Q_.transpose().cast<Complex>() * T_now.apply(VectorXc(Q_.col(k).cast<Complex>()));
+  if (!dense()) return;
+  basis_ = consistent_states(e_, T_now.scale());
+  constexpr double dependent = 1e-8;
+  if (Q_.cols() > 0 && basis_.cols() > 0)
+    basis_ = (basis_ * null_space(MatrixX(Q_.transpose() * basis_), dependent)).eval();
+}
+
+/// Where what is known has the eigenvalue as well, and but one vector for both, that one.
+VectorXc EigenpairsAround::recovered(Complex mu, const VectorXc& z) const {
+  if (Q_.cols() == 0) return z;
+  const VectorXc coupled = Q_.transpose().cast<Complex>() * operator_->apply(z);
+  MatrixXc A = -TQ_;
+  A.diagonal().array() += mu;
+  MatrixX whole(2 * A.rows(), 2 * A.rows());
+  whole << A.real(), -A.imag(), A.imag(), A.real();
+  VectorX right(whole.rows());
+  right << coupled.real(), coupled.imag();
+  constexpr double farthest = 1e7;
+  if (const auto inverse = regular_inverse(whole)) {
+    const VectorX both = *inverse * right;
+    VectorXc c(coupled.size());
+    c.real() = both.head(c.size());
+    c.imag() = both.tail(c.size());
+    if (c.norm() < farthest * z.norm()) return z + Q_.cast<Complex>() * c;
+  }
+  const VectorXc own = Q_.cast<Complex>() * coupled;
+  return own.norm() > 0 ? VectorXc(own / own.norm()) : z;
+}
+
+EigenpairsNearby EigenpairsAround::look(Eigen::Index count, Look how) const {
+  const ShiftedOperator& now = *operator_;
+  OperatorEigenOptions options;
+  options.dense = dense() ? basis_.cols() : 0;
+  if (!dense() && how == Look::roughly) {
+    options.tolerance = 1e-6;
+    options.copies = false;
+  }
+  const MatrixX* basis = dense() ? &basis_ : nullptr;
+  const OperatorEigenpairs found = now.is_real() ? search_complement<double>(now, Q_, basis, count, options)
+                                                 : search_complement<Complex>(now, Q_, basis, count, options);
+  EigenpairsNearby nearby;
+  nearby.radius = found.all ? INFINITY : 1 / std::abs(found.values[found.values.size() - 1]);
+  for (Eigen::Index k = 0; k < found.values.size(); ++k) {
+    const Complex mu = found.values[k];
+    if (mu == 0.0) continue;
+    VectorXc z = found.vectors.col(k);
+    if (basis) z = basis->cast<Complex>() * z;
+    VectorXc x = recovered(mu, z);
+    // Nothing is left of what belongs to an infinite eigenvalue.
+    const VectorXc once = now.apply(x) / mu;
+    constexpr double same = 1e-2;
+    if (!((now.apply(once) / mu - x).norm() < same * x.norm())) {
+      nearby.rejected = true;
+      continue;
+    }
+    Complex value = now.shift() + 1.0 / mu;
+    // Of a complex operator real eigenvalues are real but for rounding.
+    constexpr double rounding = 1e-9;
+    if (!now.is_real() && std::abs(value.imag()) < rounding * std::abs(value)) value = value.real();
+    const auto scale = now.scale().cast<Complex>();
+    nearby.pairs.push_back(
+        {value, scale.cwiseProduct(once / once.norm()), scale.cwiseProduct(z), (once - x).norm() / x.norm()});
+  }
+  return nearby;
+}
+
+}  // namespace bielle::mechanism

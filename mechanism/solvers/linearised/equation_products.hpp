@@ -1,0 +1,19 @@
+// Products with D(s), the linearised equations at a rate s: rows of the motion, then those of the constraints
+// (equations.hpp).
+#pragma once
+
+#include <complex>
+
+#include "mechanism/solvers/linearised/equations.hpp"
+
+namespace bielle::mechanism {
+
+/// D(s) q, D(s)^T q, and D'(s) q. @param q  (n + constraints)
+Eigen::VectorXcd equations_times(const LinearisedEquations& equations, std::complex<double> s,
+                                 const Eigen::VectorXcd& q);
+Eigen::VectorXcd transposed_equations_times(const LinearisedEquations& equations, std::complex<double> s,
+                                            const Eigen::VectorXcd& q);
+Eigen::VectorXcd equations_derivative_times(const LinearisedEquations& equations, std::complex<double> s,
+                                            const Eigen::VectorXcd& q);
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,20 @@
+// Whether left vectors of D(s) follow from right ones.
+#pragma once
+
+#include "mechanism/solvers/linearised/equations.hpp"
+
+namespace bielle::mechanism {
+
+enum class EquationSymmetry {
+  symmetric,   ///< D = D^T: they are the right ones
+  gyroscopic,  ///< D(s)^T = D(-s): on the imaginary axis, their conjugates
+  none
+};
+
+EquationSymmetry equation_symmetry(const LinearisedEquations& equations);
+
+/// A left vector y (n + constraints) of an eigenvalue that pairs with a right one, y^T D(s) = 0, by inverse iteration
+/// with the transposed equations next to s: one factorisation. Of size 0 where there is none.
+Eigen::VectorXcd left_vector(const LinearisedEquations& equations, std::complex<double> s, const Eigen::VectorXcd& u);
+
+}  // namespace bielle::mechanism
