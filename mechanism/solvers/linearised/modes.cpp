@@ -7,6 +7,7 @@
 
 #include "mechanism/solvers/linearised/eigenpairs_around.hpp"
 #include "mechanism/solvers/linearised/finite_states.hpp"
+#include "mechanism/solvers/linearised/free_shapes.hpp"
 #include "mechanism/solvers/linearised/indifferent_motions.hpp"
 #include "mechanism/solvers/linearised/mode_judgement.hpp"
 #include "reduce/common/error.hpp"
@@ -33,7 +34,10 @@ class ModeSearch {
       result.all = true;
       return result;
     }
-    rigid_ = find_indifferent_motions(e_, rounding_, options_.dense);
+    if (has_own_units())
+      rigid_.shapes = MatrixX(e_.unknowns(), 0);  // found with the zeros of the search
+    else
+      rigid_ = find_indifferent_motions(e_, rounding_, options_.dense);
     MatrixX states(e_.states(), rigid_.shapes.cols());
     states.topRows(e_.unknowns()) = rigid_.shapes;
     states.bottomRows(e_.dofs) = (e_.W * rigid_.shapes).topRows(e_.dofs);
@@ -42,14 +46,15 @@ class ModeSearch {
   }
 
  private:
+  /// First-order unknowns have units of their own, in which u^T D u means nothing.
+  bool has_own_units() const { return e_.unknowns() != e_.dofs; }
   double shift() const { return std::abs(around_.T().shift()); }
 
   /// Whether a state that is left of the rigid ones: what is left of a double zero is a single one, which rounding
   /// does not split.
   bool is_zero(const Eigenpair& pair) const {
     constexpr double of_shift = 1e-8, of_units_of_their_own = 1e-4;
-    // First-order unknowns have units of their own, in which u^T D u means nothing.
-    if (e_.unknowns() != e_.dofs) return std::abs(pair.s) <= of_units_of_their_own * shift();
+    if (has_own_units()) return std::abs(pair.s) <= of_units_of_their_own * shift();
     return std::abs(pair.s) <= of_shift * shift() || judgement_.is_nothing(pair.s, pair.x.head(e_.unknowns()));
   }
 
@@ -189,9 +194,17 @@ class ModeSearch {
           for (const Eigenpair& pair : known_well) from = std::max(from, beyond * std::abs(pair.s));
           break;
         }
+        if (has_own_units()) find_rigid_among(nearby.pairs);
         return finished(std::move(result), whole && !missing && !limited);
       }
     }
+  }
+
+  void find_rigid_among(const std::vector<Eigenpair>& pairs) {
+    std::vector<Eigenpair> zeros;
+    for (const Eigenpair& pair : pairs)
+      if (is_zero(pair)) zeros.push_back(pair);
+    rigid_.shapes = find_free_shapes(e_, around_.T(), zeros);
   }
 
   Modes finished(Modes result, bool all) const {
