@@ -1,5 +1,8 @@
 // Static equilibrium as the start of a motion.
+#include <string>
+
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include "mechanism/solvers/start/start_report.hpp"
 #include "mechanism/solvers/statics/statics.hpp"
@@ -13,7 +16,7 @@ namespace {
 
 State settled(const ReadyModel& model, StartReport& report) {
   State state = model.system.start(0);
-  settle(model.system, model.environment(), NewtonOptions{}, state, report);
+  settle(model.system, model.environment(), NewtonOptions{}, {}, state, report);
   return state;
 }
 
@@ -110,4 +113,37 @@ joints: {axle: {type: hinge, nodes: [ground, wheel], axis: [0, 0, 1], position: 
   CHECK((model.node(start, "box").x - Vector3(1.9, 0, 0)).norm() < 1e-9);
   CHECK((model.node(start, "wheel").R - Matrix3::Identity()).norm() < 1e-9);
   CHECK(report.loose == "rotation z of node 'wheel'");
+}
+
+TEST_CASE("spins of taut rods are indifferent, whatever rounding makes of their stiffness") {
+  // A beam carries a mass by rods between spherical joints: each rod can spin about its axis, which costs nothing.
+  std::string nodes =
+      "gravity: [0, 0, -9.81]\nnodes:\n  root: {fixed: true}\n  tip: {position: [1, 0, 0]}\n"
+      "  mass: {position: [1, 0, -1], fixed: [x, y, rx, ry, rz]}\n";
+  std::string elements =
+      "elements:\n  beam: {type: beam, nodes: [root, tip], section: {circle: 0.01, young: 210e9, poisson: 0.3, "
+      "density: 7850}}\n  mass: {type: point_mass, node: mass, mass: 1}\n";
+  std::string joints = "joints:\n";
+  for (int k = 0; k < 6; ++k) {
+    const double y = 0.05 * k;
+    nodes += fmt::format("  rod_{}: {{position: [1, {}, -0.5], axes: {{x: [0, 0, 1], y: [0, 1, 0]}}}}\n", k, y);
+    elements +=
+        fmt::format("  rod_{0}: {{type: rigid_body, node: rod_{0}, mass: 0.06, inertia: [2e-6, 5e-3, 5e-3]}}\n", k);
+    joints += fmt::format(
+        "  top_{0}: {{type: spherical, nodes: [tip, rod_{0}], position: [1, {1}, 0]}}\n"
+        "  foot_{0}: {{type: spherical, nodes: [mass, rod_{0}], position: [1, {1}, -1]}}\n",
+        k, y);
+  }
+  const ReadyModel rods(nodes + elements + joints);
+  StartReport report;
+  settled(rods, report);
+  CHECK(report.unstable == 0);
+
+  const ReadyModel on_its_tip(
+      "gravity: [0, 0, -9.81]\nnodes: {a: {position: [0, 0, 0.5]}}\n"
+      "elements: {a: {type: rigid_body, node: a, mass: 10, inertia: [0.5, 0.3, 0.3]}}\n"
+      "joints: {b: {type: hinge, nodes: [ground, a], position: [0, 0, 0], axis: [1, 0, 0]}}\n");
+  StartReport unstable;
+  settled(on_its_tip, unstable);
+  CHECK(unstable.unstable == 1);
 }
