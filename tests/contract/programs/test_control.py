@@ -85,7 +85,7 @@ class Control(CommandTest):
 
     def test_slips(self):
         self.refuse("filter: main.angle", "filter: main.angel", "model.yaml:6: states.seen.filter: ", "did you mean 'angle'")
-        self.refuse("time_constant: 0.005", "time_constant: -1", "model.yaml:6: states.seen.time_constant: ", "greater than 0")
+        self.refuse("time_constant: 0.005", "time_constant: -1", "model.yaml:6: states.seen.time_constant: ", "at least 0")
         self.refuse("B: [[1], [1]]", "B: [[1, 1]]", "model.yaml:7: states.plant.state_space.B")
         self.refuse("rate: ", "rat: ", "model.yaml:8: states.way: 'rat' is not a key of a state", "did you mean 'rate'")
         self.refuse("measure: seen", "measure: plant.y3", "model.yaml:10: drives.motor.pid.measure: ", "'plant' has no 'y3'")

@@ -136,7 +136,7 @@ class SameModel(CommandTest):
     def test_entries_in_another_order_are_another_model(self):
         arm, ball = MODEL.splitlines(True)[3:5]
         self.write("other.yaml", MODEL.replace(arm + ball, ball + arm))
-        self.expect_refusal(1, "other.yaml", "--restart", "first.h5", "-o", "on.h5", says=["node 'arm' differs, or stands in another place"])
+        self.expect_refusal(1, "other.yaml", "--restart", "first.h5", "-o", "on.h5", says=["differs, or stands in another place"])
 
 
 class SameMotion(CommandTest):

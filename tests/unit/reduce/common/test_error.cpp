@@ -48,7 +48,7 @@ TEST_CASE("A message offers the nearest name, or the names that exist") {
   CHECK(message.find("and 3 more") != std::string::npos);
   // Of many, those that are most like the word.
   many.push_back("stiff_point");
-  many.push_back("end_stiffness_of_the_arm");
+  many.emplace_back("end_stiffness_of_the_arm");
   const std::string nearest = did_you_mean("stiffness", many);
   CHECK(nearest.find("expected one of 'end_stiffness_of_the_arm', 'stiff_point', 'node0'") != std::string::npos);
   CHECK(nearest.find("and 5 more") != std::string::npos);
