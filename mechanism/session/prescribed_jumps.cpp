@@ -19,7 +19,7 @@ std::vector<std::string> with_kink_at(const System& system, double time) {
   };
   std::vector<std::string> names;
   for (const Member& member : system.model().members()) {
-    if (member.entry.section != Section::drives && member.entry.section != Section::joints) continue;
+    if (member.entry.section != Section::drives) continue;
     std::vector<double> times;
     member.component->add_break_points(times);
     if (holds(times)) names.push_back(describe(member));

@@ -148,13 +148,13 @@ std::vector<Sample> contact_samples() {
         {{"shapes.0.cylinder", "[0, 1]", ""},
          {"shapes.0.rounding", "1.3", "less than half"},
          {"shapes.0.rounding", "0", ""},
-         {"shapes", "[{node: a, surface: none.stl}, {node: b, cylinder: [1, 1]}]", "cannot be read"}}));
+         {"shapes", "[{node: a, surface: none.stl}, {node: b, cylinder: [1, 1]}]", "there is no such file"}}));
   list.push_back(touching(
       "sphere, box", "shapes: [{node: a, box: [1.2, 1.1, 1.3], rounding: 0.3}, {node: b, sphere: 1.2}]",
       {{"shapes.0.box", "[1, 1]", ""}, {"shapes.0.box", "[1, 1, -1]", ""}, {"shapes.0.rounding", "0.55", ""}}));
   list.push_back(touching("sphere, surface",
                           "shapes: [{node: a, surface: roof.stl, units: mm}, {node: b, sphere: 1.9}]",
-                          {{"shapes.0.surface", "none.stl", "cannot be read"},
+                          {{"shapes.0.surface", "none.stl", "there is no such file"},
                            {"shapes.0.surface", "model.yaml", "no STL file"},
                            {"shapes.0.units", "miles", ""},
                            {"shapes", "[{node: a, surface: roof.stl}, {node: b, surface: roof.stl}]",

@@ -78,7 +78,11 @@ BeamElement::BeamElement(std::string name, BeamPlace place, int node_a, int node
       damping_(damping),
       inertia_(sections, R_A, R_B, reference) {
   to_middle_.setIdentity();
-  if (bending == BeamBending::residual) to_middle_ = flexibility_ * equilibrium(d0_, exp_se3(-0.5 * d0_)) * stiffness_;
+  if (bending == BeamBending::constant) return;
+  to_middle_ = flexibility_ * equilibrium(d0_, exp_se3(-0.5 * d0_)) * stiffness_;
+  const Vector3 along = d0_.head<3>().normalized();
+  const Matrix3 across = Matrix3::Identity() - along * along.transpose();
+  sideways_ = (across * symmetric_inverse(stiffness_).topLeftCorner<3, 3>() * across).norm();
 }
 
 void BeamElement::declare(Declaration& declaration) const {
@@ -251,6 +255,13 @@ void BeamElement::describe(const LocalState& /*state*/, Description& description
 double BeamElement::largest_strain(const LocalState& state) const {
   const Vector6 d = relative_motion(state, state.node(0).R * R_A_, state.node(1).R * R_B_);
   return section_.largest_strain(to_middle_ * (d - d0_) / L_);
+}
+
+double BeamElement::tension_share(const LocalState& state) const {
+  if (bending_ == BeamBending::constant) return 0;
+  const Vector6 d = relative_motion(state, state.node(0).R * R_A_, state.node(1).R * R_B_);
+  const Vector3 force = (stiffness_ * (d - d0_)).head<3>() / L_;
+  return std::max(0.0, force.dot(d0_.head<3>().normalized()) * sideways_);
 }
 
 std::unique_ptr<Gatherer> BeamElement::make_gatherer() const { return std::make_unique<BeamStrainWatch>(*this); }

@@ -24,9 +24,10 @@
 // d, and the physical strain there is C^-1 A(1/2) f: these are what the results hold. (Without all this, `bending:
 // constant`: C_e the mean of C; eps and f themselves are the strain and the resultants.)
 //
-// Limits: the ends of one element turn by less than 180 degrees against each other (`largest_turn` at the end of a
-// step); an error advises to refine. The relative rotation may well grow over several elements. Strains are small
-// enough for a linear law of the resultants.
+// Limits: tension well below 12 EI/L^2 of an element (tension_share); finer elements bear more, and `bending: constant`
+// has no such limit. The ends of one element turn by less than 180 degrees against each other (`largest_turn` at the
+// end of a step); an error advises to refine. The relative rotation may well grow over several elements. Strains are
+// small enough for a linear law of the resultants.
 #pragma once
 
 #include <memory>
@@ -82,6 +83,10 @@ class BeamElement : public Component {
   bool knows_its_shape() const { return !section_.reach.isZero(); }  ///< else the section is given by constants
   /// In the middle, see beam_strain.hpp; to first order in how far the element itself bends.
   double largest_strain(const LocalState& state) const;
+  /// The resultant along d0 [N] over what the element bears: residual flexibility counts as shear, and under a tension
+  /// of the element's effective shear stiffness, 12 EI/L^2 of a slender one, it yields sideways as no beam does. 0 for
+  /// `bending: constant`.
+  double tension_share(const LocalState& state) const;
   std::unique_ptr<Gatherer> make_gatherer() const override;
 
  private:
@@ -104,6 +109,7 @@ class BeamElement : public Component {
   BeamSection section_;  ///< in the middle
   Matrix6 flexibility_;  ///< C^-1 in the middle
   Matrix6 to_middle_;    ///< eps -> strain in the middle, at the reference
+  double sideways_ = 0;  ///< effective compliance of shear [1/N], see tension_share
   double mass_;          ///< [kg]
   double damping_;
   BeamInertia inertia_;

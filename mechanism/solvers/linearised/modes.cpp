@@ -194,17 +194,19 @@ class ModeSearch {
           for (const Eigenpair& pair : known_well) from = std::max(from, beyond * std::abs(pair.s));
           break;
         }
-        if (has_own_units()) find_rigid_among(nearby.pairs);
-        return finished(std::move(result), whole && !missing && !limited);
+        const bool dropped = has_own_units() && find_rigid_among(nearby.pairs) > 0;
+        return finished(std::move(result), whole && !missing && !dropped && !limited);
       }
     }
   }
 
-  void find_rigid_among(const std::vector<Eigenpair>& pairs) {
+  /// @returns how many zeros no rigid motion stands for: a double zero has one motion, a single one is a state at rest
+  Eigen::Index find_rigid_among(const std::vector<Eigenpair>& pairs) {
     std::vector<Eigenpair> zeros;
     for (const Eigenpair& pair : pairs)
       if (is_zero(pair)) zeros.push_back(pair);
     rigid_.shapes = find_free_shapes(e_, around_.T(), zeros);
+    return std::max<Eigen::Index>(0, static_cast<Eigen::Index>(zeros.size()) - 2 * rigid_.shapes.cols());
   }
 
   Modes finished(Modes result, bool all) const {

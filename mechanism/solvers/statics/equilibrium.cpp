@@ -166,6 +166,9 @@ int Equilibrium::iterate_relaxing(double factor, State& state) {
   constexpr int most_iterations = 300;
   apply_motions(system_, ramp_.motion(factor), state);
   evaluate(state);
+  tangent_.try_factor(state, environment_);  // singular where inertia alone resists: its entries tell the rounding
+  convergence_.measure_rounding(tangent_.linear(), state);
+  length_ = std::max(model_length(state), longest_arm_of_inertia(state));
   double tau_squared = first_tau_squared(state);
   for (int iteration = 0; iteration < most_iterations && r_.allFinite(); ++iteration) {
     const bool reached = this->reached();
@@ -194,12 +197,25 @@ double Equilibrium::largest_turn() const {
   return turn;
 }
 
+/// The largest radius of gyration about a node [m], the distance of the centre of mass included: the size of a body
+/// whose node stands at the origin.
+double Equilibrium::longest_arm_of_inertia(const State& state) const {
+  LinearStep mass(system_);
+  mass.assemble(state, environment_, TangentWeights{0, 0, 1, 0, 0}, nullptr);
+  double translation = 0, rotation = 0;
+  for (int i = 0; i < system_.dofs(); ++i) {
+    if (system_.kind(i) == Kind::translation) translation = std::max(translation, mass.diagonal(i));
+    if (system_.kind(i) == Kind::rotation) rotation = std::max(rotation, mass.diagonal(i));
+  }
+  return translation > 0 ? std::sqrt(rotation / translation) : 0;
+}
+
 /// Its largest turn, or displacement relative to the mechanism's size.
 double Equilibrium::extent(const State& state) const {
   double displacement = 0;
   for (int i = 0; i < system_.dofs(); ++i)
     if (system_.kind(i) == Kind::translation) displacement = std::max(displacement, std::abs(delta_[i]));
-  return std::max(largest_turn(), displacement / model_length(state));
+  return std::max(largest_turn(), displacement / std::max(length_, model_length(state)));
 }
 
 /// In which the accelerations of rest lead through a part of `longest`.
@@ -331,7 +347,8 @@ void Equilibrium::factor(const State& state, double inertia) {
   tangent_.factor(state, environment_, inertia);
   environment_.before = nullptr;
   last_sign_ = tangent_.linear().determinant_sign();
-  convergence_.measure_rounding(tangent_.linear(), state);
+  // Inertia holds nothing at rest: what rounding makes of its forces is no part of the residual.
+  if (inertia == 0) convergence_.measure_rounding(tangent_.linear(), state);
   convergence_.measure_by(scale_);
 }
 

@@ -85,6 +85,7 @@ class Equilibrium {
   void solve();
   double largest_turn() const;
   double extent(const State& state) const;
+  double longest_arm_of_inertia(const State& state) const;
   void factor(const State& state, double inertia = 0);
   void move(State& state, const State& base, double part);
   bool reached();
@@ -111,6 +112,7 @@ class Equilibrium {
   /// Forces (dofs) along what nothing holds that are taken for none: rounding next to what they balance. Or none (size
   /// 0).
   VectorX balanced_;
+  double length_ = 0;  ///< of the mechanism by its masses, while `relax` goes on [m]; 0: not looked at
   long solves_ = 0;
   VectorX r_, delta_;
   ResidualScale scale_;

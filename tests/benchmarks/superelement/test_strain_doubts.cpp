@@ -164,7 +164,7 @@ TEST_CASE("beams say how far they are strained: stretch, bending, torsion") {
   const auto none = [](double) -> Vector3 { return Vector3::Zero(); };
   const auto stretch = [&](double e) {
     return beam_says(
-        circle,
+        "circle: 0.2",  // thick enough for its tension
         [e](double s) -> Vector3 {
           return {s * (1 + e), 0, 0};
         },

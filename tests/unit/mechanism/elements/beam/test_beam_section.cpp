@@ -147,8 +147,10 @@ TEST_CASE("a section that does not exist is refused with its key") {
       Contains("section.yaml:1: rectangel: 'rectangel' is no kind of section") && Contains("did you mean 'rectangle'"));
   CHECK_THROWS_WITH(section("{ba: 2, density: 3}"), Contains("'ba' is no kind of section; expected one of"));
   CHECK_THROWS_WITH(section("{circle: 1, young: 1, shear: 1, stress_points: []}"), Contains("at least one point"));
-  CHECK_THROWS_WITH(section("{rectangle: [1e200, 1e200], young: 1, shear: 1}"), Contains("too large or too small"));
-  CHECK_THROWS_WITH(section("{rectangle: [1e-200, 1e-200], young: 1, shear: 1}"), Contains("too large or too small"));
+  CHECK_THROWS_WITH(section("{rectangle: [1e200, 1e200], young: 1, shear: 1}"),
+                    Contains("expected lengths in metres from 1e-12 to 1e+06"));
+  CHECK_THROWS_WITH(section("{rectangle: [1e-200, 1e-200], young: 1, shear: 1}"),
+                    Contains("expected lengths in metres from 1e-12 to 1e+06"));
   CHECK_THROWS_WITH(section("{circle: 1, young: 1, shear: 1, density: 1, offset: [1e200, 0]}"),
                     Contains("too large or too small"));
   CHECK_THROWS_WITH(section("{young: 1, shear: 1}"), Contains("exactly one of"));

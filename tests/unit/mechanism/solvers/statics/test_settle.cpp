@@ -147,3 +147,19 @@ TEST_CASE("spins of taut rods are indifferent, whatever rounding makes of their 
   settled(on_its_tip, unstable);
   CHECK(unstable.unstable == 1);
 }
+
+TEST_CASE("a pendulum hangs down in equilibrium, also where its node stands at the origin") {
+  // The node is the hinge, d away from the origin; the centre of mass is 0.3 m from it, drawn level.
+  for (const double d : {0.0, 1e-12, 1e-5, 1e-3, 0.9}) {
+    CAPTURE(d);
+    const ReadyModel model(fmt::format(
+        "gravity: [0, 0, -9.81]\nnodes: {{a: {{position: [{0}, 0, 0]}}}}\n"
+        "elements: {{a: {{type: rigid_body, node: a, mass: 10, inertia: [0.1, 1, 1], centre: [0.3, 0, 0]}}}}\n"
+        "joints: {{b: {{type: hinge, nodes: [ground, a], position: [{0}, 0, 0], axis: [0, 1, 0]}}}}\n",
+        d));
+    StartReport report;
+    const State state = settled(model, report);
+    CHECK(state.nodes[1].R(2, 0) == Approx(-1).margin(1e-9));  // its x axis points down
+    CHECK(report.unstable == 0);
+  }
+}
