@@ -82,7 +82,10 @@ BeamElement::BeamElement(std::string name, BeamPlace place, int node_a, int node
   to_middle_ = flexibility_ * equilibrium(d0_, exp_se3(-0.5 * d0_)) * stiffness_;
   const Vector3 along = d0_.head<3>().normalized();
   const Matrix3 across = Matrix3::Identity() - along * along.transpose();
-  sideways_ = (across * symmetric_inverse(stiffness_).topLeftCorner<3, 3>() * across).norm();
+  const Matrix3 shear = across * symmetric_inverse(stiffness_).topLeftCorner<3, 3>() * across;
+  // The larger of its two eigenvalues, by their sum and the sum of their squares.
+  const double sum = shear.trace();
+  sideways_ = 0.5 * (sum + std::sqrt(std::max(0.0, 2 * shear.squaredNorm() - sum * sum)));
 }
 
 void BeamElement::declare(Declaration& declaration) const {

@@ -6,10 +6,9 @@
 // over the body is what does not cancel, stretch and uniform shear: by it linear elasticity is wrong to the first
 // order.
 //
-// Files without strains (`/reduced/strain`) have the stretch of the lines between their interfaces alone.
+// Files without strains (`/reduced/strain`) tell nothing: the line between two interfaces becomes shorter where a body
+// bends, without strain.
 #pragma once
-
-#include <vector>
 
 #include "mechanism/elements/superelement/superelement_body_matrices.hpp"
 
@@ -24,18 +23,13 @@ struct StrainSizes {
 class BodyStrain {
  public:
   BodyStrain() = default;
-  /// @param matrices  kept as long as this is @param points  interfaces, as placed
-  BodyStrain(const SuperelementMatrices& matrices, const std::vector<BodyPoint>& points);
+  /// @param matrices  kept as long as this is
+  explicit BodyStrain(const SuperelementMatrices& matrices);
   /// @param eps  linear coordinates
   StrainSizes calc(const VectorX& eps) const;
 
  private:
-  struct Line {
-    int from, to;        ///< rows of the interfaces' displacements
-    Vector3 per_length;  ///< direction over length [1/m]
-  };
-  const MatrixX* strains_ = nullptr;  ///< of the matrices
-  std::vector<Line> lines_;
+  const MatrixX* strains_ = nullptr;  ///< of the matrices; nullptr: not known
 };
 
 }  // namespace bielle::mechanism

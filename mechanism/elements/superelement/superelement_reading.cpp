@@ -79,10 +79,12 @@ StartMotion rigid_motion_of(const Model& model, const RigidlyFollowed& followed,
     normal.bottomRightCorner<3, 3>() += area * Matrix3::Identity();
     right.tail<3>() += area * node.omega;
   }
-  // About what no node tells of (a line of points) it does not turn.
+  // About an axis that no node tells of (a line of points) it does not turn; all else is refined to rounding.
   constexpr double little = 1e-12;
-  normal.bottomRightCorner<3, 3>() += little * area * Matrix3::Identity();
-  const Vector6 motion = solve_symmetric(normal, right);
+  Matrix6 regular = normal;
+  regular.bottomRightCorner<3, 3>() += little * area * Matrix3::Identity();
+  Vector6 motion = solve_symmetric(regular, right);
+  motion += solve_symmetric(regular, Vector6(right - normal * motion));
   return {place, motion.head<3>(), motion.tail<3>()};
 }
 

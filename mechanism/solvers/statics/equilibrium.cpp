@@ -166,11 +166,12 @@ int Equilibrium::iterate_relaxing(double factor, State& state) {
   constexpr int most_iterations = 300;
   apply_motions(system_, ramp_.motion(factor), state);
   evaluate(state);
-  tangent_.try_factor(state, environment_);  // singular where inertia alone resists: its entries tell the rounding
-  convergence_.measure_rounding(tangent_.linear(), state);
+  LinearStep stiffness(system_);  // inertia holds nothing at rest: the rounding of its forces is none of the residual
   length_ = std::max(model_length(state), longest_arm_of_inertia(state));
   double tau_squared = first_tau_squared(state);
   for (int iteration = 0; iteration < most_iterations && r_.allFinite(); ++iteration) {
+    stiffness.assemble(state, environment_, TangentWeights{1, 0, 0, 0, 1, true}, nullptr);
+    convergence_.measure_rounding(stiffness, state);
     const bool reached = this->reached();
     judged_ = true;
     if (iteration > 0 && reached) return iteration;
@@ -347,7 +348,6 @@ void Equilibrium::factor(const State& state, double inertia) {
   tangent_.factor(state, environment_, inertia);
   environment_.before = nullptr;
   last_sign_ = tangent_.linear().determinant_sign();
-  // Inertia holds nothing at rest: what rounding makes of its forces is no part of the residual.
   if (inertia == 0) convergence_.measure_rounding(tangent_.linear(), state);
   convergence_.measure_by(scale_);
 }

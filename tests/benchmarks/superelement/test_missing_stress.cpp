@@ -48,8 +48,8 @@ struct Spin {
 Spin spin(const TemporaryFolder& folder, const std::string& output) {
   const std::string text = fmt::format(
       "nodes:\n"
-      "  a: {{position: [-0.5, 0, 0], velocity: [0, {1}, 0], angular_velocity: [0, 0, {0}]}}\n"
-      "  b: {{position: [0.5, 0, 0], velocity: [0, {2}, 0], angular_velocity: [0, 0, {0}]}}\n"
+      "  a: {{position: [0, 0.02, 0.02], velocity: [0, {1}, 0], angular_velocity: [0, 0, {0}]}}\n"
+      "  b: {{position: [1, 0.02, 0.02], velocity: [0, {2}, 0], angular_velocity: [0, 0, {0}]}}\n"
       "elements: {{m: {{type: superelement, file: {3}/bar.h5, nodes: {{x0: a, x1: b}}}}}}\n"
       "analysis: [{{type: dynamic, duration: 2e-3, step: 2e-5}}]\n{4}",
       speed, -speed * half, speed * half, folder.path(), output);

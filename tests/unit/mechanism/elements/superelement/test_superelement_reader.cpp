@@ -114,8 +114,6 @@ TEST_CASE("nodes made for a superelement start with the rigid motion of those th
   const Vector3 omega = pin.frame.R * pin.angular_velocity;
   for (int k : {2, 3}) {
     const Node& node = model->node(k);
-    CAPTURE(1e15 * error(node.velocity, pin.velocity + omega.cross(node.frame.x - pin.frame.x)));
-    CAPTURE(1e15 * error(node.frame.R * node.angular_velocity, omega));
     CHECK(error(node.velocity, pin.velocity + omega.cross(node.frame.x - pin.frame.x)) < 1e-14);
     CHECK(error(node.frame.R * node.angular_velocity, omega) < 1e-14);
   }
