@@ -287,10 +287,10 @@ class AgainstSingleRuns(InFolder):
 
     def test_a_study_over_20_values_equals_20_single_runs(self):
         self.write("pendulum.yaml", PENDULUM)
-        done = self.study("pendulum.yaml", "--grid", "mass=0:1.9:20", "--gather", "deep=max measures/depth", "--gather",
+        done = self.study("pendulum.yaml", "--grid", "mass=-0.05:1.85:20", "--gather", "deep=max measures/depth", "--gather",
                           "end=measures/depth at 0.3", "--keep", "all")
-        self.assertEqual(done.returncode, 2, done.stderr)  # without mass a run fails, the others are done
-        self.assertRegex(done.stdout, r"run 1: mass = 0: FAILED: .*pendulum\.yaml:5: .*mass")
+        self.assertEqual(done.returncode, 2, done.stderr)  # of a mass below 0 a run fails, the others are done
+        self.assertRegex(done.stdout, r"run 1: mass = -0\.05: FAILED: .*pendulum\.yaml:5: .*mass")
         self.assertIn("19 of 20 runs done", done.stdout)
         with h5py.File(self.path("pendulum-study.h5")) as study:
             for number, mass in enumerate(study["parameters/mass"].asstr()[:], start=1):
