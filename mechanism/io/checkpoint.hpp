@@ -26,9 +26,10 @@ struct Checkpoint {
   std::optional<std::int64_t> rows_sum = {};  ///< ResultsStream::sum_of_rows; nothing in files of before
 };
 
-/// What a checkpoint belongs to besides what the model was read from (model_difference.hpp), one thing per line: the
-/// format of its numbers, how many of each kind the state has, and gravity, nodes and components in their order, with
-/// the size of their forces in a probing state. A run can go on only with the same.
+/// The fingerprint tells models apart, besides the input that they were read from (model_difference.hpp). It names, one
+/// per line, the format of a checkpoint's numbers, how many of each kind the state has, and gravity, nodes and
+/// components in their order, with the size of their forces in a probing state. A run can go on only with the same
+/// fingerprint.
 std::string fingerprint(const Model& model);
 
 /// The last checkpoint of a results file.
