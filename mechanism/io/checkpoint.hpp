@@ -20,9 +20,9 @@ namespace bielle::mechanism {
 class Model;
 
 struct Checkpoint {
-  int analysis = 0;            ///< 1-based, as in /analysis_1
-  std::size_t rows = 0;        ///< of its results that were recorded
-  std::vector<double> values;  ///< of the Archive
+  int analysis = 0;                           ///< 1-based, as in /analysis_1
+  std::size_t rows = 0;                       ///< of its results that were recorded
+  std::vector<double> values;                 ///< of the Archive
   std::optional<std::int64_t> rows_sum = {};  ///< ResultsStream::sum_of_rows; nothing in files of before
 };
 
