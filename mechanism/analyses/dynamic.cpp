@@ -113,11 +113,12 @@ std::string format_events(const Motion& motion) {
                      motion.stopped_by_event() ? ", which stopped the run" : "");
 }
 
-/// What goes in and is dissipated in the same step cancels, and leaves no error: where more flows through in a step
-/// than is stored, a part of it will do as measure.
+/// Energy that goes in and is dissipated in the same step cancels, and leaves no error: if more energy flows through in
+/// a step than is stored, a part of the flow is the measure.
 constexpr double part_of_turnover = 0.1;
 
-/// What the balance lacks, relative to the largest energy, stored or flowed through. Negative: energy is missing.
+/// The gap is the surplus of the balance, relative to the largest energy, stored or flowed through. Energy is missing
+/// if it is negative.
 struct Gap {
   double whole, scheme;  ///< of it what the scheme's own damping has taken
   double turnover;       ///< largest error while the stored energy is turned over once, by what is stored then

@@ -40,7 +40,7 @@ double shown_damping(const Mode& mode) {
   return nothing ? 0 : mode.damping_ratio();
 }
 
-/// Of eigenvalues that are hardly known, how well.
+/// The text says how uncertain those eigenvalues are that rounding leaves hardly known.
 std::string format_uncertain(const std::vector<Mode>& modes) {
   constexpr double well_known = 1e-3;
   std::string text;

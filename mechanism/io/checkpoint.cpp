@@ -118,7 +118,8 @@ void check_sum(const Hdf5File& file, const std::string& group, std::size_t count
     fail_damaged(file, group + "/state does not hold the numbers that were written");
 }
 
-/// Of a point at which a run was interrupted: that at which it made its tangents anew (Motion::save_where_interrupted).
+/// A point at which a run was interrupted has an anchor, the point at which the run made its tangents anew
+/// (Motion::save_where_interrupted); this appends it.
 void append_anchor(const Hdf5File& file, const std::string& group, const std::vector<double>& rows,
                    Checkpoint& checkpoint) {
   const std::vector<double>& values = checkpoint.values;

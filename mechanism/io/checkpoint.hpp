@@ -20,15 +20,16 @@ namespace bielle::mechanism {
 class Model;
 
 struct Checkpoint {
-  int analysis = 0;            ///< 1-based, as in /analysis_1
-  std::size_t rows = 0;        ///< of its results that were recorded
-  std::vector<double> values;  ///< of the Archive
+  int analysis = 0;                           ///< 1-based, as in /analysis_1
+  std::size_t rows = 0;                       ///< of its results that were recorded
+  std::vector<double> values;                 ///< of the Archive
   std::optional<std::int64_t> rows_sum = {};  ///< ResultsStream::sum_of_rows; nothing in files of before
 };
 
-/// What a checkpoint belongs to besides what the model was read from (model_difference.hpp), one thing per line: the
-/// format of its numbers, how many of each kind the state has, and gravity, nodes and components in their order, with
-/// the size of their forces in a probing state. A run can go on only with the same.
+/// The fingerprint tells models apart, besides the input that they were read from (model_difference.hpp). It names, one
+/// per line, the format of a checkpoint's numbers, how many of each kind the state has, and gravity, nodes and
+/// components in their order, with the size of their forces in a probing state. A run can go on only with the same
+/// fingerprint.
 std::string fingerprint(const Model& model);
 
 /// The last checkpoint of a results file.

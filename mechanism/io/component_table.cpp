@@ -91,7 +91,7 @@ std::optional<std::string> where_it_belongs(Section section, const std::string& 
                        : fmt::format("; `{}` is a section of its own: write it there, without a type",
                                      section_name(type.section));
     }
-  // What a user may call by its section: hydraulics, measures, ..
+  // A user may take these names for types, but they belong to sections: hydraulics, measures, ..
   static const std::vector<std::pair<std::string, std::string>> others = {
       {"measure", "measures"},   {"input", "inputs"},           {"event", "events"},        {"node", "nodes"},
       {"line", "hydraulics"},    {"volume", "hydraulics"},      {"junction", "hydraulics"}, {"supply", "hydraulics"},

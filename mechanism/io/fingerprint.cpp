@@ -1,4 +1,4 @@
-// What a model is in short: counts, start positions, and forces in a probing state.
+// The fingerprint of a model is a short description: counts, start positions, and forces in a probing state.
 #include <cmath>
 #include <vector>
 
@@ -12,7 +12,8 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Of the numbers in a checkpoint: one more whenever what is exchanged with the Archive, or its order, changes.
+/// The format number of a checkpoint grows by one whenever the values exchanged with the Archive, or their order,
+/// change.
 constexpr int format = 8;
 
 /// A little off the start, and moving: what forces depend on shows.
@@ -37,7 +38,7 @@ State displaced(const System& system, const State& start) {
   return state;
 }
 
-/// What a component's forces are in short.
+/// The text describes a component's forces in short.
 std::string forces(const Component& component, const LocalState& state) {
   VectorX r = VectorX::Zero(state.slots().size());
   try {
@@ -46,7 +47,7 @@ std::string forces(const Component& component, const LocalState& state) {
     return "refuses";
   }
   std::string text = fmt::format("{:.10g}", r.norm());
-  // What forces do not show yet: crossings to come, and times at which something begins.
+  // Forces do not show yet which crossings are to come, and at which times something begins.
   Declaration declaration;
   component.declare(declaration);
   if (!declaration.crossings.empty()) {

@@ -1,4 +1,5 @@
-// What of a model has changed since a checkpoint was written: value by value, by the digest of what it was read from.
+// This comparison finds the values of a model that have changed since a checkpoint was written, one by one, by the
+// digest of the input.
 #pragma once
 
 #include <string>

@@ -1,9 +1,9 @@
 // Numbers that go into a checkpoint and come back from it, by one and the same walk over what is kept:
 //     void exchange(Archive& archive) { archive(time_); archive(state_); ... }
 //
-// What comes back is judged number by number: it may be damaged, or of something else. Each is finite (but for what
-// components remember, which system/check_state.hpp judges), whole and within its range where it counts or chooses, and
-// every list has the length that it has here.
+// The numbers that come back are judged one by one: they may be damaged, or belong to another model. Each is finite
+// (except the memory of components, which system/check_state.hpp judges), whole and within its range where it counts or
+// chooses, and every list has the length that it has here.
 #pragma once
 
 #include <cmath>

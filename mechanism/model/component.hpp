@@ -45,11 +45,12 @@ struct Crossing {
   /// Forces, rates or constraints may change after it: the motion is restarted there. Otherwise it is only noted.
   bool restarts = true;
   bool stops = false;  ///< the run ends there
-  /// What holds by a force is overloaded: of several that are so at once, the one that is farthest beyond (its value the
-  /// most negative) lets go first, because the others may hold without it.
+  /// The crossing tells that a part which holds by a force is overloaded: if several are so at once, the one that is
+  /// farthest beyond (its value the most negative) lets go first, because the others may hold without it.
   bool one_by_one = false;
-  /// It is located no nearer to the start of a step than this share of the step: positions are rounded, which is an error
-  /// of rates and forces that grows as steps become shorter, and may make other crossings look met. 0: as near as can be.
+  /// It is located no nearer to the start of a step than this share of the step: positions are rounded, which is an
+  /// error of rates and forces that grows as steps become shorter, and may make other crossings look met. 0: as near as
+  /// can be.
   double nearest = 0;
   /// The side on which every motion begins, +1 or -1: one that begins on the other side has crossed. 0: either.
   int begins_on = 0;
@@ -175,10 +176,10 @@ class Component {
   /// says otherwise (a rod between two points turns with the line between them).
   virtual double turning_rate(const LocalState& state) const;
 
-  /// Where an analysis begins, positions and velocities known: adds what start values of first-order unknowns, its own or
-  /// those of components that it refers to, have to change (a filter begins at its input). Asked again until nothing
-  /// changes. A motion goes on with the values of the one before: what has begun is for the component's memory to tell.
-  /// In a static analysis they are where the search begins.
+  /// When an analysis begins, with positions and velocities known, a component adds the changes that the start values
+  /// of first-order unknowns need, its own or those of components that it refers to (a filter begins at its input). It
+  /// is asked again until nothing changes. A motion goes on with the values of the one before: the component's memory
+  /// has to tell what has begun. In a static analysis the search begins at these values.
   /// @param change  of the component's local layout
   virtual void add_start_values(const LocalState& /*state*/, Eigen::Ref<VectorX> /*change*/) const {}
 

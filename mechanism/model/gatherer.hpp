@@ -32,7 +32,8 @@ class Gatherer {
     return names;
   }
   virtual std::string summary() = 0;  ///< the same in lines for the user; each ends with a line break
-  /// Of those with one voice (the elements of a beam) the loudest alone has a summary. Empty: it speaks for itself.
+  /// Among gatherers with the same voice (the elements of a beam) the loudest alone has a summary. A gatherer with an
+  /// empty voice speaks for itself.
   virtual std::string voice() const { return {}; }
   virtual double loudness() const { return 0; }
   /// What it gathers, of whom: "peaks of 'rod': von_mises". Only with the same can a run go on.

@@ -113,8 +113,8 @@ class Model {
   Environment environment;  ///< gravity with load factor 1
   std::string title;
   Parameters parameters;  ///< of the input file, overrides included
-  /// What nodes and components were read from: each value by the path of its key, "joints.main.stops.damping", as
-  /// YamlValue::digest gives it. Empty where the model was made otherwise.
+  /// The source holds the values that nodes and components were read from: each by the path of its key,
+  /// "joints.main.stops.damping", as YamlValue::digest gives it. It is empty if the model was made otherwise.
   std::vector<std::pair<std::string, std::string>> source;
 
  private:

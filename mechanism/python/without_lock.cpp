@@ -7,7 +7,7 @@
 namespace bielle::python {
 namespace {
 
-// Of the process, as Python's lock is.
+// These belong to the whole process, as Python's lock does.
 std::atomic<int> computing = 0;
 std::atomic<bool> ending = false, abandoned = false;
 

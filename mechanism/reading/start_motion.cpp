@@ -7,7 +7,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Of a node that nothing carries.
+/// The motion is that of a node that nothing carries.
 StartMotion own_motion(const Node& node) {
   StartMotion motion{node.frame.x, node.velocity, node.frame.R * node.angular_velocity};
   for (int k = 0; k < 3; ++k)

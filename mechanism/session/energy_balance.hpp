@@ -1,9 +1,9 @@
 // Keeps the books of energy along a motion: what is stored, what went in, what was dissipated, what is missing.
 //
-// What is missing counts relative to what is stored, and to what flows through: a steady machine turns over its energy
-// many times, and errors add up. It is therefore also judged by turnovers, stretches of the motion in which as much
-// flows through as has ever been stored: `largest_error` is the largest error of one of them. Without it a long run
-// would hide any error in its flow.
+// Missing energy counts relative to the energy stored, and to the energy that flows through: a steady machine turns
+// over its energy many times, and errors add up. The error is therefore also judged by turnovers, stretches of the
+// motion in which as much flows through as has ever been stored: `largest_error` is the largest error of one of them.
+// Without it a long run would hide any error in its flow.
 #pragma once
 
 #include <algorithm>
@@ -61,7 +61,8 @@ class EnergyBalance {
   double balance() const { return stored(totals_) - start_ - totals_.input + totals_.dissipation; }
   double energy_at_start() const { return start_; }
   double largest() const { return largest_; }  ///< of the stored energies, gravity's from the start on [J]
-  /// What has flowed through: the larger of what went in and what was dissipated, whatever their signs on the way [J].
+  /// The energy that has flowed through is the larger of the input and the dissipation, whatever their signs on the way
+  /// [J].
   double through() const { return flow_.larger(); }
   /// The largest error of a turnover [J], and what flowed through in the largest one [J].
   double largest_error() const { return std::max(largest_error_, std::abs(error() - error_before_)); }

@@ -30,8 +30,7 @@ Motion::Motion(Session& session, const DynamicsOptions& options) : session_(&ses
   apply_motions(system, 1, state);
   system.begin_motion(state, environment, false);
   const StartConditions conditions = session.start_conditions();
-  if (!conditions.empty() || !options.held.empty())
-    assemble_positions(system, environment, state, start_, conditions);
+  if (!conditions.empty() || !options.held.empty()) assemble_positions(system, environment, state, start_, conditions);
   if (options.equilibrium) {
     AssemblyOptions held;
     held.kept_coordinates = options.held;

@@ -64,7 +64,7 @@ class Motion {
   double scheme_loss() const { return parts_.integration->scheme_loss(); }
   /// What the consistent start changed. Nothing, where a saved motion went on.
   const StartReport& start() const { return start_; }
-  /// What the user should know at the end: sentences.
+  /// The doubts are sentences that the user should read at the end.
   std::vector<std::string> doubts() const;
   const MarchLog& log() const { return parts_.march->log(); }  ///< what steps cost, and why some were refused
 

@@ -1,4 +1,4 @@
-// Where the steps of a motion have to end.
+// These functions tell where the steps of a motion have to end.
 #pragma once
 
 #include "mechanism/session/motion.hpp"

@@ -13,7 +13,7 @@ class PrescribedJumps {
  public:
   /// Takes note of a discontinuity of a motion, where a prescribed rate jumps at it.
   void add(const System& system, const Jump& jump);
-  /// What the user should know at the end of a run: a sentence, or none. @param largest  energy in the run [J]
+  /// The user should read this sentence at the end of a run; there may be none. @param largest  energy in the run [J]
   std::vector<std::string> doubts(double largest) const;
 
  private:

@@ -32,7 +32,7 @@ void Motion::exchange_books(Archive& archive, Parts& parts) {
   archive.of_any_length(parts.gathered);
 }
 
-/// What belongs to the sink stands last.
+/// The numbers of the sink stand last.
 void Motion::write(Archive& archive, ResultSink* sink) {
   parts_.gathered = session_->gatherers_.numbers();
   exchange_books(archive, parts_);
@@ -125,9 +125,9 @@ void Motion::write_to_sinks() {
   saved_ = true;
 }
 
-/// A point to go on from makes tangents anew, here and where the run goes on. Where the user has asked for points every
-/// so many steps, an uninterrupted run does so at these alone: the last of them is then gone on from, up to here again
-/// (`arrives`). So what follows is the same to the bit.
+/// A point to go on from makes tangents anew, here and where the run goes on. If the user has asked for points every so
+/// many steps, an uninterrupted run makes them anew at these alone: the run then goes on from the last of them, up to
+/// here again (`arrives`). So all later steps are the same to the bit.
 void Motion::save_where_interrupted() {
   if (!session_ || saved_) return;
   if (!anchored_ || session_->recording_.checkpoint == 0) return save_for_sinks();

@@ -87,8 +87,8 @@ class Session {
   /// Small motions about the present state, which stays: about the start made consistent, an equilibrium under the part
   /// of the load that it stands under, the end of a motion. @throws ComputationError
   ModesReport modes(const ModesOptions& options) const;
-  /// Modes over a speed, tracked, with critical speeds; the present state stays. Where it is stopped, the values so
-  /// far.
+  /// Modes over a speed, tracked, with critical speeds; the present state stays. If the analysis is stopped, it
+  /// returns the values so far.
   /// @throws InputError where nothing turns, or the model cannot be made with another parameter; ComputationError
   Campbell campbell(const CampbellOptions& options);
   /// How small motions about the present state answer to harmonic inputs. @throws InputError for names that the model

@@ -6,8 +6,8 @@
 namespace bielle::mechanism {
 
 /// @throws InputError unless every list has the length that the mechanism asks for, every number is finite, the axes of
-///         every node are a rotation, and each component knows its memory: names the node or component. What begins as
-///         no number in a memory may be none.
+///         every node are a rotation, and each component knows its memory: names the node or component. An entry of a
+///         memory that begins as no number may be none.
 void check_state(const System& system, const State& state);
 
 }  // namespace bielle::mechanism

@@ -64,7 +64,7 @@ std::string did_you_mean(const std::string& name, std::span<const std::string> c
   if (candidates.empty()) return "";
   std::vector<std::string> shown(candidates.begin(), candidates.end());
   if (shown.size() > most_shown && !name.empty()) {
-    // Of many, those that are most like it: nearest first.
+    // If there are many, those that are most like the name are shown, the nearest first.
     const std::string wanted = lower_case(name);
     std::stable_sort(shown.begin(), shown.end(), [&](const std::string& a, const std::string& b) {
       return unlikeness(wanted, a) < unlikeness(wanted, b);

@@ -1,4 +1,4 @@
-// What an input file says, value by value, so that two of them can be compared.
+// A digest lists the values of an input file one by one, so that two files can be compared.
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -63,7 +63,7 @@ std::string sum_of_file(const std::string& folder, const std::string& name) {
   return fmt::format("; contents {:x}", sum_over_file(path.string()));
 }
 
-/// Of the text as a whole and of each name in quotes: `table('torque.csv', t)`.
+/// The sums are those of the files that the whole text, or a name in quotes in it, names: `table('torque.csv', t)`.
 std::string files_in(const std::string& text, const std::string& folder) {
   std::string sums = sum_of_file(folder, text);
   for (std::size_t k = text.find_first_of("'\""); k != std::string::npos;) {

@@ -83,7 +83,7 @@ class YamlValue {
   std::string file_path() const;
 
   /// Every value below this one by its path, in the order of the file, as it counts: numbers by their values, formulas
-  /// with the values of the parameters in them ("2*k (k = 3)"), names of files with a sum over their contents. Where
+  /// with the values of the parameters in them ("2*k (k = 3)"), names of files with a sum over their contents. If two
   /// digests are equal, the same is described. @param but  keys of this map to leave out
   std::vector<std::pair<std::string, std::string>> digest(const std::vector<std::string>& but = {}) const;
 

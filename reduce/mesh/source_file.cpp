@@ -49,8 +49,8 @@ std::string ending_of(const std::string& path) {
   return ending;
 }
 
-// Of a universal file, which may tell its unit: Salome writes metres whatever the mesh was drawn in, so that what the
-// user says counts more.
+// A universal file may tell its unit, but Salome writes metres whatever the mesh was drawn in, so that the word of the
+// user counts more.
 void settle_universal_unit(const MeshRequest& request, double said, SourceFile& source, Progress& progress) {
   const std::optional<double> told = universal_length_unit(request.path);
   source.metres = request.length_unit ? said : told.value_or(1);

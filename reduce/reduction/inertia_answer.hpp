@@ -16,7 +16,7 @@ namespace bielle::reduce {
 
 InertiaAnswer inertia_answer_energies(const Basis& basis);
 
-/// The loads L, as a request for residual vectors: with them nothing is missing. Where the modes have all of it
+/// The loads L, as a request for residual vectors: with them nothing is missing. If the modes have all of it
 /// already, none are made.
 /// @param located  put before messages
 ResidualRequest inertia_relief(const LinearFields& linear, std::string located);

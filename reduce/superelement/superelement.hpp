@@ -92,7 +92,7 @@ struct Superelement {
       load_stiffness;  ///< K_sigma per unit interface load of each kept direction; may be empty
 
   /// Rotation of each interface's surface in terms of the coordinates, body axes (3,n), released rotations included;
-  /// zero for free ties. What the checks of load_stiffness need; may be empty.
+  /// zero for free ties. The checks of load_stiffness need it; it may be empty.
   std::vector<Eigen::MatrixXd> surface_rotations;
 
   Eigen::MatrixXd effective_mass;  ///< (m,6) of the modes: x y z [kg], rx ry rz about the centre [kg m^2]

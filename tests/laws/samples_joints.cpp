@@ -76,22 +76,25 @@ std::vector<Sample> joint_samples() {
                    "damping: 1}, locked: {from: 0.1, to: 0.2, release: 4}",
                    of_hinge));
   // A point and axes in each node's own axes, and a start: its values and rates are conditions, no components.
-  list.push_back({Section::joints, "hinge", "at, start",
-                  pair("  it: {type: hinge, nodes: [a, b], at: [[0.2, 0.1, 0.3], [-0.6, -0.2, -0.1]], axis: [[1, 2, 3], [3, 1, "
-                       "2]], second_axis: [[0, 1, -1], [1, 0, 0]], start: 0.3, start_rate: 0.2}\n"),
-                  {{"nodes", "[a, a]", "two different nodes"},
-                   {"at", "[1, 2, 3]", "the first node and of the second"},
-                   {"at", "[[1, 2, 3]]", "the first node and of the second"},
-                   {"at", "[[1, 2, 3], [1, 2]]", ""},
-                   {"position", "[0, 0, 0]", "give one of them"},
-                   {"axis", "[[1, 2, 3]]", "a pair"},
-                   {"axis", "[[1, 2, 3], [0, 0, 0]]", ""},
-                   {"second_axis", "[[0, 1, -1], [3, 1, 2]]", "parallel"},
-                   {"second_axis", "[[0, 1, -1], [1, 0, 0], [1, 0, 0]]", "a pair"},
-                   {"start", "much", ""},
-                   {"start", "{turn: 0.3}", ""},
-                   {"start_rate", "'x'", ""},
-                   {"start_rate", "{angle: [1]}", ""}}});
+  list.push_back(
+      {Section::joints,
+       "hinge",
+       "at, start",
+       pair("  it: {type: hinge, nodes: [a, b], at: [[0.2, 0.1, 0.3], [-0.6, -0.2, -0.1]], axis: [[1, 2, 3], [3, 1, "
+            "2]], second_axis: [[0, 1, -1], [1, 0, 0]], start: 0.3, start_rate: 0.2}\n"),
+       {{"nodes", "[a, a]", "two different nodes"},
+        {"at", "[1, 2, 3]", "the first node and of the second"},
+        {"at", "[[1, 2, 3]]", "the first node and of the second"},
+        {"at", "[[1, 2, 3], [1, 2]]", ""},
+        {"position", "[0, 0, 0]", "give one of them"},
+        {"axis", "[[1, 2, 3]]", "a pair"},
+        {"axis", "[[1, 2, 3], [0, 0, 0]]", ""},
+        {"second_axis", "[[0, 1, -1], [3, 1, 2]]", "parallel"},
+        {"second_axis", "[[0, 1, -1], [1, 0, 0], [1, 0, 0]]", "a pair"},
+        {"start", "much", ""},
+        {"start", "{turn: 0.3}", ""},
+        {"start_rate", "'x'", ""},
+        {"start_rate", "{angle: [1]}", ""}}});
   list.push_back(with_actions("cylindrical", "start", "start: {displacement: 0.1, angle: 4}, start_rate: {angle: 1}",
                               {{"start", "1", "several coordinates"},
                                {"start", "{turn: 1}", "turn"},

@@ -3,7 +3,7 @@
 // before and behind.
 //
 // Such a crossing is noted within a step, or (`action: restart`) ends the step, so that what is left of it has every
-// size. What may change then is measured by what steps of twice the size change.
+// size. The change is measured by the change that steps of twice the size make.
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -145,7 +145,7 @@ TEST_CASE("an event at any phase relative to the grid changes reactions by the e
             by_restarts.back() = std::max(by_restarts.back(), worst);
           }
     }
-    // Of order 2, above the rounding of the shortest steps.
+    // The change is of order 2, above the rounding of the shortest steps.
     INFO(sample.name << ": " << by_restarts[0] << " -> " << by_restarts[1]);
     CHECK(by_restarts[1] <= by_restarts[0] / 3 + 1e-6 * sample.size);
   }

@@ -1,4 +1,4 @@
-"""What an Abaqus or CalculiX file holds besides its mesh, in sentences for the user.
+"""These functions tell the user, in sentences, what an Abaqus or CalculiX file holds besides its mesh.
 
 A superelement takes its materials and interfaces from the body file. Nothing of the input is passed over in silence:
 materials are told as lines of a body file, ties and couplings as interfaces to define, masses and orientations as left out.

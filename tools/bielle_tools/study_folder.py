@@ -1,7 +1,8 @@
-"""Where the runs of a study wait for each other: a folder <name>.runs-XXXXXXXX next to its file, which one study at a time holds.
+"""Runs of a study wait for each other in a folder <name>.runs-XXXXXXXX next to its file, held by one study at a time.
 
-The folder is new (mkdtemp), or one that an earlier study of the same file has left: its plan says so. A lock in it is held
-while a study works, so that a second study of the same file is told. Of the folder nothing is removed but what studies make.
+The folder is new (mkdtemp), or one that an earlier study of the same file has left: its plan says so. A lock in it is
+held while a study works, so that a second study of the same file is told. Studies remove nothing from the folder but
+what they make.
 """
 
 import contextlib

@@ -9,7 +9,7 @@ from .messages import InputError
 
 
 def table_path(plan):
-    """Of what was gathered."""
+    """The path is that of the table of gathered values."""
     return os.path.splitext(plan.output)[0] + "-table.csv"
 
 

@@ -4,9 +4,9 @@
 // along y and z and r the shear per twist:
 //     normal = |Gamma_x + kappa_y o_z - kappa_z o_y| + |(kappa_y h, kappa_z b)|,   shear = |(Gamma_y, Gamma_z)| +
 //     |kappa_x| r.
-// Of shapes b and h are exact, r is for circles, tubes and rectangles; r of other shapes is sqrt(2 J/A), which is low
-// by up to a fifth for open walls and high by up to two fifths for closed ones. Sections given by constants are taken
-// as rectangles, b = sqrt(3 EI/EA), of Poisson's ratio 0.3.
+// For sections given as shapes b and h are exact, and so is r for circles, tubes and rectangles; r of other shapes is
+// sqrt(2 J/A), which is low by up to a fifth for open walls and high by up to two fifths for closed ones. Sections
+// given by constants are taken as rectangles, b = sqrt(3 EI/EA), of Poisson's ratio 0.3.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,8 @@
 
 namespace bielle::mechanism {
 
-/// The largest strain of a beam element over all steps. Of a beam's elements the one that is strained most speaks.
+/// The watch keeps the largest strain of a beam element over all steps. The element that is strained most speaks for
+/// its beam.
 class BeamStrainWatch final : public Gatherer {
  public:
   explicit BeamStrainWatch(const BeamElement& element) : element_(element) {}

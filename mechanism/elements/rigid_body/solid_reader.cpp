@@ -114,7 +114,7 @@ void check_cut(const YamlValue& cut, double density, const std::vector<double>& 
     cut.fail(fmt::format("what is cut out has the density {:.6g} kg/m^3, and none of the solids has it", density));
 }
 
-/// What is cut out has to be there: it is subtracted from the mass, wherever it is.
+/// A cut has to lie in material: its mass is subtracted wherever the cut lies.
 void check_empty_cuts(const YamlValue& value, const std::vector<PlacedSpace>& solids) {
   constexpr double whole = 0.999;
   for (const EmptyCut& empty : empty_cuts(solids)) {

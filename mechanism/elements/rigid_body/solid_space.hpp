@@ -1,5 +1,5 @@
-// Where solids are, so that what is cut out twice, or cut out of nothing, is found: densities add up at every place,
-// those of what is cut out being negative, and no place may be left with less than nothing.
+// The space that solids fill tells whether a part is cut out twice, or cut out of nothing: densities add up at every
+// place, a solid that is cut out has a negative density, and no place may be left with a negative sum.
 //
 // Places are sampled: each solid has cells of equal parts of its own coordinates (x y z of a box; radius, angle and
 // height of what turns about an axis), 24 along each, and one place in the middle of each cell.
@@ -33,7 +33,7 @@ struct PlacedSpace {
   double density = 0;  ///< [kg/m^3], negative where it is cut out
 };
 
-/// What of a solid that is cut out has nothing to be cut out of.
+/// An empty cut is the part of a cut solid that lies where there is nothing to cut out.
 struct EmptyCut {
   std::size_t solid = 0;  ///< its number in the list
   double share = 0;       ///< of its volume, 0..1
@@ -41,7 +41,8 @@ struct EmptyCut {
   int other = -1;
 };
 
-/// Those of which some part is empty, in the order of the list. Of cuts that share a part the later one is named.
+/// The list holds the cuts of which some part is empty, in the order of `solids`. If two cuts share a part, the later
+/// one is named.
 std::vector<EmptyCut> empty_cuts(const std::vector<PlacedSpace>& solids);
 
 }  // namespace bielle::mechanism

@@ -1,4 +1,4 @@
-// What the gatherers of a superelement look at, computed once for all of them in each step.
+// The gatherers of a superelement look at its deformation, which is computed once for all of them in each step.
 #pragma once
 
 #include <functional>
@@ -15,7 +15,7 @@ struct BodyDeformation {
   VectorX eps;         ///< linear coordinates, in the layout of corotated_frame.hpp
   double elastic = 0;  ///< energy [J]
   /// Acceleration less gravity as a field that is linear in space: (4 i + j), direction i in body axes times 1 [m/s^2],
-  /// x, y, z [1/s^2] from the centre of mass. Of the body's frame, and of points that move rigidly with it.
+  /// x, y, z [1/s^2] from the centre of mass. It belongs to the body's frame, and to points that move rigidly with it.
   Eigen::Matrix<double, 12, 1> acceleration = Eigen::Matrix<double, 12, 1>::Zero();
 };
 

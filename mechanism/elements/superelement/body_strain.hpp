@@ -1,7 +1,7 @@
 // How far a superelement is strained, by all measures of strain at places spread over it: stretch, shear, bending,
 // torsion.
 //
-// Of a strain with the principal values e1 >= e2 >= e3 the size is the larger of |e1|, |e3| and two thirds of the
+// A strain with the principal values e1 >= e2 >= e3 has as its size the largest of |e1|, |e3| and two thirds of the
 // largest shear, e1 - e3: a bar that is stretched by e has the size e, one that is sheared by gamma 2/3 gamma. The mean
 // over the body is what does not cancel, stretch and uniform shear: by it linear elasticity is wrong to the first
 // order.

@@ -2,12 +2,14 @@
 //
 // With its interfaces held, the body gives way under the accelerations c of its motion (gravity is one) by a static
 // answer of the energy c^T W c / 2, of which modes and residual vectors lack c^T D c / 2 (`/reduced/inertia_answer` of
-// the file). What they lack is orthogonal in stiffness to all that the body has, of the energy V: of its stress, in the
-// energy norm (the root of the mean square), it lacks the share sqrt(D / (V + D)). Both energies are the largest of the
-// motion, since stress is looked at where it is large, and accelerations are ahead of the stress that they cause.
+// the file). The lacking part is orthogonal in stiffness to all that the body has, of the energy V: the body lacks the
+// share sqrt(D / (V + D)) of its stress, in the energy norm (the root of the mean square). Both energies are the
+// largest of the motion, since stress is looked at where it is large, and accelerations are ahead of the stress that
+// they cause.
 //
 // Accelerations are means of two steps: those that alternate from step to step are the scheme's ringing.
-// What vibrates in the modes left out is not in it, nor what loads inside the body do next to themselves.
+// The estimate contains neither vibrations of the modes left out nor the stress that loads inside the body cause next
+// to their points.
 #pragma once
 
 #include <memory>

@@ -41,7 +41,7 @@ BodyTurn largest_turn(const std::vector<BodyPoint>& points, const LocalState& st
 /// @param mode_turns  (3 q, amplitudes), see Superelement
 double largest_turn_of_modes(const MatrixX& mode_turns, const LocalState& state);
 
-/// What Validity compares a body with, beyond its interfaces.
+/// Validity judges a body by these measures, besides its interfaces.
 struct ValidityMeasures {
   double gyration = 0;        ///< radius of gyration of the body [m]
   const MatrixX& mode_turns;  ///< as above; may be empty

@@ -15,9 +15,10 @@ namespace bielle::mechanism {
 namespace {
 
 constexpr double unknown = -1;  ///< pressure where the search for one begins, see Volume [Pa]
-/// What a cylinder whose pressures follow from the load gives way by in the tangent alone ([m/N] in statics, [1/kg] in
-/// motion, far below what machines do): of what several that hold the same length may bear, each step of Newton's
-/// method then takes the change of smallest norm (a proximal step), the first one from no force.
+/// A cylinder whose pressures follow from the load gives way by this much in the tangent alone ([m/N] in statics,
+/// [1/kg] in motion, far below the compliance of machines). If several cylinders hold the same length, their forces are
+/// not unique: each step of Newton's method then takes the change of smallest norm (a proximal step), the first one
+/// from no force.
 constexpr double give = 1e-11;
 
 }  // namespace

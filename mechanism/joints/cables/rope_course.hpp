@@ -28,7 +28,7 @@ struct RopeCourse {
   std::vector<Pulley> pulleys;
 };
 
-/// What a rope does at a place between its ends.
+/// A RopePlace tells how a rope passes a place between its ends.
 struct RopePlace {
   double sense = 1;  ///< +1, -1: touched, the sense in which it is turned; 0: clear of the rope
   double wrap = 0;   ///< touched: the angle, counted [rad]; clear: the sense that it would be turned in, +1 or -1
@@ -58,8 +58,8 @@ class RopeCourses {
   /// Lets the rope leave the places round which it bends backwards, and come onto those that it cuts through, until
   /// there are none. Wraps become those at this state.
   void settle(std::span<const Frame> at, std::span<RopePlace> places) const;
-  /// What each place does as drawn: the rope winds by less than one turn round what it bends round, and is clear of a
-  /// pulley that it would bend round backwards.
+  /// The places tell how the rope passes them as drawn: it winds by less than one turn round each pulley that it bends
+  /// round, and is clear of a pulley that it would bend round backwards.
   /// @param turns  more turns than that, of each place
   /// @throws std::domain_error  where pulleys overlap: which two places
   std::vector<RopePlace> as_drawn(std::span<const Frame> at, const std::vector<int>& turns) const;

@@ -6,7 +6,7 @@
 // are its length and its elongation, and
 //     T = max(0, EA (E + tau Edot)/(L - E)) while E > 0, and 0 otherwise;   L - E: how long that piece is without load.
 // Steps end where the rope leaves a pulley or comes onto it: the memory holds which ones it touches. Drums take up and
-// let out rope, so that the section's stiffness EA/(L - E) changes with its length. What is wound up
+// let out rope, so that the section's stiffness EA/(L - E) changes with its length. Rope that is wound up
 // keeps its strain: the energy 1/2 T^2/EA per length that goes with it is counted as input (negative when wound up).
 // A belt is a chain of sections of one span each. A rope has no mass and does not push: steps
 // end where it becomes slack or taut.

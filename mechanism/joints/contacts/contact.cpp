@@ -313,7 +313,7 @@ void Contact::begin_branch(const LocalState& state, std::span<const int> /*cross
   remember(state, memory);
 }
 
-/// Of the middle of a shape over a plane [m].
+/// The height is that of the middle of a shape over a plane [m].
 double Contact::height_of_middle(const LocalState& state, int plane, int other) const {
   const NodeState &of_plane = state.node(local_node(plane)), &of_other = state.node(local_node(other));
   const Frame &P = shape(plane).frame, &O = shape(other).frame;

@@ -1,7 +1,7 @@
 // Constraints that repeat what others hold already: found, named and set aside.
 //
-// A planar mechanism of hinges, closed in space, is the everyday case. Of the columns of B^T (one per multiplier,
-// scaled to length one, translations in arms of the constraints) those are found that depend on others before them in
+// A planar mechanism of hinges, closed in space, is the everyday case. The search finds those columns of B^T (one per
+// multiplier, scaled to length one, translations in arms of the constraints) that depend on others before them in
 // the file (math/rank.hpp). Their rows leave the equations and their multipliers stay zero: the motion is unaffected.
 // Reported are the reactions of smallest norm (reaction_norm.hpp).
 #pragma once

@@ -17,7 +17,7 @@ CrossingWatch::CrossingWatch(const System& system) : system_(system), values_(sy
   for (Eigen::Index k = 0; k < sides_.size(); ++k)
     sides_[k] = system.crossings()[static_cast<std::size_t>(k)].crossing.begins_on;
   for (const MemberCrossing& each : system.crossings()) {
-    // Where a force begins, continuously (surfaces touch), steps end as well, without a restart.
+    // Steps end as well, without a restart, where a force begins continuously (surfaces touch).
     Declaration declaration;
     system.model().members()[each.member].component->declare(declaration);
     ends_step_.push_back(each.crossing.restarts || each.crossing.stops || declaration.kinks);
@@ -31,7 +31,7 @@ std::vector<int> CrossingWatch::begin(const State& state, const Environment& env
   std::vector<int> jumped;
   for (int k = 0; k < static_cast<int>(sides_.size()); ++k) {
     const double side = side_of(at_start_[k]);
-    // What ends no step may have been met at its very end.
+    // A crossing that ends no step may have been met at the very end of one.
     if (side == 0 || (side == -sides_[k] && !ends_step_[static_cast<std::size_t>(k)] && met(k))) continue;
     if (side == -sides_[k] && counts(k))
       jumped.push_back(k);

@@ -289,8 +289,8 @@ March::Plan March::plan() const {
   return plan;
 }
 
-/// What formulas of time do between the ends of an attempted step and not at them: the error of positions by it, over
-/// the tolerance; 0 with fixed steps, whose run tells it at its end.
+/// Formulas of time may act between the ends of an attempted step and not at them: this is the error of positions by
+/// it, relative to the tolerance. It is 0 with fixed steps, since their run tells it at its end.
 double March::missed(const Plan& plan) {
   constexpr double large = 0.2;  // of the integral of |f|: some four steps in a period
   if (pulses_.idle()) return 0;

@@ -84,9 +84,9 @@ class March {
   /// @throws ComputationError when Newton's method fails with the smallest steps too: 1/1024 of the fixed size,
   ///         or 1e-10 of the span
   MarchStep advance();
-  /// What the user should know of formulas of time that change between steps, of this program's run: sentences.
+  /// The doubts are sentences for the user about formulas of time that change between steps, in this program's run.
   std::vector<std::string> doubts() const { return pulses_.doubts(); }
-  /// Of this program's run: what came before a restart is not in it.
+  /// The log is that of this program's run: it contains no steps from before a restart.
   const MarchLog& log() const { return log_; }
   void count_as_before() {  ///< what it has done so far
     before_ = before_.followed_by(log_);

@@ -2,8 +2,8 @@
 //
 // The scheme sees a formula f(t) at the ends of its steps. Over a step of size h it takes the integral for
 //     T = h (f_n + f_{n+1})/2     in place of     Q = int f dt,
-// Q by the midpoints of parts of the step. Of a formula that steps resolve, |T - Q| is (omega h)^2/12 of int |f| dt;
-// of a pulse within the step it is all of it.
+// Q by the midpoints of parts of the step. For a formula that steps resolve, |T - Q| is (omega h)^2/12 of int |f| dt;
+// for a pulse within the step it is all of int |f| dt.
 #pragma once
 
 #include <string>
@@ -20,7 +20,7 @@ class PulseWatch {
   PulseWatch(const System& system, double span);
   bool idle() const { return sources_.empty(); }
 
-  /// Of one formula in one step.
+  /// A look is at one formula in one step.
   struct Look {
     std::size_t formula = 0;  ///< by number
     double missed = 0;        ///< |T - Q| [units s]
@@ -33,7 +33,7 @@ class PulseWatch {
   Look look(const State& end, const Environment& environment, double begin_time, double end_time);
   /// Adds the last look to what the run has missed. @param end_time  of that step [s]
   void add(double end_time);
-  /// What the user should know at the end of a run: a sentence for each formula that steps have missed much of.
+  /// The doubts hold one sentence for each formula that steps have missed much of, for the user at the end of a run.
   std::vector<std::string> doubts() const;
 
  private:

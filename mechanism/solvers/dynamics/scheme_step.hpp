@@ -88,7 +88,7 @@ class SchemeStep {
   State interpolated(double time) const;
 
  private:
-  VectorX algorithmic_rate() const;          ///< Y_{n+1}
+  VectorX algorithmic_rate() const;  ///< Y_{n+1}
   /// Increments, velocities and first-order unknowns that go with accelerations and rates at the end of a step.
   void calc_end(const VectorX& a, const VectorX& rate, VectorX& dq, VectorX& v, VectorX& y) const;
   void still_algebraic();

@@ -16,14 +16,14 @@
 // begins anew there, as it does at a discontinuity. Spans are hence short below min(s_0, h/100) only; where nothing
 // accelerates, s_0 is without end.
 //
-// Longer steps that are much shorter than those before them carry an error of another kind. What velocities have across
-// the constraints is right to O(h^3) of the steps h before, and Dq has to make up for it within s: accelerations and
-// reactions are off by O(h^3)/(beta s), 7 % for a pendulum that turns by 0.03 rad per step and s = h/200. Where such a
-// step ends, accelerations and multipliers are solved for as well (`settle`); what follows begins anew in any case.
+// Longer steps that are much shorter than those before them carry an error of another kind. The velocities across the
+// constraints are right to O(h^3) of the steps h before, and Dq has to make up for it within s: accelerations and
+// reactions are off by O(h^3)/(beta s), 7 % for a pendulum that turns by 0.03 rad per step and s = h/200. Accelerations
+// and multipliers are solved for at the end of such a step as well (`settle`); the next step begins anew in any case.
 //
-// The series is explicit. What is stiff (a pressure of little volume, a mode of a body) and not at rest relative to
-// what drives it would be carried too far by a span that is longer than its time constant: where first-order unknowns
-// or amplitudes would move by more than 10^-6 of their size, positions, velocities and first-order unknowns at the end
+// The series is explicit. A stiff unknown (a pressure of little volume, a mode of a body) that is not at rest relative
+// to its drive would be carried too far by a span that is longer than its time constant: if first-order unknowns or
+// amplitudes would move by more than 10^-6 of their size, positions, velocities and first-order unknowns at the end
 // are those of an implicit step, and only the accelerations are solved for. Spans below 10^-6 h are shorter than any
 // time constant that matters, and go by the series.
 #pragma once

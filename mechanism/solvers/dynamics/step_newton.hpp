@@ -40,8 +40,8 @@ class StepNewton {
   /// iterate. Slower, and the only way where they are.
   /// @returns whether there are any
   bool search_balances(bool wanted);
-  /// The next iteration needs a tangent of its own, and measures the rounding of residuals anew: that of a step as short
-  /// as an event left it is not that of others.
+  /// The next iteration needs a tangent of its own, and measures the rounding of residuals anew: that of a step as
+  /// short as an event left it is not that of others.
   void forget_factors() {
     factored_for_ = 0;
     floor_age_ = never_measured;

@@ -50,7 +50,7 @@ class TimeIntegration {
   /// @param end   the time at its end: state().time + h but for rounding [s]
   /// @param kink  forces may jump at the end: the step sees those of just before
   StepReport attempt(double h, double end, bool kink = false);
-  /// The same over a span that is too short for the scheme (short_span.hpp). Where it is accepted as such (`is_short`),
+  /// The same over a span that is too short for the scheme (short_span.hpp). If it is accepted as such (`is_short`),
   /// a `restart` has to follow before the next step, unless a `begin_branch` does.
   /// @param small  whether it is shorter than any time constant that matters
   StepReport attempt_short(double h, double end, bool kink, bool small);

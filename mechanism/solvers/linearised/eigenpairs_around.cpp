@@ -16,7 +16,8 @@ using Complex = std::complex<double>;
 using VectorXc = Eigen::VectorXcd;
 using MatrixXc = Eigen::MatrixXcd;
 
-/// Of the operator on the orthogonal complement of Q, in coordinates of a basis where one is given.
+/// The eigenpairs are those of the operator on the orthogonal complement of Q, in coordinates of the basis if one is
+/// given.
 template <class Scalar>
 OperatorEigenpairs search_complement(const ShiftedOperator& T, const MatrixX& Q, const MatrixX* basis,
                                      Eigen::Index count, const OperatorEigenOptions& options) {
@@ -76,7 +77,8 @@ void EigenpairsAround::set_shift(Complex shift) {
     basis_ = (basis_ * null_space(MatrixX(Q_.transpose() * basis_), dependent)).eval();
 }
 
-/// Where what is known has the eigenvalue as well, and but one vector for both, that one.
+/// The eigenvector is recovered from its part z outside of the known states Q. If the known states have the eigenvalue
+/// as well, and there is only one vector for both, the result is that vector.
 VectorXc EigenpairsAround::recovered(Complex mu, const VectorXc& z) const {
   if (Q_.cols() == 0) return z;
   const VectorXc coupled = Q_.transpose().cast<Complex>() * operator_->apply(z);
@@ -125,7 +127,7 @@ EigenpairsNearby EigenpairsAround::look(Eigen::Index count, Look how) const {
       continue;
     }
     Complex value = now.shift() + 1.0 / mu;
-    // Of a complex operator real eigenvalues are real but for rounding.
+    // Real eigenvalues of a complex operator are real but for rounding.
     constexpr double rounding = 1e-9;
     if (!now.is_real() && std::abs(value.imag()) < rounding * std::abs(value)) value = value.real();
     const auto scale = now.scale().cast<Complex>();

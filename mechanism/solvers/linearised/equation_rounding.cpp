@@ -7,7 +7,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Of an entry that is the sum of some tens of terms.
+/// This is the relative rounding of an entry that is the sum of some tens of terms.
 constexpr double rounding_of_entries = 64 * std::numeric_limits<double>::epsilon();
 
 }  // namespace

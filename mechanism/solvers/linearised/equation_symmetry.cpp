@@ -51,7 +51,8 @@ Eigen::VectorXcd left_vector(const LinearisedEquations& e, std::complex<double> 
     const ShiftedOperator transposed(e, s * (1 + factor * next_to), ShiftedOperator::Side::left);
     if (!transposed.regular()) continue;
     const VectorX scale = transposed.scale().head(e.unknowns());
-    // Of several vectors of one eigenvalue the one that pairs with u: y^T D' u ~ u^T u* of scaled unknowns.
+    // If one eigenvalue has several vectors, this start finds the one that pairs with u: y^T D' u ~ u^T u* of scaled
+    // unknowns.
     Eigen::VectorXcd y = Eigen::VectorXcd::Zero(e.unknowns() + e.constraints());
     y.head(e.unknowns()) = u.conjugate();
     for (int round = 0; round < rounds; ++round) {

@@ -14,7 +14,7 @@ enum class EquationSymmetry {
 EquationSymmetry equation_symmetry(const LinearisedEquations& equations);
 
 /// A left vector y (n + constraints) of an eigenvalue that pairs with a right one, y^T D(s) = 0, by inverse iteration
-/// with the transposed equations next to s: one factorisation. Of size 0 where there is none.
+/// with the transposed equations next to s: one factorisation. Its size is 0 if there is none.
 Eigen::VectorXcd left_vector(const LinearisedEquations& equations, std::complex<double> s, const Eigen::VectorXcd& u);
 
 }  // namespace bielle::mechanism

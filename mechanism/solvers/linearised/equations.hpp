@@ -31,8 +31,8 @@ struct LinearisedEquations {
   Sparse B, S, F;  ///< (constraints, n), (constraints, n), (n, constraints): of those in the equations alone
   std::vector<char> nonholonomic;  ///< of each constraint
   std::vector<int> multiplier;     ///< its number in the system
-  /// Of each unknown: translations, or turns, of one node are a group, whose blocks rounding errors fill whatever the
-  /// axes; other unknowns are one each. Empty: all are one each.
+  /// Each unknown has a group: translations, or turns, of one node are a group, whose blocks rounding errors fill
+  /// whatever the axes; other unknowns are a group each. If the list is empty, all unknowns are a group each.
   std::vector<int> group;
   std::vector<char> turns;  ///< (n) whether the unknown is a turn of a node
   VectorX left_over;        ///< (n) how well the equations of motion hold: residual, and rounding of the unknowns

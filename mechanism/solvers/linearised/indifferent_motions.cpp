@@ -69,7 +69,7 @@ class IndifferentSearch {
   double sigma() const { return right_->shift().real(); }
   auto scale() const { return right_->scale().head(e_.unknowns()); }
 
-  /// What the reactions answer to forces that may as well be zero.
+  /// This notes how the reactions answer to forces that may as well be zero.
   void note_uncertain_reactions() {
     const int n = e_.unknowns();
     if (e_.left_over.size() != n || e_.constraints() == 0) return;
@@ -192,7 +192,8 @@ class IndifferentSearch {
       for (const Ritz& each : all) {
         const VectorXc x = X_.cast<Complex>() * each.x, y = Y_.topRows(e_.unknowns()).cast<Complex>() * each.y;
         const double delta = rounding_(y, 0, x);
-        // Where neither stiffness nor left vectors of the motion are there (rolling, integrals), R is known no better.
+        // R is known no better than this if there are neither stiffness nor left vectors of the motion (rolling,
+        // integrals).
         constexpr double of_resistance = 1e-13;
         if (std::abs(each.tau) > std::max(delta, of_resistance)) {
           least = least > 0 ? std::min(least, std::abs(each.tau)) : std::abs(each.tau);
@@ -251,7 +252,8 @@ class IndifferentSearch {
     }
     return result;
   }
-  /// Where eigenvalues have fewer vectors than their multiplicity: singular values are zero for the same vectors.
+  /// If eigenvalues have fewer vectors than their multiplicity, singular values take their place: these are zero for
+  /// the same vectors.
   static std::vector<Ritz> singular_pairs(const MatrixX& T, const MatrixX& inverse) {
     std::vector<Ritz> result;
     const RightSingularVectors right = right_singular_vectors(T), left = right_singular_vectors(MatrixX(T.transpose()));

@@ -1,7 +1,7 @@
 // Motions that no force resists, of the linearised equations: u with D(0) u = 0 to what D is known to.
 //
 // In first-order form their eigenvalues are double zeros, which rounding splits by its square root, far enough to pass
-// for slow modes. They are therefore found as what they are in statics, null vectors. Of the pencil
+// for slow modes. They are therefore found as what they are in statics, null vectors. In the pencil
 //     D(0) u = tau R u,      R = D(sigma) - D(0),
 // which weighs stiffness against what inertia and damping make of a rate sigma, they have tau = 0 and are no more than
 // single; D(sigma)^-1 R has the eigenvalues 1/(1 + tau), whatever the constraints. An eigenvalue counts as zero where

@@ -16,7 +16,7 @@ Complex paired(const VectorXc& y, const VectorXc& a) { return (y.transpose() * a
 
 }  // namespace
 
-/// Of general equations only for what may grow: it takes a factorisation.
+/// The left vector of general equations is computed only for modes that may grow, since it takes a factorisation.
 VectorXc ModeJudgement::left(const Mode& mode) const {
   constexpr double nearly = 1e-3;
   if (symmetry_ == EquationSymmetry::symmetric) return mode.u;

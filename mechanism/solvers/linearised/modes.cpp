@@ -58,7 +58,7 @@ class ModeSearch {
     return std::abs(pair.s) <= of_shift * shift() || judgement_.is_nothing(pair.s, pair.x.head(e_.unknowns()));
   }
 
-  /// Of conjugate pairs one.
+  /// One eigenvalue represents each conjugate pair.
   static bool represents(Complex s) { return s.imag() >= 0; }
 
   void add_modes(const std::vector<Eigenpair>& pairs, const std::function<bool(Complex)>& wanted, Modes& result) const {

@@ -1,13 +1,13 @@
 // Eigenvalues s and shapes of the linearised equations, the slowest first.
 //
-// Shapes move as exp(s t). Of a conjugate pair the one with Im s >= 0 is given. Small systems are solved densely on the
+// Shapes move as exp(s t). The one with Im s >= 0 of a conjugate pair is given. Small systems are solved densely on the
 // states that satisfy the constraints, large ones by ARPACK; both around a shift (shifted_operator.hpp) whose size
 // follows from the slowest mode. Eigenvalues that belong to no motion (constraints, algebraic unknowns, directions
 // without mass) are infinite, and recognised by two applications of the operator, which leave nothing of them.
 //
 // Rigid modes, motions that cost nothing, are found first (indifferent_motions.hpp) and kept out: the operator acts on
 // the complement of their states, an invariant subspace. They are counted by shapes, not by eigenvalues (of a free body
-// there are twice as many, in pairs). Where modes are so slow that the shift which shows them does not show the others,
+// there are twice as many, in pairs). If modes are so slow that the shift which shows them does not show the others,
 // they are kept out as well, and the rest is looked at from a shift of its own. That these are all modes is said where
 // their number is that of the finite eigenvalues.
 #pragma once
@@ -30,7 +30,8 @@ struct Mode {
   Eigen::VectorXcd u;  ///< increments of dofs and first-order unknowns (n), of any size
   Eigen::VectorXcd w;  ///< variations of the dofs' rates that go with them
   /// |ds| [1/s] by rounding of the equations and errors of the equilibrium (equation_rounding.hpp); 0 where not known:
-  /// of unsymmetric equations it is computed for what seems to grow. Of rigid modes: rates up to it are no different.
+  /// for unsymmetric equations it is computed for modes that seem to grow. Rates up to the uncertainty of a rigid mode
+  /// cannot be told from zero.
   double uncertainty = 0;
   double residual = 0;              ///< |T x - x / (s - sigma)| |s - sigma| / |x|, x the scaled state
   double frequency() const;         ///< |s| / 2 pi [Hz]

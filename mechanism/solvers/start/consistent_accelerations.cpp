@@ -409,7 +409,8 @@ class AccelerationEquations {
     return system_.unknown_name(system_.size() - system_.multipliers() + multiplier);
   }
 
-  /// What reads the reactions of the owner of a multiplier; where nothing does, or none is given, all that reads any.
+  /// The names are those of the components that read the reactions of the multiplier's owner; if there are none, or no
+  /// multiplier is given, they are those of all components that read any reactions.
   std::string names_of_readers(int multiplier) const {
     std::vector<std::string> names, all;
     for (std::size_t m = 0; m < system_.slots().size(); ++m) {

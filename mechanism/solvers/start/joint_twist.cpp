@@ -73,7 +73,7 @@ bool JointTwist::allows(std::size_t member, const RigidVelocity& motion) {
     const NodeState& own = state_.nodes[static_cast<std::size_t>(node)];
     const RigidVelocity at_rest{own.x, Vector3::Zero(), Vector3::Zero()};
     const VectorX rates = constraint_rates(member, node, motion), rest = constraint_rates(member, node, at_rest);
-    // What the motion as a whole could make of each row: at the node itself it may vanish, to rounding.
+    // `size` is what the motion as a whole could make of each row: at the node itself it may vanish, to rounding.
     const double speed = (motion.v.norm() + motion.omega.norm() * length_) / length_;
     VectorX size = rest.cwiseAbs();
     for (int k = 0; k < 6; ++k) {

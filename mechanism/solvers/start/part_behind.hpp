@@ -1,9 +1,9 @@
-// What is behind a joint: the nodes that move with one of its sides, the joint itself cut.
+// The part behind a joint consists of the nodes that move with one of its sides when the joint itself is cut.
 //
 // Members with mass (beams, superelements) and constraints tie their nodes together. Others do not stop the motion of
-// the moving side relative to the rest: what has neither mass nor constraint (springs, contacts), and joints whose
-// constraints allow that very motion (a second bearing on the same axis). Where these alone lead to what is held, the
-// part ends there; what hangs on the part by nothing else is behind the joint as well.
+// the moving side relative to the rest: members with neither mass nor constraint (springs, contacts), and joints whose
+// constraints allow that very motion (a second bearing on the same axis). The part ends where these alone lead to nodes
+// that are held; nodes that hang on the part by nothing else are behind the joint as well.
 #pragma once
 
 #include <functional>

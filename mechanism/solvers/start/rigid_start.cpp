@@ -161,7 +161,7 @@ class RigidStart {
     if (system_.multipliers() == 0) return;
     VectorX rates(system_.multipliers()), unused(system_.multipliers());
     system_.constraint_rates(state_, environment_, rates, unused);
-    // What the motions as a whole could make of each row: at a node they may vanish, to rounding.
+    // `sizes` is what the motions as a whole could make of each row: at a node they may vanish, to rounding.
     double speed = 0;
     for (const Carrying& each : joints_)
       speed = std::max(speed, each.motion.v.norm() + each.motion.omega.norm() * length());
@@ -240,7 +240,7 @@ void begin_velocities(const System& system, const Environment& environment, Stat
     make_velocities_consistent(system, environment, state, report, saddle);
   } else {
     RigidStart rigid(system, environment, conditions, state);
-    // Where velocities of other parts have to change, what is carried on them is set anew.
+    // If velocities of other parts have to change, the parts that they carry are set anew.
     constexpr int most = 4;
     constexpr double same = 1e-10;
     for (int round = 0; round < most; ++round) {

@@ -1,6 +1,6 @@
 // Joints that carry all that is behind them where a motion begins (CarriedStart): it moves as one rigid body.
 //
-// The joint's other side has the velocity v_b and the angular velocity omega_b of its node. What is behind gets
+// The joint's other side has the velocity v_b and the angular velocity omega_b of its node. The part behind gets
 //     v = v_b + omega_b x (x - x_b) + u + w x (x - p),     omega = omega_b + w,
 // with the twist (u, w) at the place p of the moving node that satisfies, in this order, the joint's own constraints,
 // drives and locks of its coordinates, and the start rates of these; coordinates of which nothing is said are at rest,

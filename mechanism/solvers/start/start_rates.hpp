@@ -20,7 +20,7 @@ namespace bielle::mechanism {
 void set_start_rates(const System& system, const Environment& environment, State& state,
                      const StartConditions& conditions, MassSaddle& saddle, StartReport& report);
 
-/// Which rows over the dofs depend on the constraints and the rows before them; rows of zeros do.
+/// An entry tells whether that row over the dofs depends on the constraints and the rows before it; rows of zeros do.
 std::vector<bool> dependent_rows(const System& system, const Environment& environment, const State& state,
                                  const std::vector<VectorX>& rows);
 

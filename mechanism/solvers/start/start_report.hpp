@@ -22,7 +22,7 @@ struct MovedCoordinate {
   double from = 0, to = 0;
 };
 
-/// What a joint carries at the start as one rigid body.
+/// A joint carries this part at the start as one rigid body.
 struct CarriedPart {
   std::string joint;               ///< "joint 'main'"
   std::vector<std::string> nodes;  ///< that got their velocity by it, in the order of the file

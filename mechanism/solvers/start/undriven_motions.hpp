@@ -13,7 +13,8 @@
 namespace bielle::mechanism {
 
 struct UndrivenMotions {
-  /// Of each motion the coordinate that tells it best, a joint's if possible: "angle of joint 'arm'", "x at node 'b'".
+  /// A name is that of the coordinate that tells its motion best, a joint's if possible: "angle of joint 'arm'", "x at
+  /// node 'b'".
   std::vector<std::string> names;
   MatrixX directions;  ///< (dofs, motions)
 };

@@ -266,11 +266,11 @@ double Equilibrium::largest_work(const State& state, const VectorX& z) const {
   return largest;
 }
 
-/// What the last solution moves along motions that only StaticTangent holds is z = P P delta, P = (K + H)^-1 H, H that
-/// small stiffness: one for what is loose, next to nothing for all else. Where the load along it, z r, is rounding next
-/// to the largest forces at the arms that they have there (weights of a rotor's blades, drawn with some digits, that
-/// balance each other), it is taken for none: nothing moves along z, and the force H z (z r)/(z H z) is left out from
-/// here on.
+/// The last solution moves by z = P P delta along motions that only StaticTangent holds, with P = (K + H)^-1 H and H
+/// that small stiffness: P is one for loose motions and next to nothing for all others. If the load along z, z r, is
+/// rounding relative to the largest forces at the arms that they have there (weights of a rotor's blades, drawn with
+/// some digits, that balance each other), it is taken for none: nothing moves along z, and the force H z (z r)/(z H z)
+/// is left out from here on.
 void Equilibrium::leave_balanced_out(const State& state) {
   constexpr double share = 1e-7;  // of the largest
   const int n = system_.dofs();

@@ -4,9 +4,8 @@
 //     r + W^T mu = 0,   g = c(q) - c_0 = 0,   W = dc/dq.
 // A step of Newton's method eliminates them with the tangent's factors, K Z = W^T:
 //     delta = -K^-1 (r + W^T mu) - Z dmu,     (W Z) dmu = g - W K^-1 (r + W^T mu).
-// W^T mu is taken as constant in W: the second derivatives of coordinates times mu are no part of the tangent. Where
-// such a motion is held by nothing else, K holds it by StaticTangent, and what is left of that small stiffness does not
-// matter.
+// W^T mu is taken as constant in W: the second derivatives of coordinates times mu are no part of the tangent. If
+// nothing else holds such a motion, K holds it by StaticTangent, and the rest of that small stiffness does not matter.
 #pragma once
 
 #include <vector>

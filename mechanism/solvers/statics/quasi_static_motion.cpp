@@ -103,7 +103,7 @@ bool QuasiStaticMotion::do_supports_move() const {
 }
 
 /// The first derivative of a residual that moves along a part of the path's rates, or the second where the first
-/// vanishes. Where a kink of a support's motion is too near, to the other side of it alone.
+/// vanishes. If a kink of a support's motion is too near, the differences lie on the side away from it alone.
 VectorX QuasiStaticMotion::derivative(double part, int order) const {
   constexpr double turn = 0.005;  // [rad], or of the extent: differences err by its powers, rounding by its square
   const double length = std::max(model_extent(path_), 1e-30);
@@ -157,7 +157,7 @@ void QuasiStaticMotion::find_rates() {
   a_ = solution.head(dofs);
 }
 
-/// What velocities and accelerations add to the residual (dofs).
+/// The inertia forces are what velocities and accelerations add to the residual (dofs).
 VectorX QuasiStaticMotion::inertia_forces(const State& state) const {
   VectorX moving(system_.size()), resting(system_.size());
   system_.residual(state, environment_, moving);
@@ -210,7 +210,7 @@ void QuasiStaticMotion::note_left_out(const State& state) {
   const std::size_t n = times_.size();
   if (n < 3) return;
   const double h = times_[n - 1] - times_[n - 2], before = times_[n - 2] - times_[n - 3];
-  // Where the law of a drive has a kink, a difference tells of the kink alone.
+  // A difference across a kink in the law of a drive tells of the kink alone.
   const bool smooth = std::none_of(kinks_.begin(), kinks_.end(),
                                    [&](double kink) { return kink > times_[n - 3] - h && kink < times_[n - 1] + h; });
   if (smooth && std::abs(h - before) <= 1e-6 * h) {

@@ -225,7 +225,7 @@ void settle(const System& system, const Environment& of_motion, const NewtonOpti
     state = assembled;
     relax(system, environment, options, held, state);
   }
-  // What is held would count as loose, or as unstable.
+  // A held coordinate would count as loose, or as unstable.
   if (held.empty()) {
     report.loose = loose_unknown(system, environment, state);
     note_stability(system, environment, state, report);

@@ -1,5 +1,5 @@
-// A joined wing under a lift that follows its tip: large increments of a load whose tangent is not symmetric. Whatever
-// the steps, they end at the equilibrium to which the path of equilibria leads, followed by arc length.
+// A joined wing under a lift that follows its tip: large increments of a load whose tangent is not symmetric. All
+// sizes of steps end at the equilibrium to which the path of equilibria leads, followed by arc length.
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 

@@ -132,7 +132,7 @@ TEST_CASE("what has gone through a plane with its middle ends the run, whatever 
   const std::string moved =
       end_of("position: [0, 0, 0.5], motion: {z: '-0.1*t'}", "sphere: 0.1, at: [0, 0, -0.2945]", "plane: [0, 0, 1]");
   CHECK_THAT(moved, Contains("at t = 2.06 s") && Contains("sphere on 'b' has gone through"));
-  // What is drawn so ends at once; what rests on the plane goes on.
+  // A shape that is drawn with its middle behind the plane ends the run at once; a shape that rests on it does not.
   CHECK_THAT(end_of("position: [0, 0, -0.01]", "sphere: 0.1", "plane: [0, 0, 1]"),
              Contains("at t = 0 s") && Contains("0.01 m behind it"));
   CHECK(end_of("position: [0, 0, 0.05], motion: {z: 0}", "sphere: 0.1", "plane: [0, 0, 1]") == "went on");

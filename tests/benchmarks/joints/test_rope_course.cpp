@@ -67,7 +67,7 @@ Run run(const std::string& text, double h, double end, const std::function<void(
   return result;
 }
 
-/// Where s has come when the straight rope touches the pulley: the distance of its centre is its radius.
+/// s has this value when the straight rope touches the pulley: the distance of its centre is its radius.
 const double touching = (std::sqrt(0.1588) - 0.2) / 1.98;  // 0.99 d^2 + 0.2 d - 0.03 = 0
 
 }  // namespace

@@ -204,8 +204,8 @@ TEST_CASE("a swept blade finds its steady rotation at every speed, whatever its 
     CHECK(fine.y() > 0);
     radius = fine.norm();
     sweep = fine.y();
-    // Of second order at least, where elements are shorter than what bends at the root, (EI/T)^1/2 = 0.1 m at 100
-    // rad/s.
+    // Convergence is of second order at least if elements are shorter than the length that bends at the root,
+    // (EI/T)^1/2 = 0.1 m at 100 rad/s.
     CHECK((fine - middle).norm() < (speed <= 100 ? 0.3 : 1.0) * (middle - coarse).norm());
   }
 }

@@ -11,7 +11,7 @@ import numpy as np
 
 from command import PROGRAMS, CommandTest
 
-# Whatever a later part of the motion may meet and the probing state of a checkpoint does not show.
+# This model has what a later part of the motion may meet and the probing state of a checkpoint does not show.
 MODEL = """\
 parameters: {push: 40, k: 3, duration: 0.15}
 gravity: [0, 0, -9.81]

@@ -40,7 +40,7 @@ class Numbers(unittest.TestCase):
         self.session, self.saved = session, session.save()
 
     def test_each_number_of_what_was_saved(self):
-        """Whatever one of them is: it is refused, or the motion goes on, or fails with a sentence."""
+        """A changed number is refused, or the motion goes on, or fails with a sentence."""
         refused = 0
         other = self.model.session()
         for place in range(len(self.saved)):

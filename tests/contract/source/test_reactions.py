@@ -1,4 +1,4 @@
-"""What is reported or compared reads the reactions of smallest norm; multipliers themselves are for equations alone."""
+"""Reported and compared values come from reactions of smallest norm; multipliers themselves are for equations alone."""
 
 import os
 import re

@@ -32,10 +32,10 @@ bool exceeds(const StressPeak& one, const StressPeak& other, double sign) {
   return one.time != other.time ? one.time < other.time : one.row < other.row;
 }
 
-/// Of all nodes; a volume group may have this name too.
+/// This name stands for the region of all nodes; a volume group may have the same name.
 constexpr const char* the_whole = "all";
 
-/// Of a group next to the whole body and the other groups.
+/// The name of a group differs from that of the whole body and from those of the other groups.
 std::string own_name(std::string group, const std::vector<std::string>& groups) {
   if (group != the_whole) return group;
   do group += "_volume";

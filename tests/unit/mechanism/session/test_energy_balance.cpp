@@ -1,4 +1,4 @@
-// The books of energy: what is missing relative to what is stored, and to what flows through.
+// The energy balance tells the missing energy relative to the energy stored, and to the energy that flows through.
 #include <cmath>
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-// What components gather: their names in a results file, and who speaks for a beam.
+// These tests check the names of gathered values in a results file, and which element speaks for a beam.
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 

@@ -337,7 +337,7 @@ TEST_CASE("holes that overlap or project are told with their share") {
   // Two holes that meet: one ends where the other begins.
   CHECK(ReadSolids(plate + ", " + hole(0.02, 0.05, "[0, 0, -0.025]") + ", " + hole(0.04, 0.05, "[0, 0, 0.025]"))
             .doubts.empty());
-  // What fills a hole can be cut again.
+  // A solid that fills a hole can be cut again.
   const ReadSolids filled(plate + ", " + hole(0.03, 0.1, "[0, 0, 0]") + ", {cylinder: [0.02, 0.1], density: 1000}, " +
                           hole(0.01, 0.1, "[0, 0, 0]"));
   CHECK(filled.doubts.empty());

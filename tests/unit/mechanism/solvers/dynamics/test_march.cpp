@@ -118,7 +118,7 @@ loads: {l: {node: m, force: [")yaml" +
   const Course fine = run(struck, 1, fixed(2e-4));
   CHECK(fine.doubts.empty());
   CHECK(struck.node(fine.end, "m").v.x() == Approx(1 + pulse).epsilon(1e-3));
-  // What steps resolve is not doubted: 12 steps in a period miss (omega h)^2/12 = 2 %.
+  // A formula that steps resolve is not doubted: 12 steps in a period miss (omega h)^2/12 = 2 %.
   CHECK(run(model_of("3*sin(2*pi*t)"), 1, fixed(1.0 / 12)).doubts.empty());
   CHECK(run(model_of("3*sin(2*pi*t)"), 1, fixed(1.0 / 3)).doubts.size() == 1);
   // Fast ripples that move nothing make no step smaller.

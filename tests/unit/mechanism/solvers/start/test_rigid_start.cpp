@@ -39,7 +39,7 @@ struct Start {
   Vector3 velocity(const std::string& node) const { return session.node(node).v; }
 };
 
-/// What is said against a model; empty: it starts.
+/// The refusal is the message against a model; it is empty if the model starts.
 std::string refusal(const std::string& model) {
   const std::string text = message_of<std::exception>([&] { const Start begun(model); });
   return text == "(nothing thrown)" ? "" : text;
@@ -125,7 +125,7 @@ TEST_CASE("a slide and a screw carry all, too") {
       rotor("  main: {type: cylindrical, nodes: [ground, hub], axis: [1, 0, 0], start_rate: {angle: 7, "
             "displacement: 3}, carries: all}"));
   CHECK(both.kinetic == Approx(0.5 * mass * v * v + 0.5 * 49 * rotor_inertia()).epsilon(1e-4));
-  // Of what nothing is said rests.
+  // A coordinate of which nothing is said is at rest.
   const Start turning(rotor(
       "  main: {type: cylindrical, nodes: [ground, hub], axis: [1, 0, 0], start_rate: {angle: 7}, carries: all}"));
   CHECK(turning.kinetic == Approx(0.5 * 49 * rotor_inertia()).epsilon(1e-4));
