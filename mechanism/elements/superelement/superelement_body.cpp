@@ -307,8 +307,7 @@ std::unique_ptr<Gatherer> SuperelementBody::make_gatherer() const {
   all.push_back(std::move(reader));
   all.push_back(std::make_unique<Validity>(
       name(), frame_.points(),
-      ValidityMeasures{matrices_->gyration, mode_turns_, BodyStrain(*matrices_), largest_error_},
-      now));
+      ValidityMeasures{matrices_->gyration, mode_turns_, BodyStrain(*matrices_), largest_error_}, now));
   if (recovered_.has_stress() && inertia_answer_.whole.size() > 0)
     all.push_back(std::make_unique<StressCompleteness>(name(), inertia_answer_, now));
   if (!peaks_.empty())
