@@ -17,6 +17,7 @@ import numpy as np
 from .abaqus_extras import Extras
 from .messages import InputError, counted
 from .solid_mesh import RawMesh
+from .text_lines import lines_of
 
 # Element families of the two programs: label pattern, meshio type (None: points, lines and couplings, left out), nodes.
 FAMILIES = [
@@ -56,11 +57,7 @@ class _Reader:
 
     # ---- reading ------------------------------------------------------------------------------------------------
     def read(self, path):
-        try:
-            with open(path, encoding="utf-8", errors="replace") as file:
-                lines = file.read().splitlines()
-        except OSError as error:
-            raise InputError(f"cannot read '{path}': {error.strerror}") from None
+        lines = lines_of(path)
         index = 0
         while index < len(lines):
             line = lines[index].strip()
@@ -126,11 +123,7 @@ class _Reader:
         if "INPUT" not in options:
             return rows
         name = os.path.join(os.path.dirname(path), options["INPUT"])
-        try:
-            with open(name, encoding="utf-8", errors="replace") as file:
-                lines = [line.strip() for line in file]
-        except OSError as error:
-            raise InputError(f"{where}: cannot read '{name}': {error.strerror}") from None
+        lines = [line.strip() for line in lines_of(name, f"{where}: ")]
         return rows + [line for line in lines if line and not line.startswith("*")]
 
     def _nodes(self, where, options, rows):

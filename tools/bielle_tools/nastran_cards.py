@@ -8,6 +8,7 @@ import os
 import re
 
 from .messages import InputError
+from .text_lines import lines_of
 
 DEEPEST = 20  # files that include each other
 
@@ -69,11 +70,7 @@ def _lines(path, depth):
     """Upper case, without comments, empty ones left out; file and line number of each."""
     if depth > DEEPEST:
         raise InputError(f"'{path}' is included by itself")
-    try:
-        with open(path, encoding="utf-8", errors="replace") as file:
-            lines = file.read().splitlines()
-    except OSError as error:
-        raise InputError(f"cannot read '{path}': {error.strerror}") from None
+    lines = lines_of(path)
     k = 0
     while k < len(lines):
         number, line = k + 1, lines[k].split("$")[0].rstrip()
