@@ -3,6 +3,7 @@
 // integrated: each time stands for itself, exact to rounding.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -111,18 +112,6 @@ std::vector<double> times_of(const System& system, const KinematicsOptions& opti
   return times;
 }
 
-/// The state a time later, by its velocities and accelerations: where the search for the next position begins.
-State predicted(const System& system, const State& state, double time) {
-  const double h = time - state.time;
-  VectorX v(system.dofs()), a(system.dofs());
-  system.get_rates(state, v, a);
-  State next = state;
-  next.time = time;
-  system.displace(next, state, h * v + 0.5 * h * h * a);
-  system.set_rates(next, v + h * a, a);
-  return next;
-}
-
 /// Positions, velocities, accelerations and reactions of driven rigid parts.
 class RigidPositions {
  public:
@@ -229,10 +218,10 @@ KinematicsReport Session::kinematics(const KinematicsOptions& options) {
   const std::vector<double> kinks = system_.break_points();
   const double rounding = same_time * options.step;
   RigidPositions rigid(system_, environment_);
-  QuasiStaticMotion elastic(system_, environment_, options.step);
-  if (report.elastic) elastic.begin(state_);
+  std::optional<QuasiStaticMotion> elastic;
+  if (report.elastic) elastic.emplace(system_, environment_, options.step).begin(state_);
   CrossedMotion motion(system_, environment_, [&](const State& from, double time) {
-    return report.elastic ? elastic.position(from, time) : rigid(from, time);
+    return elastic ? elastic->position(from, time) : rigid(from, time);
   });
   books.start(begin, system_.energy(state_, environment_));
   const auto point = [&](double step, bool recorded) {
@@ -242,7 +231,7 @@ KinematicsReport Session::kinematics(const KinematicsOptions& options) {
     report_->step = step;
     if (recorded) record(state_, environment_, *report_);
     gather(state_, environment_);
-    if (report.elastic) elastic.note_left_out(state_);
+    if (elastic) elastic->note_left_out(state_);
     ++report.points;
     if (notes_) notes_->progress((state_.time - begin) / options.duration, fmt::format("t = {:.6g} s", state_.time));
     if (state_.time > begin) call_back();
@@ -271,7 +260,7 @@ KinematicsReport Session::kinematics(const KinematicsOptions& options) {
     point(state_.time - last, asked_for || ends);
     last = state_.time;
   }
-  report.left_out = elastic.left_out();
+  if (elastic) report.left_out = elastic->left_out();
   report.energy = books.totals();
   report.balance = books.balance();
   return report;

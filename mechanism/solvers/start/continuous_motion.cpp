@@ -8,6 +8,17 @@
 
 namespace bielle::mechanism {
 
+State predicted(const System& system, const State& state, double time) {
+  const double h = time - state.time;
+  VectorX v(system.dofs()), a(system.dofs());
+  system.get_rates(state, v, a);
+  State next = state;
+  next.time = time;
+  system.displace(next, state, h * v + 0.5 * h * h * a);
+  system.set_rates(next, v + h * a, a);
+  return next;
+}
+
 bool ContinuousMotion::fits(const State& from, const State& to) {
   constexpr double most = 0.6;         // of the larger one: the trapezoidal rule errs by h^2 w^2/12 of it
   constexpr double invisible = 1e-9;   // that a step moves, relative to the extent

@@ -7,6 +7,9 @@
 
 namespace bielle::mechanism {
 
+/// The state a time later or earlier, by its velocities and accelerations: where the search for a position begins.
+State predicted(const System& system, const State& state, double time);
+
 /// Velocities that jump against their accelerations are those of another branch, as a dead centre that is met exactly
 /// leaves it open. A step whose velocities do not fit is halved, and its halves likewise: what is smooth fits in the
 /// end, or changes so little that nobody can see it.

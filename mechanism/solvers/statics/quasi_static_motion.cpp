@@ -4,9 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "mechanism/math/so3.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
 #include "mechanism/solvers/start/consistent_velocities.hpp"
+#include "mechanism/solvers/start/continuous_motion.hpp"
+#include "mechanism/solvers/statics/node_motion.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -20,9 +21,8 @@ Environment at_rest_in(Environment environment) {
 double distance(const State& from, const State& to) {
   const double length = std::max(model_extent(to), 1e-30);
   double largest = 0;
-  for (std::size_t i = 0; i < to.nodes.size(); ++i)
-    largest = std::max({largest, (to.nodes[i].x - from.nodes[i].x).norm() / length,
-                        log_so3(Matrix3(from.nodes[i].R.transpose() * to.nodes[i].R)).norm()});
+  for (const NodeMotion& motion : motions_between(from, to))
+    largest = std::max({largest, motion.displacement.norm() / length, motion.turn.norm()});
   return largest;
 }
 
@@ -55,12 +55,7 @@ void QuasiStaticMotion::begin(State& state) {
 }
 
 State QuasiStaticMotion::position(const State& from, double time) {
-  VectorX v(system_.dofs()), a(system_.dofs());
-  system_.get_rates(from, v, a);
-  State next = from;
-  const double h = time - from.time;
-  next.time = time;
-  system_.displace(next, from, h * v + 0.5 * h * h * a);
+  State next = predicted(system_, from, time);
   find_path(path_, time);
   find_rates();
   load_by_inertia(next);
@@ -111,24 +106,27 @@ VectorX QuasiStaticMotion::derivative(double part, int order) const {
   for (int i = 0; i < system_.dofs(); ++i)
     speed = std::max(speed, std::abs(v_[i]) / (system_.kind(i) == Kind::translation ? length : 1));
   double h = std::min(turn / std::max(speed, 1e-300), supports_move_ ? 0.5 * step_ : 1e3 * step_);
-  double before = std::numeric_limits<double>::infinity(), behind = before;
-  for (const double kink : kinks_) {
-    if (!supports_move_) break;
-    if (kink >= path_.time) behind = std::min(behind, kink - path_.time);
-    if (kink <= path_.time) before = std::min(before, path_.time - kink);
-  }
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  double before = infinity, after = infinity;  // to the nearest kinks; one at this time is left behind
+  if (supports_move_)
+    for (const double kink : kinks_) {
+      double& distance = kink > path_.time ? after : before;
+      distance = std::min(distance, std::abs(kink - path_.time));
+    }
   const VectorX r0 = at_rest(0, part);
   const auto r = [&](int steps) { return VectorX(at_rest(steps * h, part) - r0); };
-  if (std::min(before, behind) >= 2 * h)
+  if (std::min(before, after) >= 2 * h)
     return order == 1 ? VectorX((8 * (r(1) - r(-1)) - r(2) + r(-2)) / (12 * h))
                       : VectorX((16 * (r(1) + r(-1)) - r(2) - r(-2)) / (12 * h * h));
-  double after = 0;  // a kink at this time is left behind
-  for (const double kink : kinks_)
-    if (kink > path_.time) after = after == 0 ? kink - path_.time : std::min(after, kink - path_.time);
-  const bool back = after > 0 && after < before;
-  h = back ? -std::min(h, 0.3 * before) : after > 0 ? std::min(h, 0.3 * after) : h;
+  h = after < before ? -std::min(h, 0.3 * before) : std::min(h, 0.3 * after);
   return order == 1 ? VectorX((3 * r(1) - 1.5 * r(2) + r(3) / 3) / h)
                     : VectorX((6 * r(1) - 1.5 * r(2) + 2.0 / 9 * r(3)) / (h * h));
+}
+
+/// Sets the rows of constraints that are in the equations; those of the others vanish.
+void QuasiStaticMotion::put_constraints(const State& state, const VectorX& rows, VectorX& r) const {
+  r.tail(rows.size()) = rows;
+  system_.for_each_idle(state, [&](int k) { r[system_.size() - system_.multipliers() + k] = 0; });
 }
 
 void QuasiStaticMotion::find_rates() {
@@ -137,22 +135,18 @@ void QuasiStaticMotion::find_rates() {
   supports_move_ = do_supports_move();
   VectorX r(system_.size()), solution(system_.size()), velocity(multipliers), acceleration(multipliers);
   const VectorX zero = VectorX::Zero(dofs);
-  const auto put_constraints = [&](const VectorX& rows) {
-    r.tail(multipliers) = rows;
-    system_.for_each_idle(path_, [&](int k) { r[system_.size() - multipliers + k] = 0; });
-  };
   State moving = path_;
   system_.set_rates(moving, zero, zero);
   system_.constraint_rates(moving, environment_, velocity, acceleration);
   r = derivative(0, 1);
-  put_constraints(velocity);
+  put_constraints(path_, velocity, r);
   tangent_.solve(r, solution);
   v_ = solution.head(dofs);
   lambda_rate_ = solution.tail(multipliers);
   system_.set_rates(moving, v_, zero);
   system_.constraint_rates(moving, environment_, velocity, acceleration);
   r = derivative(1, 2);
-  put_constraints(acceleration);
+  put_constraints(path_, acceleration, r);
   tangent_.solve(r, solution);
   a_ = solution.head(dofs);
 }
@@ -177,8 +171,7 @@ void QuasiStaticMotion::take_rates(State& state) {
   VectorX v(system_.dofs()), a(system_.dofs()), velocity(multipliers), acceleration(multipliers);
   system_.constraint_rates(state, environment_, velocity, acceleration);
   VectorX r = VectorX::Zero(system_.size()), change(system_.size());
-  r.tail(multipliers) = acceleration;
-  system_.for_each_idle(state, [&](int k) { r[system_.size() - multipliers + k] = 0; });
+  put_constraints(state, acceleration, r);
   saddle_.solve(r, change);
   system_.get_rates(state, v, a);
   system_.set_rates(state, v, a + change.head(system_.dofs()));

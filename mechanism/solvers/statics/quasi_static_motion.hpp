@@ -38,6 +38,7 @@ class QuasiStaticMotion {
  private:
   void find_path(const State& from, double time);
   void find_rates();
+  void put_constraints(const State& state, const VectorX& rows, VectorX& r) const;
   void take_rates(State& state);
   void load_by_inertia(State& state);
   VectorX inertia_forces(const State& state) const;
