@@ -49,4 +49,14 @@ VectorXc equations_derivative_times(const LinearisedEquations& e, Complex s, con
   return product;
 }
 
+VectorX resistance_times(const LinearisedEquations& e, double sigma, const VectorX& u) {
+  const int n = e.unknowns();
+  VectorX result = VectorX::Zero(n + e.constraints());
+  result.head(n) = sigma * (e.C * u + e.M * VectorX(sigma * u + e.W * u));
+  const VectorX rolling = sigma * (e.B * u);
+  for (int k = 0; k < e.constraints(); ++k)
+    if (e.nonholonomic[static_cast<std::size_t>(k)]) result[n + k] = rolling[k];
+  return result;
+}
+
 }  // namespace bielle::mechanism

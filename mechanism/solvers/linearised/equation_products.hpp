@@ -15,5 +15,8 @@ Eigen::VectorXcd transposed_equations_times(const LinearisedEquations& equations
                                             const Eigen::VectorXcd& q);
 Eigen::VectorXcd equations_derivative_times(const LinearisedEquations& equations, std::complex<double> s,
                                             const Eigen::VectorXcd& q);
+/// (D(sigma) - D(0)) u with the rows of the constraints: what inertia, damping and rolling make of a real rate.
+/// @param u  (n); the multipliers are zero
+VectorX resistance_times(const LinearisedEquations& equations, double sigma, const VectorX& u);
 
 }  // namespace bielle::mechanism

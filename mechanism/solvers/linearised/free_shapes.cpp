@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mechanism/solvers/linearised/equation_products.hpp"
 #include "mechanism/solvers/linearised/orthonormal.hpp"
 #include "reduce/common/symmetric_eigenpairs.hpp"
 
@@ -34,11 +35,7 @@ MatrixX find_free_shapes(const LinearisedEquations& e, const ShiftedOperator& sh
   if (shapes.cols() == 0) return shapes;
   const auto answer = [&](const VectorX& x) {
     const VectorX u = scale.cwiseProduct(x);
-    VectorX right = VectorX::Zero(n + e.constraints());
-    right.head(n) = shift * (e.C * u + e.M * VectorX(shift * u + e.W * u));
-    const VectorX of_constraints = shift * (e.B * u);
-    for (int k = 0; k < e.constraints(); ++k)
-      if (e.nonholonomic[static_cast<std::size_t>(k)]) right[n + k] = of_constraints[k];
+    const VectorX right = resistance_times(e, shift, u);
     return VectorX(shifted.solve(right.cast<std::complex<double>>()).head(n).real().cwiseQuotient(scale));
   };
   constexpr int rounds = 100, separated = 60;  // others become shorter by a half each time, by the size of the shift

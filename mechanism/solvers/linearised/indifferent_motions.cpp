@@ -79,15 +79,7 @@ class IndifferentSearch {
   }
 
   /// R u, with the rows of the constraints.
-  VectorX resisted(const VectorX& u) const {
-    const int n = e_.unknowns();
-    VectorX right = VectorX::Zero(n + e_.constraints());
-    right.head(n) = sigma() * (e_.C * u + e_.M * VectorX(sigma() * u + e_.W * u));
-    const VectorX rolling = sigma() * (e_.B * u);
-    for (int k = 0; k < e_.constraints(); ++k)
-      if (e_.nonholonomic[static_cast<std::size_t>(k)]) right[n + k] = rolling[k];
-    return right;
-  }
+  VectorX resisted(const VectorX& u) const { return resistance_times(e_, sigma(), u); }
   /// R^T y, of which the rows of the constraints are zero.
   VectorX transposed_resisted(const VectorX& y) const {
     const int n = e_.unknowns();
