@@ -16,11 +16,17 @@ CrossingWatch::CrossingWatch(const System& system) : system_(system), values_(sy
   last_end_.assign(system.crossings().size(), 0);
   for (Eigen::Index k = 0; k < sides_.size(); ++k)
     sides_[k] = system.crossings()[static_cast<std::size_t>(k)].crossing.begins_on;
+  std::size_t declared = system.model().members().size();  // the member whose declaration is at hand; none yet
+  bool kinks = false;
   for (const MemberCrossing& each : system.crossings()) {
+    if (each.member != declared) {
+      Declaration declaration;
+      system.model().members()[each.member].component->declare(declaration);
+      kinks = declaration.kinks;
+      declared = each.member;
+    }
     // Steps end as well, without a restart, where a force begins continuously (surfaces touch).
-    Declaration declaration;
-    system.model().members()[each.member].component->declare(declaration);
-    ends_step_.push_back(each.crossing.restarts || each.crossing.stops || declaration.kinks);
+    ends_step_.push_back(each.crossing.restarts || each.crossing.stops || kinks);
   }
 }
 

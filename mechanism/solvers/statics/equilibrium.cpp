@@ -166,12 +166,12 @@ int Equilibrium::iterate_relaxing(double factor, State& state) {
   constexpr int most_iterations = 300;
   apply_motions(system_, ramp_.motion(factor), state);
   evaluate(state);
-  LinearStep stiffness(system_);  // inertia holds nothing at rest: the rounding of its forces is none of the residual
-  length_ = std::max(model_length(state), longest_arm_of_inertia(state));
+  LinearStep assembled(system_);  // inertia holds nothing at rest: the rounding of its forces is none of the residual
+  length_ = std::max(model_length(state), longest_arm_of_inertia(state, assembled));
   double tau_squared = first_tau_squared(state);
   for (int iteration = 0; iteration < most_iterations && r_.allFinite(); ++iteration) {
-    stiffness.assemble(state, environment_, TangentWeights{1, 0, 0, 0, 1, true}, nullptr);
-    convergence_.measure_rounding(stiffness, state);
+    assembled.assemble(state, environment_, TangentWeights{1, 0, 0, 0, 1, true}, nullptr);
+    convergence_.measure_rounding(assembled, state);
     const bool reached = this->reached();
     judged_ = true;
     if (iteration > 0 && reached) return iteration;
@@ -200,8 +200,7 @@ double Equilibrium::largest_turn() const {
 
 /// The largest radius of gyration about a node [m], the distance of the centre of mass included: the size of a body
 /// whose node stands at the origin.
-double Equilibrium::longest_arm_of_inertia(const State& state) const {
-  LinearStep mass(system_);
+double Equilibrium::longest_arm_of_inertia(const State& state, LinearStep& mass) const {
   mass.assemble(state, environment_, TangentWeights{0, 0, 1, 0, 0}, nullptr);
   double translation = 0, rotation = 0;
   for (int i = 0; i < system_.dofs(); ++i) {
