@@ -14,7 +14,7 @@ namespace {
 
 /// The format number of a checkpoint grows by one whenever the values exchanged with the Archive, or their order,
 /// change.
-constexpr int format = 8;
+constexpr int format = 9;
 
 /// A little off the start, and moving: what forces depend on shows.
 State displaced(const System& system, const State& start) {
