@@ -156,7 +156,11 @@ int Equilibrium::iterate(double factor, State& state, void (Equilibrium::*improv
     const bool reached = this->reached();
     judged_ = true;
     if (iteration > 0 && reached) return iteration + (followed ? 1 : 0);
-    if (iteration == options_.iterations || !r_.allFinite()) return -1;
+    if (!r_.allFinite()) return -1;
+    if (iteration == options_.iterations) {
+      if (tangent_.runs_loose(delta_)) fall(state);
+      return -1;
+    }
     (this->*improve)(state);
     if (iteration == 0 && !followed) note_first();
   }
@@ -293,12 +297,15 @@ void Equilibrium::leave_balanced_out(const State& state) {
 
 /// Throws where the last solution runs away along what only StaticTangent holds.
 void Equilibrium::check_no_fall(const State& state) {
-  falls_ = false;
   if (!held()) return;
   leave_balanced_out(state);
-  falls_ = extent(state) > runaway && tangent_.runs_loose(delta_);
-  if (falls_)
-    throw ComputationError(fmt::format("nothing holds {} against its load", moves_most(system_, delta_, state)));
+  if (extent(state) > runaway && tangent_.runs_loose(delta_)) fall(state);
+}
+
+/// Along what only StaticTangent holds the last solution goes on and on: far at once, or a little in each iteration.
+void Equilibrium::fall(const State& state) {
+  falls_ = true;
+  throw ComputationError(fmt::format("nothing holds {} against its load", moves_most(system_, delta_, state)));
 }
 
 void Equilibrium::step(State& state) {

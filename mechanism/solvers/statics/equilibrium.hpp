@@ -76,6 +76,7 @@ class Equilibrium {
   /// An iteration of Newton's method that takes prescribed motions along. @returns false where nothing is prescribed
   bool follow_motions(double factor, State& state);
   void check_no_fall(const State& state);
+  [[noreturn]] void fall(const State& state);
   double largest_work(const State& state, const VectorX& z) const;
   void leave_balanced_out(const State& state);
   void factor_derivative(double factor, const State& state, Eigen::Ref<VectorX> result) const;
