@@ -65,11 +65,8 @@ Matrix6 bowing(const Matrix6& stiffness, const ElementSections& sections, const 
   for (std::size_t g = 0; g < 3; ++g)
     of_section += Gauss3::weight[g] * symmetric_inverse(sections.at[g].stiffness).topLeftCorner<3, 3>();
   const Matrix3 by_bending = symmetric_inverse(stiffness).topLeftCorner<3, 3>() - of_section;
-  const Matrix3x6 bent = across * by_bending * across * stiffness.topRows<3>();
-  Matrix6 Q = -0.4 * bent.transpose() * bent;
-  Q.leftCols<3>() += 0.5 * bent.transpose() * across;
-  Q.topRows<3>() += 0.5 * across * bent;
-  return Q;
+  const Matrix3x6 bent = across * by_bending * across * stiffness.topRows<3>();  // gamma_b of e
+  return bent.transpose() * bent;
 }
 
 }  // namespace
@@ -112,9 +109,10 @@ struct BeamElement::Deformation {
   Matrix3 R_A, R_B;  ///< section axes -> inertial
   Vector6 d;
   Matrix6x12 P;
-  Vector12 v;    ///< body velocities of the section frames
-  Vector6 bows;  ///< 2 Q e
-  Matrix6x12 S;  ///< J P
+  Vector12 v;             ///< body velocities of the section frames
+  Vector6 bows;           ///< dq/de
+  Matrix6 bows_gradient;  ///< d2q/de2
+  Matrix6x12 S;           ///< J P
   Vector6 eps, epsdot;
   Vector6 f;  ///< of the strains
 
@@ -162,9 +160,13 @@ BeamElement::Deformation BeamElement::deformation(const LocalState& state) const
       Matrix3::Zero(), -inverse.topLeftCorner<3, 3>().transpose(), inverse.bottomRows<3>();
   D.v << D.R_A.transpose() * A.v, R_A_.transpose() * A.Omega, D.R_B.transpose() * B.v, R_B_.transpose() * B.Omega;
   const Vector6 e = (D.d - d0_) / L_;
-  D.bows = 2 * bowing_ * e;
+  constexpr double largest = 0.01;
+  const Vector6 Qe = bowing_ * e;
+  const double squared = e.dot(Qe), share = 1 / (1 + squared / largest);
+  D.bows = 1.2 * share * share * Qe;
+  D.bows_gradient = 1.2 * share * share * (bowing_ - 4 * share / largest * Qe * Qe.transpose());
   D.eps = e;
-  D.eps.head<3>() += 0.5 * D.bows.dot(e) * along_;
+  D.eps.head<3>() += 0.6 * share * squared * along_;
   D.S = D.P;
   D.S.topRows<3>() += along_ * (D.bows.transpose() * D.P);
   D.epsdot = D.S * D.v / L_;
@@ -199,9 +201,9 @@ void add_rotated(const Matrix12& A, const std::array<Matrix3, 4>& U, Eigen::Ref<
 }  // namespace
 
 // In body increments of the section frames (12x12, F = P^T J^T f, n = t . f):
-//   K_b = P^T J^T (C_e J P/L + C_d depsdot/dh) + ([G(-d, J^T f); G(d, J^T f)] + P^T 2 n Q/L) P,
+//   K_b = P^T J^T (C_e J P/L + C_d depsdot/dh) + ([G(-d, J^T f); G(d, J^T f)] + P^T (n/L) d2q/de2) P,
 //   C_b = P^T J^T C_d J P/L
-//   L depsdot/dh = J W + t (2/L) (P v)^T Q P,
+//   L depsdot/dh = J W + (t/L) (P v)^T d2q/de2 P,
 //   W = d(P v)/dh = [D(d, v_B) + D(-d, v_A)] P + P [0 (R_k^T xdot_k)~; 0 0]_k,   D(d, w) = d(T6^-1(d) w)/dd
 // and for the nodes, with dh_k = [R_Sk^T dx; R_k^T dTheta] (R_Sk section axes, R_k their constant place in the node):
 //   K = Q^T K_b Q and in the blocks (x_k, Theta_k) the turning of the force with its node, -R_Sk F_u,k~ R_k^T.
@@ -210,14 +212,14 @@ void BeamElement::add_stiffness(const Deformation& D, Eigen::Ref<MatrixX> K) con
   const Vector6 f_of_motion = D.of_motion(D.f, along_);
   Matrix12x6 G;
   G << inverse_transpose_gradient_se3(-D.d, f_of_motion), inverse_transpose_gradient_se3(D.d, f_of_motion);
-  G += D.P.transpose() * (2 * along_.dot(D.f.head<3>()) / L_ * bowing_);
+  G += D.P.transpose() * (along_.dot(D.f.head<3>()) / L_ * D.bows_gradient);
   Matrix6x12 f_gradient = stiffness_ * D.S / L_;
   if (damping_ > 0) {
     const Matrix6 along_d =
         tangent_se3_inverse_gradient(D.d, D.v.tail<6>()) + tangent_se3_inverse_gradient(-D.d, D.v.head<6>());
     Matrix6x12 rate_gradient = along_d * D.P;
     for (Eigen::Index k : {0, 6}) rate_gradient.middleCols<3>(k + 3) += D.P.middleCols<3>(k) * skew(D.v.segment<3>(k));
-    const Vector6 bows_rate = 2 / L_ * bowing_ * (D.P * D.v);
+    const Vector6 bows_rate = D.bows_gradient * (D.P * D.v) / L_;
     rate_gradient.topRows<3>() += along_ * (D.bows.transpose() * rate_gradient + bows_rate.transpose() * D.P).eval();
     f_gradient += damping_ / L_ * stiffness_ * rate_gradient;
   }
