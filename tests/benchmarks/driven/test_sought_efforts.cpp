@@ -81,7 +81,7 @@ double force_of(Session& session, const std::string& joint) {
 TEST_CASE("the torques of a robot arm whose tip follows a straight line are those of the textbook") {
   // The tip goes to and fro along a line: x = -A (1 - cos(w t)), y = B (1 - cos(w t)).
   const Arm arm;
-  const double A = 0.15, B = 0.2, w = 5;
+  const double A = 0.15, B = 0.1, w = 5;
   const MechanismFile file = read_mechanism_text(
       arm.model(fmt::format(", motion: {{x: \"-{0}*(1 - cos({2}*t))\", y: \"{1}*(1 - cos({2}*t))\"}}", A, B, w),
                 sought_arm),
