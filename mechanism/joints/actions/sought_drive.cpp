@@ -24,8 +24,8 @@ class LargestEffort final : public Gatherer {
   }
   std::vector<ResultArray> results() override { return {}; }
   std::string summary() override {
-    return fmt::format("  drive '{}': {} has up to {:.6g} {} (at t = {:.6g} s)\n", drive_.name(), drive_.sought().name,
-                       largest_, drive_.coordinate().force_units(), time_);
+    return fmt::format("  drive '{}' takes up to {:.6g} {} (at t = {:.6g} s)\n", drive_.name(), largest_,
+                       drive_.coordinate().force_units(), time_);
   }
   std::string what() const override { return "largest effort of '" + drive_.name() + "'"; }
 

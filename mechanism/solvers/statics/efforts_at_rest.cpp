@@ -17,9 +17,26 @@ void EffortsAtRest::add_forces(const Environment& environment, const State& stat
 }
 
 bool EffortsAtRest::reached(const ResidualScale& scale) {
-  const double ratio = efforts_.ratio(gap_, scale), before = before_;
+  if (floor_.size() == 0) return false;
+  const VectorX beyond = (gap_.cwiseAbs() - floor_).cwiseMax(0);
+  const double ratio = efforts_.ratio(beyond, scale), before = before_;
   before_ = ratio;
   return ratio <= SoughtEfforts::accurate || (ratio <= SoughtEfforts::rounding && ratio > 0.5 * before);
+}
+
+/// The answer to displacements of all unknowns by as much as they are rounded, up or down as it happens.
+VectorX EffortsAtRest::rounding_floor() const {
+  constexpr double several = 40 * std::numeric_limits<double>::epsilon();
+  const System& system = efforts_.system();
+  const double length = model_length(state_);
+  VectorX step = VectorX::Zero(system.size());
+  unsigned pseudo_random = 1;
+  for (int i = 0; i < system.dofs(); ++i) {
+    pseudo_random = 1664525U * pseudo_random + 1013904223U;
+    const double size = system.kind(i) == Kind::translation ? length : system.kind(i) == Kind::rotation ? 1 : 0;
+    step[i] = (pseudo_random >> 31) != 0 ? size : -size;
+  }
+  return several * answer(efforts_, environment_, state_, step).cwiseAbs();
 }
 
 VectorX EffortsAtRest::answer(const SoughtEfforts& efforts, const Environment& environment, const State& state,
@@ -54,6 +71,7 @@ void EffortsAtRest::solve(const StaticTangent& tangent, const Eigen::Ref<const V
   tangent.solve(r, delta);
   response_ = response(efforts_, environment_, state_, tangent);
   change_ = response_.change(gap_ + answer(efforts_, environment_, state_, delta));
+  floor_ = rounding_floor();
   base_ = efforts_.values(state_);
   delta += response_.step(change_);
 }

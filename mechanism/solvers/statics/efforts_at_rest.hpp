@@ -32,11 +32,13 @@ class EffortsAtRest final : public Bordering {
                         const VectorX& step);
 
  private:
+  VectorX rounding_floor() const;
   const SoughtEfforts& efforts_;
   MatrixX push_;
   Environment environment_;
   State state_;  ///< of the last residual
   VectorX gap_, base_, change_;
+  VectorX floor_;  ///< what rounding of positions makes of the gap
   EffortResponse response_;
   double before_ = 0;  ///< size of the gap when it was last judged
 };
