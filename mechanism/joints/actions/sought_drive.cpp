@@ -11,8 +11,12 @@ namespace {
 class LargestEffort final : public Gatherer {
  public:
   explicit LargestEffort(const SoughtDrive& drive) : drive_(drive) {}
-  void begin() override { largest_ = time_ = 0; }
+  void begin() override {
+    largest_ = time_ = 0;
+    states_ = 0;
+  }
   void add(const LocalState& state) override {
+    ++states_;
     const double force = drive_.force(state);
     if (std::abs(force) <= std::abs(largest_)) return;
     largest_ = force;
@@ -21,9 +25,11 @@ class LargestEffort final : public Gatherer {
   void exchange(Archive& archive) override {
     archive(largest_);
     archive(time_);
+    archive.within(states_, 0, 1e15);
   }
   std::vector<ResultArray> results() override { return {}; }
   std::string summary() override {
+    if (states_ < 2) return {};  // modes about a state, say: nothing was sought
     return fmt::format("  drive '{}' takes up to {:.6g} {} (at t = {:.6g} s)\n", drive_.name(), largest_,
                        drive_.coordinate().force_units(), time_);
   }
@@ -32,6 +38,7 @@ class LargestEffort final : public Gatherer {
  private:
   const SoughtDrive& drive_;
   double largest_ = 0, time_ = 0;
+  long states_ = 0;
 };
 
 }  // namespace

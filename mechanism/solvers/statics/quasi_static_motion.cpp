@@ -6,6 +6,7 @@
 
 #include "mechanism/solvers/newton/model_length.hpp"
 #include "mechanism/solvers/start/continuous_motion.hpp"
+#include "mechanism/solvers/statics/fixed_point.hpp"
 #include "mechanism/solvers/statics/node_motion.hpp"
 
 namespace bielle::mechanism {
@@ -217,21 +218,40 @@ void QuasiStaticMotion::put_constraints(const State& state, const VectorX& rows,
   system_.for_each_idle(state, [&](int k) { r[first + k] = 0; });
 }
 
-/// Inertia and dampers' forces are what velocities and accelerations add to the residual.
-void QuasiStaticMotion::find_inertia(const State& state) {
-  VectorX moving(system_.size()), resting(system_.size());
+/// Inertia and dampers' forces are what velocities and accelerations add to the residual (dofs), and to the reactions
+/// of moved nodes (6 of each).
+VectorX QuasiStaticMotion::inertia_of(const State& state) const {
+  VectorX moving(system_.size()), resting(system_.size()), all(f_.size() + support_.size());
   const State still = at_standstill(state);
   system_.residual(state, environment_, moving);
   residual_at_rest(system_, statics_, still, resting);
-  f_ = (moving - resting).head(system_.dofs());
-  if (efforts_.any()) support_ = efforts_.reactions(environment_, state) - efforts_.reactions(statics_, still);
+  all.head(f_.size()) = (moving - resting).head(f_.size());
+  if (efforts_.any()) {
+    const MatrixX of_supports = efforts_.reactions(environment_, state) - efforts_.reactions(statics_, still);
+    all.tail(support_.size()) = of_supports.reshaped();
+  }
+  return all;
+}
+
+/// What a force of each kind is worth next to others: moments by the mechanism's size, forces on amplitudes by none.
+VectorX QuasiStaticMotion::weights_of_inertia(const State& state) const {
+  const double length = std::max(model_extent(state), 1e-30);
+  VectorX weights = VectorX::Ones(f_.size() + support_.size());
+  for (int i = 0; i < system_.dofs(); ++i)
+    if (system_.kind(i) == Kind::rotation) weights[i] = 1 / length;
+  for (Eigen::Index k = f_.size(); k < weights.size(); ++k)
+    if ((k - f_.size()) % 6 >= 3) weights[k] = 1 / length;
+  return weights;
 }
 
 void QuasiStaticMotion::load_by_inertia(State& state) {
   constexpr int most = 60;
   constexpr double settled = 1e-9;  // [rad], or of the extent: so far inertia forces are not known
+  FixedPoint forces(weights_of_inertia(state));
+  VectorX f = inertia_of(state);
   for (int k = 0; k < most; ++k) {
-    find_inertia(state);
+    f_ = f.head(f_.size());
+    support_ = f.tail(support_.size()).reshaped(6, support_.cols());
     equilibrium_.push(-f_);
     efforts_at_rest_.push(support_);
     State next = state;
@@ -241,6 +261,7 @@ void QuasiStaticMotion::load_by_inertia(State& state) {
     state = std::move(next);
     find_rates(state);
     if (k > 0 && change <= settled) return;
+    f = forces.next(f, inertia_of(state));
   }
   throw ComputationError(
       "the deformation under inertia forces does not settle: the motion is too fast for elastic parts that follow in "

@@ -49,7 +49,8 @@ class QuasiStaticMotion {
   VectorX solve_rates(const State& still, Extended r, const EffortResponse& response, VectorX& effort_rate) const;
   void put_constraints(const State& state, const VectorX& rows, VectorX& r) const;
   void load_by_inertia(State& state);
-  void find_inertia(const State& state);
+  VectorX inertia_of(const State& state) const;
+  VectorX weights_of_inertia(const State& state) const;
   void equilibrate(Equilibrium& equilibrium, State& state) const;
   State at_standstill(const State& state) const;
   Extended at_rest(const State& still, double after, double part) const;

@@ -214,6 +214,38 @@ TEST_CASE("torques about a spherical joint turn a body as its rotation vector is
   CHECK(std::abs(report.balance) < 1e-5);
 }
 
+TEST_CASE("the force on a slider that turns its crank is found, but not through the dead centre") {
+  // Massless rod, crank of inertia J: F dx/da = J a'' with x = r cos a + sqrt(l^2 - r^2 sin^2 a). The crank's node is
+  // fixed but for its rotation.
+  const double r = 0.1, l = 0.3, J = 0.2;
+  const auto slide_crank = [&](const std::string& angle, double start) {
+    const double x = r * std::cos(start), y = r * std::sin(start), end = x + std::sqrt(l * l - y * y);
+    return fmt::format(
+        "nodes:\n  c: {{fixed: [x, y, z, rx, ry], motion: {{rz: \"{0}\"}}}}\n"
+        "  d: {{position: [{1:.17g}, {2:.17g}, 0]}}\n  p: {{position: [{3:.17g}, 0, 0]}}\n"
+        "elements:\n  c: {{type: rigid_body, node: c, mass: 1, inertia: [0.2, 0.2, {4}]}}\n"
+        "  d: {{type: rigid_body, node: d, mass: 1e-9, inertia: [1e-9, 1e-9, 1e-9]}}\n"
+        "joints:\n  pin: {{type: hinge, nodes: [c, d], position: [{1:.17g}, {2:.17g}, 0], axis: [0, 0, 1]}}\n"
+        "  gud: {{type: hinge, nodes: [d, p], position: [{3:.17g}, 0, 0], axis: [0, 0, 1]}}\n"
+        "  sl: {{type: prismatic, nodes: [ground, p], position: [{3:.17g}, 0, 0], axis: [1, 0, 0]}}\n"
+        "drives: {{push: {{joint: sl, force: sought}}}}\n",
+        angle, x, y, end, J);
+  };
+  const MechanismFile file = read_mechanism_text(slide_crank("0.5*t^2", 0.5), "crank.yaml");
+  Session session(file.model);
+  session.on_step([&](Session& at) {
+    const double a = 0.5 + 0.5 * at.time() * at.time(), s = r * std::sin(a);
+    const double slope = -s - s * r * std::cos(a) / std::sqrt(l * l - s * s);
+    CHECK(force_of(at, "sl") == Approx(J / slope).epsilon(1e-6));
+  });
+  CHECK(session.kinematics({.duration = 1.5, .step = 0.05}).points == 31);
+  // In line, the slider's force has no arm.
+  const MechanismFile in_line = read_mechanism_text(slide_crank("t", 0), "crank.yaml");
+  Session refused(in_line.model);
+  CHECK_THAT(message_of<std::runtime_error>([&] { refused.kinematics({.duration = 1, .step = 0.1}); }),
+             Contains("t = 0 s: the force on displacement of joint 'sl' moves nothing that has a `motion`"));
+}
+
 TEST_CASE("a delta robot's motors lift its platform as they would if they were driven") {
   using namespace bielle::test;
   // Arms by theta lower the elbows by a sin(theta): z = a sin(theta) + sqrt(rod^2 - (base + a cos(theta) -
