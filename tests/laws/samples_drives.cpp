@@ -85,7 +85,8 @@ std::vector<Sample> controllers() {
                             {"limit", "[1]", "[lower, upper]"},
                             {"release.when", "'x'", "x"}}));
   list.push_back(with_keys("hinge", "torque sought", "torque: sought",
-                           {{"limit", "3", "does not go with an effort that is sought"},
+                           {{"torque", "'x'", "x"},
+                            {"limit", "3", "does not go with an effort that is sought"},
                             {"release", "1", "does not go with an effort that is sought"},
                             {"moves", "b", "no `motion`"},
                             {"moves", "c", "c"}}));

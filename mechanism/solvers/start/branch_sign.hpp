@@ -2,7 +2,8 @@
 //
 // The constraints' matrix B is square there. Its determinant is continuous along a motion, and vanishes where the
 // mechanism is singular (a dead centre) alone: of two positions between which it has changed its sign, either the
-// motion has passed a singular one, or they are of different branches.
+// motion has passed a singular one, or they are of different branches. One sign tells of all loops together: two that
+// change at once go unnoticed, and mechanisms with elastic parts, whose B is not square, are not judged.
 #pragma once
 
 #include <memory>
