@@ -17,11 +17,10 @@ namespace {
 /// The largest amount of a formula about its break points and between them: what its rounding goes by, also where it
 /// vanishes (a sine after a whole turn).
 double largest_about(const Expression& formula, const std::vector<double>& break_points) {
-  std::vector<double> times;
-  for (const double time : break_points) {
-    if (!times.empty()) times.push_back(0.5 * (times.back() + time));
-    times.push_back(time);
-  }
+  std::vector<double> times = break_points;
+  for (std::size_t k = 1; k < break_points.size(); ++k)
+    for (const double part : {0.13, 0.38, 0.62, 0.87})  // no zeros of sines and cosines of whole turns
+      times.push_back(break_points[k - 1] + part * (break_points[k] - break_points[k - 1]));
   double largest = 0;
   for (const double time : times) {
     try {
@@ -48,9 +47,10 @@ void doubt_jumps(const YamlValue& place, const Expression& formula, const char* 
       continue;
     }
     if (wide > std::max(rounding, 1e-12 * std::abs(formula(time + near))) && narrow > 0.5 * wide) {
-      place.doubt(fmt::format("{} jumps by {:.3g} at t = {:.6g} s; the motion there is what the steps make of it. `step` is "
-                              "a smooth transition",
-                              what, narrow, time));
+      place.doubt(
+          fmt::format("{} jumps by {:.3g} at t = {:.6g} s; the motion there is what the steps make of it. `step` is "
+                      "a smooth transition",
+                      what, narrow, time));
       return;
     }
   }
