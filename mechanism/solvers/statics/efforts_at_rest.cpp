@@ -49,10 +49,10 @@ VectorX EffortsAtRest::answer(const SoughtEfforts& efforts, const Environment& e
   for (int i = 0; i < system.dofs(); ++i)
     size = std::max(size, std::abs(step[i]) / (system.kind(i) == Kind::translation ? length : 1));
   const double part = size > way / most ? way / size : size > 0 ? most : 1;
-  const auto forces_after = [&](double part) {
+  const auto forces_after = [&](double by) {
     State moved = state;
-    system.displace(moved, state, part * step.head(system.dofs()));
-    moved.multiplier += part * step.tail(system.multipliers());
+    system.displace(moved, state, by * step.head(system.dofs()));
+    moved.multiplier += by * step.tail(system.multipliers());
     return efforts.along(moved, efforts.reactions(environment, moved));
   };
   return (forces_after(part) - forces_after(-part)) / (2 * part);
