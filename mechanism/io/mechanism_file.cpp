@@ -105,12 +105,9 @@ void read_holds(const YamlValue& entry, Node& node) {
     }
     // Rotations are prescribed together: those that are fixed stay zero.
     const auto rotations = node.freedom.begin() + 3;
-    const auto prescribed = std::count(rotations, node.freedom.end(), Freedom::prescribed);
-    if (prescribed > 0) {
-      if (std::count(rotations, node.freedom.end(), Freedom::free) > 0)
-        motion->fail("prescribed rotations come all three together: give rx, ry and rz, or fix the others");
-      std::fill(rotations, node.freedom.end(), Freedom::prescribed);
-    }
+    if (std::count(rotations, node.freedom.end(), Freedom::prescribed) > 0 &&
+        std::count(rotations, node.freedom.end(), Freedom::free) > 0)
+      motion->fail("prescribed rotations come all three together: give rx, ry and rz, or fix the others");
   }
 }
 

@@ -13,8 +13,8 @@ StartMotion own_motion(const Node& node) {
   for (int k = 0; k < 3; ++k)
     if (node.freedom[static_cast<std::size_t>(k)] == Freedom::prescribed)
       motion.v[k] = node.motion[static_cast<std::size_t>(k)].derivative(0, 1);
-  // Prescribed rotations come all three together.
-  if (std::count(node.freedom.begin() + 3, node.freedom.end(), Freedom::prescribed) < 3) return motion;
+  // Prescribed rotations come all three together, with those that are fixed at zero.
+  if (std::count(node.freedom.begin() + 3, node.freedom.end(), Freedom::prescribed) == 0) return motion;
   Vector3 psi, rate;
   for (int k = 0; k < 3; ++k) {
     psi[k] = node.motion[static_cast<std::size_t>(3 + k)](0);

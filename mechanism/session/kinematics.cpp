@@ -15,10 +15,12 @@
 #include "mechanism/solvers/dynamics/crossing_watch.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
 #include "mechanism/solvers/start/assemble_positions.hpp"
+#include "mechanism/solvers/start/branch_sign.hpp"
 #include "mechanism/solvers/start/consistent_accelerations.hpp"
 #include "mechanism/solvers/start/consistent_start.hpp"
 #include "mechanism/solvers/start/consistent_velocities.hpp"
 #include "mechanism/solvers/start/continuous_motion.hpp"
+#include "mechanism/solvers/start/sought_accelerations.hpp"
 #include "mechanism/solvers/start/undriven_motions.hpp"
 #include "mechanism/solvers/statics/quasi_static_motion.hpp"
 #include "reduce/common/counted.hpp"
@@ -115,8 +117,10 @@ std::vector<double> times_of(const System& system, const KinematicsOptions& opti
 /// Positions, velocities, accelerations and reactions of driven rigid parts.
 class RigidPositions {
  public:
-  RigidPositions(const System& system, const Environment& environment)
-      : system_(system), environment_(environment), saddle_(system) {}
+  RigidPositions(const System& system, const Environment& environment, const SoughtEfforts& efforts)
+      : system_(system), environment_(environment), efforts_(efforts), saddle_(system) {}
+  /// Finds efforts that are sought at a state that is consistent with none.
+  void begin(State& state) { find_sought_efforts(efforts_, environment_, state, saddle_); }
   State operator()(const State& from, double time) {
     State next = predicted(system_, from, time);
     StartReport unused;
@@ -124,12 +128,14 @@ class RigidPositions {
     make_velocities_consistent(system_, environment_, next, unused, saddle_);
     system_.begin_branch(next, environment_);  // stops, contacts
     make_accelerations_consistent(system_, environment_, next, saddle_);
+    find_sought_efforts(efforts_, environment_, next, saddle_);
     return next;
   }
 
  private:
   const System& system_;
   const Environment& environment_;
+  const SoughtEfforts& efforts_;
   MassSaddle saddle_;
 };
 
@@ -137,7 +143,14 @@ class RigidPositions {
 class CrossedMotion {
  public:
   CrossedMotion(const System& system, const Environment& environment, ContinuousMotion::Position position)
-      : system_(system), environment_(environment), motion_(system, std::move(position)), watch_(system) {}
+      : system_(system),
+        environment_(environment),
+        sign_(system),
+        motion_(system, std::move(position),
+                [this](const State& one, const State& other) { return sign_.same(environment_, one, other); }),
+        watch_(system) {}
+  CrossedMotion(const CrossedMotion&) = delete;
+  CrossedMotion& operator=(const CrossedMotion&) = delete;
 
   /// To be called before each step. @returns crossings that are met where velocities or forces have jumped
   std::vector<int> begin(const State& state) { return watch_.begin(state, environment_, passed_); }
@@ -172,6 +185,7 @@ class CrossedMotion {
  private:
   const System& system_;
   const Environment& environment_;
+  BranchSign sign_;
   ContinuousMotion motion_;
   CrossingWatch watch_;
   std::vector<int> passed_;  ///< at the end of the last step
@@ -211,15 +225,19 @@ KinematicsReport Session::kinematics(const KinematicsOptions& options) {
   if (!(options.duration > 0) || !(options.step > 0))
     throw InputError("kinematics needs a duration and a step greater than 0");
   KinematicsReport report;
+  const SoughtEfforts efforts(system_);
   begin_kinematics(options, report);
   EnergyBalance books;
   const double begin = state_.time;
   const std::vector<double> times = times_of(system_, options, recording_, begin);
   const std::vector<double> kinks = system_.break_points();
   const double rounding = same_time * options.step;
-  RigidPositions rigid(system_, environment_);
+  RigidPositions rigid(system_, environment_, efforts);
   std::optional<QuasiStaticMotion> elastic;
-  if (report.elastic) elastic.emplace(system_, environment_, options.step).begin(state_);
+  if (report.elastic)
+    elastic.emplace(system_, environment_, efforts, options.step).begin(state_);
+  else
+    rigid.begin(state_);
   CrossedMotion motion(system_, environment_, [&](const State& from, double time) {
     return elastic ? elastic->position(from, time) : rigid(from, time);
   });

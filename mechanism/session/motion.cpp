@@ -10,6 +10,7 @@
 #include "mechanism/session/interrupted.hpp"
 #include "mechanism/session/motion_steps.hpp"
 #include "mechanism/session/session.hpp"
+#include "mechanism/solvers/constraints/sought_efforts.hpp"
 #include "mechanism/solvers/start/assemble_positions.hpp"
 #include "mechanism/solvers/start/rigid_start.hpp"
 #include "mechanism/solvers/statics/load_ramp.hpp"
@@ -21,6 +22,7 @@ namespace bielle::mechanism {
 Motion::Motion(Session& session, const DynamicsOptions& options) : session_(&session), options_(options) {
   if (!(options.duration > 0) || !(options.stepping.size > 0))
     throw InputError("a motion needs a duration and a step greater than 0");
+  refuse_sought_efforts(session.model_, "a dynamic analysis");
   session.at_rest();
   session.stopping_ = false;
   const System& system = session.system_;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/session/session.hpp"
+#include "mechanism/solvers/constraints/sought_efforts.hpp"
 #include "mechanism/solvers/start/assemble_positions.hpp"
 #include "mechanism/solvers/statics/held_states.hpp"
 #include "mechanism/solvers/statics/static_tangent.hpp"
@@ -65,6 +66,7 @@ void Session::follow_loads(const StaticsOptions& options, const Environment& sta
 }
 
 StaticsReport Session::statics(const StaticsOptions& options) {
+  refuse_sought_efforts(model_, "a static analysis");
   at_rest();
   stopping_ = false;
   StaticsReport report;

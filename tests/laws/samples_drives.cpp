@@ -84,6 +84,12 @@ std::vector<Sample> controllers() {
                             {"limit", "[~, ~]", "no limit"},
                             {"limit", "[1]", "[lower, upper]"},
                             {"release.when", "'x'", "x"}}));
+  list.push_back(with_keys("hinge", "torque sought", "torque: sought",
+                           {{"torque", "'x'", "x"},
+                            {"limit", "3", "does not go with an effort that is sought"},
+                            {"release", "1", "does not go with an effort that is sought"},
+                            {"moves", "b", "no `motion`"},
+                            {"moves", "c", "c"}}));
   list.push_back(
       with_keys("hinge", "angle, released", "angle: \"0.3*t\", release: 1.5",
                 {{"angle", "'x'", "x"}, {"release", "-1", "greater than 0"}, {"limit", "3", "motion needs"}}));

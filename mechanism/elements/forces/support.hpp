@@ -7,17 +7,18 @@
 #pragma once
 
 #include "mechanism/model/model.hpp"
+#include "mechanism/model/sought_effort.hpp"
 
 namespace bielle::mechanism {
 
 /// Adds nothing to the equations; records `/supports/<node>/reaction`.
-class Support final : public Component {
+class Support final : public Component, public NodeSupport {
  public:
   /// @param node    that is held   @param carried  nodes that it carries
   /// @param acting  whatever has rows on one of them, in itself or in what it refers to
   Support(std::string name, int node, std::vector<int> carried, std::vector<const Component*> acting);
-  /// Force and moment about the node that the support exerts on it, inertial components [N], [N m].
-  Vector6 reaction(const LocalState& state) const;
+  int node() const override { return node_; }
+  Vector6 reaction(const LocalState& state) const override;
 
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState& /*state*/, Eigen::Ref<VectorX> /*r*/) const override {}

@@ -3,6 +3,7 @@
 //   angle or displacement (t):  constraint c(q) - f(t) = 0, motion_drive.hpp
 //   rate or speed (t):          constraint cdot - f(t) = 0, motion_drive.hpp
 //   torque or force:            a formula of t and the state, force_drive.hpp
+//   torque or force, sought:    found by inverse dynamics for the motion of nodes, sought_drive.hpp
 //   pid:                        a controller with states of its own, pid_drive.hpp
 //
 // Any of them may let go of its joint: at a time, or where a measure crosses a value. From there on it does nothing.

@@ -9,6 +9,7 @@
 #include "mechanism/joints/actions/force_drive.hpp"
 #include "mechanism/joints/actions/motion_drive.hpp"
 #include "mechanism/joints/actions/pid_drive.hpp"
+#include "mechanism/joints/actions/sought_drive.hpp"
 #include "mechanism/measures/measure_event.hpp"
 #include "mechanism/measures/read_measure.hpp"
 #include "mechanism/reading/names.hpp"
@@ -56,17 +57,17 @@ std::size_t find_coordinate(const YamlValue& entry, const YamlValue& place, cons
                                     : names.front());
 }
 
-/// Notes that the coordinate is driven.
-void take_coordinate(const YamlValue& entry, const std::string& name, bool by_motion, Joint& joint,
+/// Notes that the coordinate is driven. @param contradicts_lock  a clause on drives that leave no lock, or nothing
+void take_coordinate(const YamlValue& entry, const std::string& name, const char* contradicts_lock, Joint& joint,
                      std::size_t coordinate) {
   const std::string& chosen = joint.coordinates()[coordinate].name;
   Joint::CoordinateUse& use = joint.use(coordinate);
   if (!use.driver.empty())
     entry.fail(fmt::format("the {} of joint '{}' is driven by '{}' already", chosen, joint.name(), use.driver));
   use.driver = name;
-  if (by_motion && use.locked)
-    entry.fail(fmt::format("the {} of joint '{}' is `locked` for a time, which a drive by motion contradicts", chosen,
-                           joint.name()));
+  if (contradicts_lock && use.locked)
+    entry.fail(
+        fmt::format("the {} of joint '{}' is `locked` for a time, which {}", chosen, joint.name(), contradicts_lock));
 }
 
 /// `release: 1.5`, `{event: name}` or `{when: formula, crosses: value, direction: ..}`.
@@ -138,6 +139,28 @@ std::unique_ptr<Drive> make_force(const std::string& name, const YamlValue& entr
   return drive;
 }
 
+/// `torque: sought`
+bool is_sought(const YamlValue& law) { return law.is_scalar() && law.text() == "sought"; }
+
+std::unique_ptr<Drive> make_sought(const std::string& name, const YamlValue& entry, const Joint& joint,
+                                   std::size_t coordinate, const Model& model) {
+  for (const char* key : {"limit", "release"})
+    if (const auto value = entry.find(key))
+      value->fail("does not go with an effort that is sought: inverse dynamics tells what the motion takes");
+  std::vector<int> moves;
+  if (const auto nodes = entry.find("moves")) {
+    for (const YamlValue& value : nodes->is_sequence() ? nodes->items() : std::vector<YamlValue>{*nodes}) {
+      moves.push_back(node_named_by(value, model));
+      const auto& freedom = model.node(moves.back()).freedom;
+      if (std::find(freedom.begin(), freedom.end(), Freedom::prescribed) == freedom.end())
+        value.fail(
+            fmt::format("node '{}' has no `motion`, which the sought effort would have to bring about", value.text()));
+    }
+    if (moves.empty()) nodes->fail("expected the name of a node that has a `motion`, or a list of such");
+  }
+  return std::make_unique<SoughtDrive>(name, joint, coordinate, std::move(moves));
+}
+
 std::unique_ptr<Drive> make_motion(const std::string& name, const std::string& law, const YamlValue& value,
                                    Joint& joint, std::size_t coordinate) {
   Expression f = value.expression({"t"});
@@ -151,7 +174,7 @@ std::unique_ptr<Drive> make_motion(const std::string& name, const std::string& l
 }  // namespace
 
 void read_drive(const std::string& name, const YamlValue& entry, Model& model) {
-  std::vector<std::string> keys = {"joint", "coordinate", "limit", "release"};
+  std::vector<std::string> keys = {"joint", "coordinate", "limit", "release", "moves"};
   keys.insert(keys.end(), drive_laws.begin(), drive_laws.end());
   entry.check_keys(keys, "a drive");
   auto* joint = dynamic_cast<Joint*>(&component_named_by(Section::joints, entry.at("joint"), model));
@@ -159,6 +182,9 @@ void read_drive(const std::string& name, const YamlValue& entry, Model& model) {
   const std::string law = find_law(entry);
   const YamlValue value = entry.at(law);
   const bool pid = law == "pid", by_motion = !pid && law != "torque" && law != "force";
+  const bool sought = !pid && !by_motion && is_sought(value);
+  if (const auto moves = entry.find("moves"); moves && !sought)
+    moves->fail("belongs to a `torque` or `force` that is `sought`");
   if (pid) {
     value.check_keys({"coordinate", "measure", "target", "kp", "ki", "kd", "limit", "filter", "tracking_time"},
                      "`pid`");
@@ -169,12 +195,17 @@ void read_drive(const std::string& name, const YamlValue& entry, Model& model) {
     if (const auto limit = entry.find("limit"))
       limit->fail("limits a torque or force; a drive by motion takes what the motion needs");
   const std::size_t coordinate = find_coordinate(entry, pid ? value : entry, law, *joint);
-  take_coordinate(entry, name, by_motion, *joint, coordinate);
+  take_coordinate(entry, name,
+                  by_motion ? "a drive by motion contradicts"
+                  : sought  ? "leaves no effort to be sought"
+                            : nullptr,
+                  *joint, coordinate);
 
   std::unique_ptr<Drive> drive = pid         ? make_pid(name, value, *joint, coordinate, model)
                                  : by_motion ? make_motion(name, law, value, *joint, coordinate)
+                                 : sought    ? make_sought(name, entry, *joint, coordinate, model)
                                              : make_force(name, entry, value, *joint, coordinate, model);
-  if (const auto release = entry.find("release")) read_release(*release, *drive, model);
+  if (const auto release = entry.find("release"); release && !sought) read_release(*release, *drive, model);
   model.add_within(std::move(drive), Entry{Section::drives, name}, Entry{Section::joints, joint->name()});
 }
 

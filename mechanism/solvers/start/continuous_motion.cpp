@@ -44,13 +44,26 @@ State ContinuousMotion::advance(const State& from, double time, bool jumps) { re
 
 State ContinuousMotion::advance(const State& from, double time, bool jumps, int depth) {
   constexpr int deepest = 10;
+  constexpr int deepest_passage = 16;  // through a singular position, which costs two positions a halving
   State next = position_(from, time);
-  if (fits(from, next) || (jumps && depth == deepest)) return next;
-  if (depth == deepest)
+  if (fits(from, next)) {
+    if (depth >= deepest_passage || same_side_(from, next)) return next;
+    try {
+      return advance_in_halves(from, time, jumps, depth);
+    } catch (const ComputationError&) {
+      return next;  // so near to a singular position rounding decides; the longer step tells more
+    }
+  }
+  if (jumps && depth >= deepest) return next;
+  if (depth >= deepest)
     throw ComputationError(
         "velocities and accelerations do not fit to those just before, however short the step: either a drive jumps, "
         "or "
         "a dead centre is met, where the mechanism may go on in two ways: take other steps, or drive another joint");
+  return advance_in_halves(from, time, jumps, depth);
+}
+
+State ContinuousMotion::advance_in_halves(const State& from, double time, bool jumps, int depth) {
   const State middle = advance(from, from.time + 0.5 * (time - from.time), false, depth + 1);
   return advance(middle, time, jumps, depth + 1);
 }

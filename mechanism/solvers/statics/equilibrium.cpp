@@ -20,7 +20,7 @@ constexpr double least_share = 0.1;   // of a step that is shortened
 
 }  // namespace
 
-Equilibrium::Equilibrium(const LoadRamp& ramp, const NewtonOptions& options, HeldCoordinates* held)
+Equilibrium::Equilibrium(const LoadRamp& ramp, const NewtonOptions& options, Bordering* further)
     : ramp_(ramp),
       system_(ramp.system()),
       options_(options),
@@ -28,7 +28,7 @@ Equilibrium::Equilibrium(const LoadRamp& ramp, const NewtonOptions& options, Hel
       convergence_(system_, options),
       reactions_(system_),
       search_(system_),
-      coordinates_(held),
+      further_(further),
       r_(system_.size()),
       delta_(system_.size()) {}
 
@@ -71,7 +71,7 @@ template <class Iterations>
 int Equilibrium::attempt_once(const State& state, const Iterations& iterations) {
   judged_ = stepped_ = falls_ = false;
   balanced_.resize(0);
-  if (coordinates_) coordinates_->begin();
+  if (further_) further_->begin();
   why_.clear();
   int count = -1;
   try {
@@ -253,7 +253,7 @@ bool Equilibrium::follow_motions(double factor, State& state) {
 
 bool Equilibrium::reached() {
   const bool in_balance = convergence_.reached(r_, scale_);
-  return in_balance && (!coordinates_ || coordinates_->reached());
+  return in_balance && (!further_ || further_->reached(scale_));
 }
 
 /// The largest force times the farthest that z moves a node, carried ones included; likewise of moments and turns.
@@ -281,8 +281,8 @@ void Equilibrium::leave_balanced_out(const State& state) {
   VectorX load = VectorX::Zero(system_.size()), loose = delta_;
   for (int purified = 0; purified < 2; ++purified) {
     load.head(n) = -H.cwiseProduct(loose.head(n));
-    if (coordinates_)
-      coordinates_->solve_along(tangent_, load, loose);
+    if (further_)
+      further_->solve_along(tangent_, load, loose);
     else
       tangent_.solve(load, loose);
   }
@@ -360,14 +360,14 @@ void Equilibrium::factor(const State& state, double inertia) {
 
 void Equilibrium::solve() {
   ++solves_;
-  if (coordinates_)
-    coordinates_->solve(tangent_, r_, delta_);
+  if (further_)
+    further_->solve(tangent_, r_, delta_);
   else
     tangent_.solve(r_, delta_);
 }
 
 void Equilibrium::move(State& state, const State& base, double part) {
-  if (coordinates_) coordinates_->move(part);
+  if (further_) further_->move(state, part);
   system_.displace(state, base, part * delta_.head(system_.dofs()));
   state.first_order = base.first_order + part * delta_.segment(system_.dofs(), system_.first_orders());
   state.multiplier = base.multiplier + part * delta_.tail(system_.multipliers());
@@ -380,7 +380,7 @@ void Equilibrium::evaluate(State& state) {
   residual_at_rest(system_, environment_, state, r_, &scale_);
   if (push_.size() > 0) r_.head(push_.size()) -= push_;
   if (balanced_.size() > 0) r_.head(balanced_.size()) -= balanced_;
-  if (coordinates_) coordinates_->add_forces(environment_, state, r_);
+  if (further_) further_->add_forces(environment_, state, r_);
 }
 
 }  // namespace bielle::mechanism

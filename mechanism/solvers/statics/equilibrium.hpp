@@ -6,7 +6,7 @@
 #include "mechanism/solvers/constraints/reaction_norm.hpp"
 #include "mechanism/solvers/newton/balance_search.hpp"
 #include "mechanism/solvers/newton/convergence.hpp"
-#include "mechanism/solvers/statics/held_coordinates.hpp"
+#include "mechanism/solvers/statics/bordering.hpp"
 #include "mechanism/solvers/statics/load_ramp.hpp"
 #include "mechanism/solvers/statics/static_tangent.hpp"
 
@@ -21,8 +21,8 @@ struct Continuation {
 
 class Equilibrium {
  public:
-  /// @param held  coordinates that stay where they are; nullptr: none. It must outlive this
-  Equilibrium(const LoadRamp& ramp, const NewtonOptions& options, HeldCoordinates* held = nullptr);
+  /// @param further  unknowns besides those of the system; nullptr: none. It must outlive this
+  Equilibrium(const LoadRamp& ramp, const NewtonOptions& options, Bordering* further = nullptr);
 
   /// To be called where an analysis sets off: what nothing holds there stays where it is, see StaticTangent.
   void look_for_loose(double factor, const State& state) { tangent_.look_for_loose(state, ramp_.environment(factor)); }
@@ -109,7 +109,7 @@ class Equilibrium {
   bool stepped_ = false;                ///< there was such a step
   bool falls_ = false;
   VectorX push_;
-  HeldCoordinates* coordinates_;
+  Bordering* further_;
   /// Forces (dofs) along what nothing holds that are taken for none: rounding next to what they balance. Or none (size
   /// 0).
   VectorX balanced_;

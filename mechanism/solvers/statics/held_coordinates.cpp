@@ -27,7 +27,7 @@ HeldCoordinates::HeldCoordinates(const System& system, const Environment& enviro
   for (Eigen::Index k = 0; k < count; ++k)
     close_[k] = rounding *
                 (start_coordinate(system, held_[static_cast<std::size_t>(k)]).units == "m" ? model_length(state) : 1.0);
-  begin();
+  HeldCoordinates::begin();
 }
 
 void HeldCoordinates::begin() { mu_ = base_ = change_ = VectorX::Zero(static_cast<Eigen::Index>(held_.size())); }
@@ -69,7 +69,7 @@ void HeldCoordinates::solve(const StaticTangent& tangent, const Eigen::Ref<const
   tangent.solve(r, delta);
   if (!any()) return;
   change_ = eliminate(tangent, gap_, delta);
-  set_base();
+  base_ = mu_;
 }
 
 void HeldCoordinates::solve_along(const StaticTangent& tangent, const Eigen::Ref<const VectorX>& r,
@@ -78,7 +78,7 @@ void HeldCoordinates::solve_along(const StaticTangent& tangent, const Eigen::Ref
   if (any()) eliminate(tangent, VectorX::Zero(gap_.size()), delta);
 }
 
-void HeldCoordinates::move(double part) {
+void HeldCoordinates::move(State& /*state*/, double part) {
   if (any()) mu_ = base_ + part * change_;
 }
 

@@ -11,31 +11,26 @@
 #include <vector>
 
 #include "mechanism/solvers/start/start_conditions.hpp"
-#include "mechanism/solvers/statics/static_tangent.hpp"
+#include "mechanism/solvers/statics/bordering.hpp"
 
 namespace bielle::mechanism {
 
-class HeldCoordinates {
+class HeldCoordinates final : public Bordering {
  public:
   /// @param held  values say where; those that constraints hold anyway (drives, locks) are left to them
   HeldCoordinates(const System& system, const Environment& environment, const State& state,
                   const std::vector<CoordinateCondition>& held);
 
   bool any() const { return !held_.empty(); }
-  /// No forces; a search begins.
-  void begin();
-  /// Adds the forces to a residual (size), and notes gaps and rows at the state.
-  void add_forces(const Environment& environment, const State& state, Eigen::Ref<VectorX> r);
-  /// Whether they are where they stay, to rounding.
-  bool reached() const { return gap_.size() == 0 || (gap_.array().abs() <= close_.array()).all(); }
-  /// delta of the tangent's factors for a residual r with the forces in it; the change of the forces is kept for
-  /// `move`.
-  void solve(const StaticTangent& tangent, const Eigen::Ref<const VectorX>& r, Eigen::Ref<VectorX> delta);
-  /// A step's direction is taken: its parts begin from here.
-  void set_base() { base_ = mu_; }
-  void move(double part);
-  /// Takes the gaps for zero in the next solution: a motion along which nothing is held.
-  void solve_along(const StaticTangent& tangent, const Eigen::Ref<const VectorX>& r, Eigen::Ref<VectorX> delta) const;
+  void begin() override;  ///< no forces
+  void add_forces(const Environment& environment, const State& state, Eigen::Ref<VectorX> r) override;
+  bool reached(const ResidualScale& /*scale*/) override {
+    return gap_.size() == 0 || (gap_.array().abs() <= close_.array()).all();
+  }
+  void solve(const StaticTangent& tangent, const Eigen::Ref<const VectorX>& r, Eigen::Ref<VectorX> delta) override;
+  void move(State& state, double part) override;
+  void solve_along(const StaticTangent& tangent, const Eigen::Ref<const VectorX>& r,
+                   Eigen::Ref<VectorX> delta) const override;
 
  private:
   VectorX eliminate(const StaticTangent& tangent, const VectorX& gap, Eigen::Ref<VectorX> delta) const;

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "mechanism/solvers/newton/model_length.hpp"
-#include "mechanism/solvers/start/consistent_velocities.hpp"
 #include "mechanism/solvers/start/continuous_motion.hpp"
+#include "mechanism/solvers/statics/fixed_point.hpp"
 #include "mechanism/solvers/statics/node_motion.hpp"
 
 namespace bielle::mechanism {
@@ -28,38 +28,56 @@ double distance(const State& from, const State& to) {
 
 }  // namespace
 
-QuasiStaticMotion::QuasiStaticMotion(const System& system, const Environment& environment, double step)
+QuasiStaticMotion::QuasiStaticMotion(const System& system, const Environment& environment, const SoughtEfforts& efforts,
+                                     double step)
     : system_(system),
+      efforts_(efforts),
       environment_(environment),
       statics_(at_rest_in(environment)),
       ramp_(system, statics_, Loaded{1, 1}),
-      path_equilibrium_(ramp_, NewtonOptions()),
-      equilibrium_(ramp_, NewtonOptions()),
+      path_efforts_(efforts),
+      efforts_at_rest_(efforts),
+      path_equilibrium_(ramp_, NewtonOptions(), efforts.any() ? &path_efforts_ : nullptr),
+      equilibrium_(ramp_, NewtonOptions(), efforts.any() ? &efforts_at_rest_ : nullptr),
       tangent_(system),
-      saddle_(system),
       kinks_(system.break_points()),
       step_(step),
       v_(VectorX::Zero(system.dofs())),
       a_(VectorX::Zero(system.dofs())),
-      lambda_rate_(VectorX::Zero(system.multipliers())) {}
+      lambda_rate_(VectorX::Zero(system.multipliers())),
+      effort_rate_(VectorX::Zero(efforts.count())) {}
 
 void QuasiStaticMotion::begin(State& state) {
-  path_ = state;
+  path_ = at_standstill(state);
   path_equilibrium_.look_for_loose(1, path_);
   equilibrium_.look_for_loose(1, path_);
   tangent_.look_for_loose(path_, statics_);
   find_path(path_, state.time);
-  find_rates();
+  f_ = VectorX::Zero(system_.dofs());
+  support_ = MatrixX::Zero(6, static_cast<Eigen::Index>(efforts_.nodes().size()));
   state = path_;
+  find_rates(state);
   load_by_inertia(state);
 }
 
 State QuasiStaticMotion::position(const State& from, double time) {
   State next = predicted(system_, from, time);
   find_path(path_, time);
-  find_rates();
+  system_.get_rates(next, v_, a_);
   load_by_inertia(next);
   return next;
+}
+
+/// All velocities and accelerations zero, those of nodes that are moved included.
+State QuasiStaticMotion::at_standstill(const State& state) const {
+  State still = state;
+  ramp_.set_off(still);
+  return still;
+}
+
+void QuasiStaticMotion::equilibrate(Equilibrium& equilibrium, State& state) const {
+  state = at_standstill(state);
+  if (equilibrium.find(1, state) < 0 && equilibrium.search(1, state) < 0) throw ComputationError(equilibrium.why());
 }
 
 void QuasiStaticMotion::find_path(const State& from, double time) {
@@ -67,41 +85,46 @@ void QuasiStaticMotion::find_path(const State& from, double time) {
   const double h = time - from.time;
   next.time = time;
   system_.displace(next, from, h * v_ + 0.5 * h * h * a_);
-  system_.set_rates(next, VectorX::Zero(system_.dofs()), VectorX::Zero(system_.dofs()));
-  if (path_equilibrium_.find(1, next) < 0 && path_equilibrium_.search(1, next) < 0)
-    throw ComputationError(path_equilibrium_.why());
+  equilibrate(path_equilibrium_, next);
   path_ = std::move(next);
 }
 
-/// The residual at rest a time after that of the path, a part of the way along its rates. Time stands still where no
-/// support moves: drives act by their constraints, and what loads change by themselves deforms without inertia.
-VectorX QuasiStaticMotion::at_rest(double after, double part) const {
-  State moved = path_;
-  if (supports_move_) moved.time = path_.time + after;
-  system_.displace(moved, path_, part * after * v_);
-  moved.multiplier += part * after * lambda_rate_;
-  VectorX r(system_.size());
-  residual_at_rest(system_, statics_, moved, r);
+/// The residual at rest a time after that of a state in equilibrium with f, a part of the way along the rates. Time
+/// stands still where no support moves: drives act by their constraints, and what loads change by themselves deforms
+/// without inertia.
+QuasiStaticMotion::Extended QuasiStaticMotion::at_rest(const State& still, double after, double part) const {
+  const double way = part * after, half_square = 0.5 * after * after;
+  State moved = still;
+  if (supports_move_) moved.time = still.time + after;
+  system_.displace(moved, still, way * v_);
+  moved.multiplier += way * lambda_rate_;
+  efforts_.set(moved, efforts_.values(still) + way * effort_rate_);
+  Extended r(system_.size() + efforts_.count());
+  residual_at_rest(system_, statics_, moved, r.head(system_.size()));
+  r.head(system_.dofs()) += f_ + after * f1_ + half_square * f2_;
+  if (efforts_.any())
+    r.tail(efforts_.count()) = efforts_.along(
+        moved, efforts_.reactions(statics_, moved) + support_ + after * support1_ + half_square * support2_);
   return r;
 }
 
-/// Whether nodes are moved by their supports about the path's time.
-bool QuasiStaticMotion::do_supports_move() const {
-  State moved = path_;
+/// Whether nodes are moved by their supports about a state's time.
+bool QuasiStaticMotion::do_supports_move(const State& still) const {
+  State moved = still;
   for (const double after : {-step_, 0.3 * step_, step_}) {
-    moved.time = path_.time + after;
-    system_.displace(moved, path_, VectorX::Zero(system_.dofs()));
+    moved.time = still.time + after;
+    system_.displace(moved, still, VectorX::Zero(system_.dofs()));
     for (std::size_t i = 0; i < moved.nodes.size(); ++i)
-      if (moved.nodes[i].x != path_.nodes[i].x || moved.nodes[i].R != path_.nodes[i].R) return true;
+      if (moved.nodes[i].x != still.nodes[i].x || moved.nodes[i].R != still.nodes[i].R) return true;
   }
   return false;
 }
 
 /// The first derivative of a residual that moves along a part of the path's rates, or the second where the first
 /// vanishes. If a kink of a support's motion is too near, the differences lie on the side away from it alone.
-VectorX QuasiStaticMotion::derivative(double part, int order) const {
+QuasiStaticMotion::Extended QuasiStaticMotion::derivative(const State& still, double part, int order) const {
   constexpr double turn = 0.005;  // [rad], or of the extent: differences err by its powers, rounding by its square
-  const double length = std::max(model_extent(path_), 1e-30);
+  const double length = std::max(model_extent(still), 1e-30);
   double speed = 0;
   for (int i = 0; i < system_.dofs(); ++i)
     speed = std::max(speed, std::abs(v_[i]) / (system_.kind(i) == Kind::translation ? length : 1));
@@ -110,85 +133,135 @@ VectorX QuasiStaticMotion::derivative(double part, int order) const {
   double before = infinity, after = infinity;  // to the nearest kinks; one at this time is left behind
   if (supports_move_)
     for (const double kink : kinks_) {
-      double& distance = kink > path_.time ? after : before;
-      distance = std::min(distance, std::abs(kink - path_.time));
+      double& distance = kink > still.time ? after : before;
+      distance = std::min(distance, std::abs(kink - still.time));
     }
-  const VectorX r0 = at_rest(0, part);
-  const auto r = [&](int steps) { return VectorX(at_rest(steps * h, part) - r0); };
+  const Extended r0 = at_rest(still, 0, part);
+  const auto r = [&](int steps) { return Extended(at_rest(still, steps * h, part) - r0); };
   if (std::min(before, after) >= 2 * h)
-    return order == 1 ? VectorX((8 * (r(1) - r(-1)) - r(2) + r(-2)) / (12 * h))
-                      : VectorX((16 * (r(1) + r(-1)) - r(2) - r(-2)) / (12 * h * h));
+    return order == 1 ? Extended((8 * (r(1) - r(-1)) - r(2) + r(-2)) / (12 * h))
+                      : Extended((16 * (r(1) + r(-1)) - r(2) - r(-2)) / (12 * h * h));
   h = after < before ? -std::min(h, 0.3 * before) : std::min(h, 0.3 * after);
-  return order == 1 ? VectorX((3 * r(1) - 1.5 * r(2) + r(3) / 3) / h)
-                    : VectorX((6 * r(1) - 1.5 * r(2) + 2.0 / 9 * r(3)) / (h * h));
+  return order == 1 ? Extended((3 * r(1) - 1.5 * r(2) + r(3) / 3) / h)
+                    : Extended((6 * r(1) - 1.5 * r(2) + 2.0 / 9 * r(3)) / (h * h));
 }
 
-/// Sets the rows of constraints that are in the equations; those of the others vanish.
-void QuasiStaticMotion::put_constraints(const State& state, const VectorX& rows, VectorX& r) const {
-  r.tail(rows.size()) = rows;
-  system_.for_each_idle(state, [&](int k) { r[system_.size() - system_.multipliers() + k] = 0; });
+/// f' and f'' of forces that stay as they are in the axes of nodes which turn as those of a state.
+void QuasiStaticMotion::follow(const State& state) {
+  f1_ = f2_ = VectorX::Zero(system_.dofs());
+  support1_ = support2_ = MatrixX::Zero(6, support_.cols());
+  const auto turned = [&](int i, const Vector3& force, Vector3& first, Vector3& second) {
+    const NodeState& node = state.nodes[static_cast<std::size_t>(i)];
+    const Vector3 omega = node.R * node.Omega, alpha = node.R * node.Omegadot;
+    first = omega.cross(force);
+    second = omega.cross(first) + alpha.cross(force);
+  };
+  Vector3 first, second;
+  for (int i = 0; i < static_cast<int>(state.nodes.size()); ++i) {
+    const NodeFreedom& freedom = system_.kinematics().freedom(i);
+    const int translations = freedom.count - freedom.rotations;
+    if (translations == 0) continue;
+    const auto G = freedom.G.topLeftCorner(3, translations);
+    turned(i, G * f_.segment(freedom.begin, translations), first, second);
+    f1_.segment(freedom.begin, translations) = G.transpose() * first;
+    f2_.segment(freedom.begin, translations) = G.transpose() * second;
+  }
+  for (Eigen::Index k = 0; k < support_.cols(); ++k)
+    for (const int row : {0, 3}) {
+      turned(efforts_.nodes()[static_cast<std::size_t>(k)], support_.col(k).segment<3>(row), first, second);
+      support1_.col(k).segment<3>(row) = first;
+      support2_.col(k).segment<3>(row) = second;
+    }
 }
 
-void QuasiStaticMotion::find_rates() {
+/// The solution (size) for a residual's derivative; the efforts' part apart.
+VectorX QuasiStaticMotion::solve_rates(const State& still, Extended r, const EffortResponse& response,
+                                       VectorX& effort_rate) const {
+  VectorX solution(system_.size());
+  tangent_.solve(r.head(system_.size()), solution);
+  if (!efforts_.any()) return solution;
+  effort_rate = response.change(r.tail(efforts_.count()) + EffortsAtRest::answer(efforts_, statics_, still, solution));
+  return solution + response.step(effort_rate);
+}
+
+/// Gives a state in equilibrium with f the rates of the path.
+void QuasiStaticMotion::find_rates(State& state) {
   const int dofs = system_.dofs(), multipliers = system_.multipliers();
-  tangent_.factor(path_, statics_);
-  supports_move_ = do_supports_move();
-  VectorX r(system_.size()), solution(system_.size()), velocity(multipliers), acceleration(multipliers);
+  const State still = at_standstill(state);
+  follow(state);
+  tangent_.factor(still, statics_);
+  EffortResponse response;
+  if (efforts_.any()) response = EffortsAtRest::response(efforts_, statics_, still, tangent_);
+  supports_move_ = do_supports_move(still);
+  VectorX velocity(multipliers), acceleration(multipliers), unused = effort_rate_;
   const VectorX zero = VectorX::Zero(dofs);
-  State moving = path_;
+  State moving = still;
   system_.set_rates(moving, zero, zero);
   system_.constraint_rates(moving, environment_, velocity, acceleration);
-  r = derivative(0, 1);
-  put_constraints(path_, velocity, r);
-  tangent_.solve(r, solution);
+  Extended r = derivative(still, 0, 1);
+  put_constraints(still, velocity, r);
+  VectorX solution = solve_rates(still, r, response, effort_rate_);
   v_ = solution.head(dofs);
   lambda_rate_ = solution.tail(multipliers);
   system_.set_rates(moving, v_, zero);
   system_.constraint_rates(moving, environment_, velocity, acceleration);
-  r = derivative(1, 2);
-  put_constraints(path_, acceleration, r);
-  tangent_.solve(r, solution);
-  a_ = solution.head(dofs);
-}
-
-/// The inertia forces are what velocities and accelerations add to the residual (dofs).
-VectorX QuasiStaticMotion::inertia_forces(const State& state) const {
-  VectorX moving(system_.size()), resting(system_.size());
-  system_.residual(state, environment_, moving);
-  State still = state;
-  system_.set_rates(still, VectorX::Zero(system_.dofs()), VectorX::Zero(system_.dofs()));
-  residual_at_rest(system_, statics_, still, resting);
-  return (moving - resting).head(system_.dofs());
-}
-
-/// Gives a state the path's rates, changed as little as the constraints of its deformed position ask for.
-void QuasiStaticMotion::take_rates(State& state) {
-  const int multipliers = system_.multipliers();
+  r = derivative(still, 1, 2);
+  put_constraints(still, acceleration, r);
+  a_ = solve_rates(still, r, response, unused).head(dofs);
   system_.set_rates(state, v_, a_);
-  if (multipliers == 0) return;
-  StartReport unused;
-  make_velocities_consistent(system_, environment_, state, unused, saddle_);
-  VectorX v(system_.dofs()), a(system_.dofs()), velocity(multipliers), acceleration(multipliers);
-  system_.constraint_rates(state, environment_, velocity, acceleration);
-  VectorX r = VectorX::Zero(system_.size()), change(system_.size());
-  put_constraints(state, acceleration, r);
-  saddle_.solve(r, change);
-  system_.get_rates(state, v, a);
-  system_.set_rates(state, v, a + change.head(system_.dofs()));
+}
+
+/// Sets the rows of constraints that are in the equations; those of the others vanish.
+void QuasiStaticMotion::put_constraints(const State& state, const VectorX& rows, VectorX& r) const {
+  const int first = system_.size() - system_.multipliers();
+  r.segment(first, rows.size()) = rows;
+  system_.for_each_idle(state, [&](int k) { r[first + k] = 0; });
+}
+
+/// Inertia and dampers' forces are what velocities and accelerations add to the residual (dofs), and to the reactions
+/// of moved nodes (6 of each).
+VectorX QuasiStaticMotion::inertia_of(const State& state) const {
+  VectorX moving(system_.size()), resting(system_.size()), all(f_.size() + support_.size());
+  const State still = at_standstill(state);
+  system_.residual(state, environment_, moving);
+  residual_at_rest(system_, statics_, still, resting);
+  all.head(f_.size()) = (moving - resting).head(f_.size());
+  if (efforts_.any()) {
+    const MatrixX of_supports = efforts_.reactions(environment_, state) - efforts_.reactions(statics_, still);
+    all.tail(support_.size()) = of_supports.reshaped();
+  }
+  return all;
+}
+
+/// What a force of each kind is worth next to others: moments by the mechanism's size, forces on amplitudes by none.
+VectorX QuasiStaticMotion::weights_of_inertia(const State& state) const {
+  const double length = std::max(model_extent(state), 1e-30);
+  VectorX weights = VectorX::Ones(f_.size() + support_.size());
+  for (int i = 0; i < system_.dofs(); ++i)
+    if (system_.kind(i) == Kind::rotation) weights[i] = 1 / length;
+  for (Eigen::Index k = f_.size(); k < weights.size(); ++k)
+    if ((k - f_.size()) % 6 >= 3) weights[k] = 1 / length;
+  return weights;
 }
 
 void QuasiStaticMotion::load_by_inertia(State& state) {
   constexpr int most = 60;
   constexpr double settled = 1e-9;  // [rad], or of the extent: so far inertia forces are not known
+  FixedPoint forces(weights_of_inertia(state));
+  VectorX f = inertia_of(state);
   for (int k = 0; k < most; ++k) {
-    take_rates(state);
-    equilibrium_.push(-inertia_forces(state));
+    f_ = f.head(f_.size());
+    support_ = f.tail(support_.size()).reshaped(6, support_.cols());
+    equilibrium_.push(-f_);
+    efforts_at_rest_.push(support_);
     State next = state;
-    system_.set_rates(next, VectorX::Zero(system_.dofs()), VectorX::Zero(system_.dofs()));
-    if (equilibrium_.find(1, next) < 0 && equilibrium_.search(1, next) < 0) throw ComputationError(equilibrium_.why());
+    equilibrate(equilibrium_, next);
     const double change = distance(state, next);
+    system_.set_rates(next, v_, a_);
     state = std::move(next);
-    if (k > 0 && change <= settled) return take_rates(state);
+    find_rates(state);
+    if (k > 0 && change <= settled) return;
+    f = forces.next(f, inertia_of(state));
   }
   throw ComputationError(
       "the deformation under inertia forces does not settle: the motion is too fast for elastic parts that follow in "
@@ -197,7 +270,8 @@ void QuasiStaticMotion::load_by_inertia(State& state) {
 
 void QuasiStaticMotion::note_left_out(const State& state) {
   std::vector<Vector3> deformation;
-  for (std::size_t i = 0; i < state.nodes.size(); ++i) deformation.push_back(state.nodes[i].x - path_.nodes[i].x);
+  for (std::size_t i = 0; i < state.nodes.size(); ++i)
+    deformation.push_back(state.nodes[i].R.transpose() * (state.nodes[i].x - path_.nodes[i].x));
   deformations_.push_back(std::move(deformation));
   times_.push_back(state.time);
   const std::size_t n = times_.size();

@@ -2,26 +2,31 @@
 // dynamics without vibration. A. G. Erdman, G. N. Sandor, R. G. Oakberg, J. Eng. Ind. 94 (1972) 1193
 // (kineto-elastodynamics).
 //
-// At each time two equilibria are found. The first, under gravity, loads and the motions of drives alone, F(q, lambda,
-// t) = 0, tells velocities and accelerations: along the path of such equilibria
-//     J [v; lambda'] = -dF/dt,   J [a; lambda''] = -d2F/ds2 (q + v s, lambda + lambda' s, t + s),   J = [K B^T; B 0].
-// Rows of constraints are exact, those of forces differences in s. The
-// second equilibrium has the inertia forces and dampers' forces of these rates as well, and tells deformations,
-// reactions and efforts of drives. Left out are the accelerations of the deformation that inertia itself causes:
-// `left_out` estimates them.
+// At each time two equilibria are found. The first is that under gravity, loads and the motions of drives alone, F(q,
+// lambda, t) = 0, at rest. The second has the inertia forces and dampers' forces f of the motion as well, and tells
+// deformations, reactions and efforts of drives. Velocities and accelerations are those along a path of such equilibria
+// on which f stays as it is in the axes of the nodes that it acts at:
+//     J [v; lambda'] = -dF/dt - f',   J [a; lambda''] = -d2F/ds2 (q + v s, lambda + lambda' s, t + s) - f'',
+//     f' = omega x f,   f'' = omega x (omega x f) + omega' x f   (of forces on nodes),   J = [K B^T; B 0]
+// at the deformed position: what turns steadily with its deformation is exact. Rows of constraints are exact, those of
+// forces differences in s. As f follows from v and a, and they from where f deforms to, all are found by turns. Left
+// out are the accelerations of the deformation relative to those axes: `left_out` estimates them.
+//
+// Efforts that are sought (solvers/constraints/sought_efforts.hpp) are further unknowns of each of these equations.
 //
 // Motions that nothing determines (the spin of a rod between spherical joints) stay at rest where nothing loads them.
 #pragma once
 
-#include "mechanism/solvers/constraints/mass_saddle.hpp"
+#include "mechanism/solvers/statics/efforts_at_rest.hpp"
 #include "mechanism/solvers/statics/equilibrium.hpp"
 
 namespace bielle::mechanism {
 
 class QuasiStaticMotion {
  public:
-  /// @param step  between two times [s]: differences look no farther
-  QuasiStaticMotion(const System& system, const Environment& environment, double step);
+  /// @param efforts  that are sought; it must outlive this
+  /// @param step     between two times [s]: differences look no farther
+  QuasiStaticMotion(const System& system, const Environment& environment, const SoughtEfforts& efforts, double step);
   QuasiStaticMotion(const QuasiStaticMotion&) = delete;
   QuasiStaticMotion& operator=(const QuasiStaticMotion&) = delete;
 
@@ -36,29 +41,38 @@ class QuasiStaticMotion {
   double left_out() const { return largest_motion_ > 0 ? largest_left_out_ / largest_motion_ : 0; }
 
  private:
+  /// Residual (size), with the supports' forces along the moved directions behind it (count of efforts).
+  using Extended = VectorX;
   void find_path(const State& from, double time);
-  void find_rates();
+  void find_rates(State& state);
+  void follow(const State& state);
+  VectorX solve_rates(const State& still, Extended r, const EffortResponse& response, VectorX& effort_rate) const;
   void put_constraints(const State& state, const VectorX& rows, VectorX& r) const;
-  void take_rates(State& state);
   void load_by_inertia(State& state);
-  VectorX inertia_forces(const State& state) const;
-  VectorX at_rest(double after, double part) const;
-  bool do_supports_move() const;
-  VectorX derivative(double part, int order) const;
+  VectorX inertia_of(const State& state) const;
+  VectorX weights_of_inertia(const State& state) const;
+  void equilibrate(Equilibrium& equilibrium, State& state) const;
+  State at_standstill(const State& state) const;
+  Extended at_rest(const State& still, double after, double part) const;
+  bool do_supports_move(const State& still) const;
+  Extended derivative(const State& still, double part, int order) const;
 
   const System& system_;
+  const SoughtEfforts& efforts_;
   Environment environment_, statics_;
   LoadRamp ramp_;
+  EffortsAtRest path_efforts_, efforts_at_rest_;
   Equilibrium path_equilibrium_, equilibrium_;
   StaticTangent tangent_;
-  MassSaddle saddle_;
   std::vector<double> kinks_;
   double step_;
   bool supports_move_ = false;
-  State path_;                                        ///< equilibrium of what acts at rest
-  VectorX v_, a_, lambda_rate_;                       ///< along the path
+  State path_;                                 ///< equilibrium of what acts at rest
+  VectorX v_, a_, lambda_rate_, effort_rate_;  ///< along the path of equilibria
+  VectorX f_, f1_, f2_;                        ///< inertia and dampers' forces (dofs), f' and f''
+  MatrixX support_, support1_, support2_;      ///< what they make of reactions of moved nodes (6, nodes), likewise
   double largest_left_out_ = 0, largest_motion_ = 0;  ///< accelerations of nodes so far [m/s^2]
-  std::vector<std::vector<Vector3>> deformations_;    ///< of the nodes by inertia, at the last points
+  std::vector<std::vector<Vector3>> deformations_;    ///< of the nodes by inertia, in their axes, at the last points
   std::vector<double> times_;                         ///< of them
 };
 

@@ -1,0 +1,33 @@
+// A drive whose force or torque inverse dynamics finds: `torque: sought`, `force: sought`.
+//
+// It acts on the coordinate as a force drive does. Its value u stands in its memory, where the solver puts it
+// (solvers/constraints/sought_efforts.hpp): such that the supports of nodes give nothing along the `motion` that they
+// prescribe.
+#pragma once
+
+#include "mechanism/joints/actions/drive.hpp"
+#include "mechanism/model/gatherer.hpp"
+#include "mechanism/model/sought_effort.hpp"
+
+namespace bielle::mechanism {
+
+class SoughtDrive final : public Drive, public SoughtEffort {
+ public:
+  /// @param moves  nodes that it moves in place of their supports; empty: all that have a `motion`
+  SoughtDrive(std::string name, const Joint& joint, std::size_t coordinate, std::vector<int> moves)
+      : Drive(std::move(name), joint, coordinate), moves_(std::move(moves)) {}
+  void declare(Declaration& declaration) const override;
+  void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
+  void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
+  void add_energy(const LocalState& state, Energy& energy) const override;
+  std::unique_ptr<Gatherer> make_gatherer() const override;
+  Sought sought() const override;
+  double force(const LocalState& state) const override { return state.memory()[own_memory()]; }
+
+ private:
+  void add_kinks(std::vector<double>& /*times*/) const override {}
+  LawText law_text() const override;
+  std::vector<int> moves_;
+};
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,26 @@
+// A fixed point x = G(x) by iteration, with the last steps made use of: D. G. Anderson, J. ACM 12 (1965) 547.
+//
+// With g = G(x) - x, and the changes dx, dg of x and g over the last iterations as columns X and Y,
+//     x_next = x + g - (X + Y) c,   c that with the least |g - Y c|.
+// What G contracts slowly, or does not contract in a few directions, converges as with a secant method.
+#pragma once
+
+#include <vector>
+
+#include "mechanism/math/types.hpp"
+
+namespace bielle::mechanism {
+
+class FixedPoint {
+ public:
+  /// @param weights  of the components of g in its norm
+  explicit FixedPoint(VectorX weights) : weights_(std::move(weights)) {}
+  /// @param image  G(x) @returns the next x
+  VectorX next(const VectorX& x, const VectorX& image);
+
+ private:
+  VectorX weights_, x_, g_;
+  std::vector<VectorX> dx_, dg_;  ///< the oldest first
+};
+
+}  // namespace bielle::mechanism
