@@ -35,7 +35,7 @@ void FormulaLooker::look(const TimeDependent& component, const std::vector<TimeD
   for (std::size_t k = 0; k < n; ++k) positions = positions || is_position(k);
   if (positions) {
     // Rates from within the step, to second order.
-    const double e = 1e-3 * h;
+    const double e = 0.01 * h;
     for (const auto& [values, rate, from, to] :
          {std::tuple(&begin_, &begin_rate_, first, e), std::tuple(&end_, &end_rate_, last, -e)}) {
       calc(from + to, value_);

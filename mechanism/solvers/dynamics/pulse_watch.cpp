@@ -15,7 +15,7 @@ namespace {
 
 const Slots no_slots;
 
-constexpr int least_parts = 16, most_parts = 20000;
+constexpr int least_parts = 4, most_parts = 20000;
 /// Of its range, by which a force may be off the chord between the ends: some seven steps in a period.
 constexpr double visible = 0.05;
 /// The same of a prescribed position, from the cubic between the ends: some five steps in a period.
