@@ -22,6 +22,8 @@ constexpr double visible = 0.05;
 constexpr double visible_position = 0.003;
 /// Of |f|: changes that are smaller are none.
 constexpr double nothing = 1e-3;
+/// Of the model's length, or of 1 rad: motions that are smaller are none.
+constexpr double no_motion = 1e-9;
 
 }  // namespace
 
@@ -138,6 +140,12 @@ void PulseWatch::set_impulse(const Source& source, const Environment& environmen
   for (int i = 0; i < step_.parts; ++i) add(step_.middle(i), h / step_.parts);
 }
 
+/// Whether the impulse acts on an algebraic unknown. Where it acts on others as well, the error is theirs.
+bool PulseWatch::acts_on_algebraic() const {
+  const std::vector<int>& algebraic = system_.algebraic();
+  return std::any_of(algebraic.begin(), algebraic.end(), [&](int k) { return impulse_[system_.dofs() + k] != 0; });
+}
+
 double PulseWatch::of_forces(const Environment& environment, const ErrorNorm& norm, double tolerance) {
   constexpr double little = 0.3;  // of the tolerance
   double all = 0;
@@ -157,8 +165,7 @@ double PulseWatch::of_forces(const Environment& environment, const ErrorNorm& no
         continue;  // a component refuses a state that is not of that time
       }
       source.gain = norm.of_impulse(impulse_, step_.size()) / (missed * step_.size());
-      for (const int k : system_.algebraic())
-        source.on_algebraic = source.on_algebraic || impulse_[system_.dofs() + k] != 0;
+      source.on_algebraic = source.gain == 0 && acts_on_algebraic();
       sum_ += impulse_;
       any = true;
     }
@@ -194,8 +201,9 @@ std::vector<std::string> PulseWatch::doubts() const {
   for_each_formula([&](const TimeDependent::Formula& formula, std::size_t k) {
     const Total& total = totals_[k];
     if (formula.part == TimeDependent::Part::position) {
-      const double size = std::min(range(total), formula.turns ? 1 : length_);
-      if (!(total.off > visible_position * size) || !named.insert(total.name).second) return;
+      const double extent = formula.turns ? 1 : length_, size = std::min(range(total), extent);
+      if (!(total.off > std::max(visible_position * size, no_motion * extent))) return;
+      if (!named.insert(total.name).second) return;
       doubts.push_back(
           fmt::format("{} moves between steps: up to {:.4g} {} away from what their ends tell, farthest in the step to "
                       "t = {:.6g} s; take smaller steps",

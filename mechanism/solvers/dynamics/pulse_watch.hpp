@@ -6,8 +6,8 @@
 //                      first-order unknowns
 //     rates            |T - Q| as an error of a position
 //     positions        |f - H|
-// An impulse on algebraic unknowns (pressures of junctions, given pressures) is no error of its own, and what they lead
-// to is not known: there steps have to follow the formula itself, some seven in a period.
+// An impulse on algebraic unknowns alone (pressures of junctions, given pressures) is no error of its own, and what
+// they lead to is not known: there steps have to follow the formula itself, some seven in a period.
 #pragma once
 
 #include <memory>
@@ -45,7 +45,7 @@ class PulseWatch {
     std::size_t first;          ///< of its formulas among all
     bool forces = false;        ///< any of them in its residual
     double gain = -1;           ///< error of its impulse over what its formulas have missed [-/s]; negative: not known
-    bool on_algebraic = false;  ///< its impulses act on algebraic unknowns
+    bool on_algebraic = false;  ///< its impulses act on algebraic unknowns alone
   };
   /// What the run has seen of a formula.
   struct Total {
@@ -67,6 +67,7 @@ class PulseWatch {
   bool wants_impulse(const Source& source, double large) const;
   void set_impulse(const Source& source, const Environment& environment);
   double missed_by(const Source& source) const;
+  bool acts_on_algebraic() const;
 
   const System& system_;
   double span_, length_;

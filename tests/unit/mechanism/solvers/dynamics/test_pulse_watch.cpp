@@ -184,6 +184,29 @@ TEST_CASE("a bump of a tenth of a second is not jumped over by longer steps") {
   CHECK(amplitude_about(0)(model, motion.end) == Approx(after_bump(0.01, 0.1)).epsilon(5e-3));
 }
 
+TEST_CASE("a bump of less than rounding is not told") {
+  const ReadyModel model(with_pulse(carried(", motion: {x: \"1e-30*SHAPE\", y: 0, z: 0, rx: 0, ry: 0, rz: 0}", "")));
+  CHECK(march(model, end, fixed_steps(0.02)).doubts.empty());
+}
+
+TEST_CASE("a ripple of a valve that the fluid smooths out makes no step smaller") {
+  const auto steps = [](const std::string& ripple) {
+    const ReadyModel model(R"yaml(
+nodes: {n: {position: [0, 0, 0], fixed: true}}
+hydraulics:
+  fluid: {bulk_modulus: 1.4e9, density: 850}
+  volumes: {a: {volume: 1e-3, pressure: 1e6}}
+  supplies: {p: {pressure: 1e7}, tank: {pressure: 101325}}
+  lines:
+    v: {from: p, to: a, valve: {area: 1e-6, command: "0.5)yaml" +
+                           ripple + R"yaml("}}
+    o: {from: a, to: tank, orifice: {diameter: 1e-3}}
+)yaml");
+    return march(model, end, adaptive_steps(0.01, 1e-5)).log.steps;
+  };
+  CHECK(static_cast<double>(steps(" + 1e-3*sin(6e3*t)")) < 1.2 * static_cast<double>(steps("")));
+}
+
 TEST_CASE("a pulse in the load pattern of a superelement is felt and told") {
   const TemporaryFolder folder;
   BeamChain beam = straight_beam();  // 1 kg
