@@ -2,10 +2,11 @@
 #pragma once
 
 #include "mechanism/measures/state_formula.hpp"
+#include "mechanism/model/time_dependent.hpp"
 
 namespace bielle::mechanism {
 
-class CombinedMeasure final : public Measure {
+class CombinedMeasure final : public Measure, public TimedMeasure {
  public:
   /// @param formula  of t and the measures referred to
   CombinedMeasure(std::string name, References references, StateFormula formula, std::string units);
@@ -13,6 +14,7 @@ class CombinedMeasure final : public Measure {
   double value(const LocalState& state) const override;
   double calc(const LocalState& state, MeasureGradient& gradient) const override;
   bool reads_reactions() const override { return formula_.reads_reactions(); }
+  bool holds_time() const override { return formula_.holds_time(); }
   void describe(const LocalState& state, Description& description) const override;
   void add_break_points(std::vector<double>& times) const override { formula_.add_break_points(0, times); }
 

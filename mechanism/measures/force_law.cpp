@@ -57,6 +57,11 @@ bool ForceLaw::reads_state() const {
   return std::any_of(formulas_.begin(), formulas_.end(), [](const StateFormula& each) { return each.reads_state(); });
 }
 
+bool ForceLaw::holds_time() const {
+  return std::any_of(formulas_.begin(), formulas_.end(),
+                     [](const StateFormula& each) { return each.holds_time(time_variable); });
+}
+
 bool ForceLaw::reads_reactions() const {
   return std::any_of(formulas_.begin(), formulas_.end(),
                      [](const StateFormula& each) { return each.reads_reactions(); });

@@ -41,6 +41,7 @@ class ForceLaw {
   bool is_linear() const { return formulas_.empty(); }
   bool has_damping() const;
   bool is_actuator() const { return actuator_; }
+  bool holds_time() const;
   bool reads_state() const;
   bool reads_reactions() const;
   double stiffness() const { return stiffness_; }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/measures/nested.hpp"
+#include "mechanism/model/time_dependent.hpp"
 #include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
@@ -18,6 +19,13 @@ StateFormula::StateFormula(Expression expression, std::size_t own, std::vector<A
 bool StateFormula::reads_reactions() const {
   return std::any_of(measures_.begin(), measures_.end(),
                      [](const Argument& argument) { return argument.measure->reads_reactions(); });
+}
+
+bool StateFormula::holds_time(std::size_t time) const {
+  return uses(time) || std::any_of(measures_.begin(), measures_.end(), [](const Argument& argument) {
+           const auto* timed = dynamic_cast<const TimedMeasure*>(argument.measure);
+           return timed && timed->holds_time();
+         });
 }
 
 double StateFormula::value(const LocalState& state, std::span<const double> variables) const {

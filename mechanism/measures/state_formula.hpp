@@ -42,6 +42,9 @@ class StateFormula {
   bool reads_state() const { return !measures_.empty(); }
   bool reads_reactions() const;
   bool uses(std::size_t variable) const { return variable < own_ && expression_.uses(variable); }
+  /// Whether its value changes with time while the state stays: by its own variable t, or by a measure.
+  /// @param time  number of t among its own variables
+  bool holds_time(std::size_t time = 0) const;
   bool is_constant() const { return expression_.is_constant(); }
   const std::string& text() const { return expression_.text(); }  ///< as the user wrote it
 

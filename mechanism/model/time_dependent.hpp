@@ -12,17 +12,31 @@ namespace bielle::mechanism {
 class TimeDependent {
  public:
   virtual ~TimeDependent() = default;
+  /// The part that a formula has in the equations.
+  enum class Part {
+    force,     ///< in a residual: forces, flows, rates of states, given pressures
+    position,  ///< it prescribes a position [m] or [rad]
+    rate       ///< it prescribes the rate of one
+  };
   struct Formula {
     std::string name;   ///< among those of the component: "force x"
-    std::string units;  ///< of its value: "N"
+    std::string units;  ///< of its value: "N"; empty where they are unknown
+    Part part = Part::force;
+    bool turns = false;  ///< a position in rad, or the rate of one
   };
-  /// Those that hold t, in the order of `calc_time_formulas`.
+  /// Those that hold t, by themselves or by measures, in the order of `calc_time_formulas`.
   virtual std::vector<Formula> time_formulas() const = 0;
-  /// Their values at a time, with everything else as the state has it.
+  /// Their values at the state's time; zero where they have no effect any more.
   /// @param state   of the component
-  /// @param time    [s]
   /// @param values  as many as there are formulas
-  virtual void calc_time_formulas(const LocalState& state, double time, std::span<double> values) const = 0;
+  virtual void calc_time_formulas(const LocalState& state, std::span<double> values) const = 0;
+};
+
+/// Measures whose formulas may hold the time: formulas that read them hold it, too.
+class TimedMeasure {
+ public:
+  virtual ~TimedMeasure() = default;
+  virtual bool holds_time() const = 0;
 };
 
 }  // namespace bielle::mechanism

@@ -168,6 +168,22 @@ void ResidualAssembly::add_all(const State& state, const Environment& environmen
   kinematics_.reduce_forces(forces, r.head(kinematics_.unknowns()));
 }
 
+void ResidualAssembly::set_part(std::size_t member, const State& state, const Environment& environment,
+                                Eigen::Ref<VectorX> r) const {
+  thread_local VectorX forces, local;
+  r.setZero();
+  const std::vector<Acting>& acting = work_.is_costly(member) ? costly_ : small_;
+  const auto found =
+      std::find_if(acting.begin(), acting.end(), [&](const Acting& each) { return each.member == member; });
+  if (found == acting.end()) return;  // it adds to no equation
+  forces.setZero(kinematics_.force_rows());
+  local.setZero(unknowns_.slots()[member].size());
+  evaluate(member, state, environment, local);
+  Sums(*this, forces, r).add(*found, unknowns_.slots()[member], local.data());
+  kinematics_.carry_forces(state.nodes, forces);
+  kinematics_.reduce_forces(forces, r.head(kinematics_.unknowns()));
+}
+
 double ResidualAssembly::support_power(const State& state, const Environment& environment) const {
   thread_local VectorX forces, scalars;
   scalars.setZero(unknowns_.size());

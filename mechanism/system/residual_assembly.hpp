@@ -25,6 +25,8 @@ class ResidualAssembly {
   /// r (size) of all equations, those of idle constraints as if they were active.
   /// @param scale  if given, receives the largest contributions
   void add_all(const State& state, const Environment& environment, Eigen::Ref<VectorX> r, ResidualScale* scale) const;
+  /// The part of one member in r (size).
+  void set_part(std::size_t member, const State& state, const Environment& environment, Eigen::Ref<VectorX> r) const;
   /// Power [W] of the supports that move nodes.
   double support_power(const State& state, const Environment& environment) const;
 

@@ -116,6 +116,11 @@ class System {
   /// r (size) of all equations. @param scale  if given, receives the largest contributions
   void residual(const State& state, const Environment& environment, Eigen::Ref<VectorX> r,
                 ResidualScale* scale = nullptr) const;
+  /// The part of one member of the model in it.
+  void residual_part(std::size_t member, const State& state, const Environment& environment,
+                     Eigen::Ref<VectorX> r) const {
+    residual_.set_part(member, state, environment, r);
+  }
   const SparsePattern& pattern() const { return tangent_.pattern(); }
   /// The same, with the amplitudes that are condensed before a factorisation.
   const CondensedPattern& condensed_pattern() const { return *condensed_; }

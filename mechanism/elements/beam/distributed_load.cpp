@@ -173,6 +173,25 @@ void DistributedLoad::add_break_points(std::vector<double>& times) const {
     mechanism::add_break_points(*vector, in_time, times);
 }
 
+std::vector<TimeDependent::Formula> DistributedLoad::time_formulas() const {
+  std::vector<Formula> formulas;
+  for (std::size_t k = 0; k < 6; ++k) {
+    const Expression& component = (k < 3 ? load_.force : load_.moment)[k % 3];
+    if (!component.uses(in_time)) continue;
+    formulas.push_back(
+        {fmt::format("{} per length {}", k < 3 ? "force" : "moment", "xyz"[k % 3]), k < 3 ? "N/m" : "N"});
+  }
+  return formulas;
+}
+
+void DistributedLoad::calc_time_formulas(const LocalState& state, std::span<double> values) const {
+  const std::array<double, 2> at{0.5 * (span_.s_A + span_.s_B), state.time()};
+  std::size_t next = 0;
+  for (const FormulaVector* vector : {&load_.force, &load_.moment})
+    for (const Expression& component : *vector)
+      if (component.uses(in_time)) values[next++] = component(at);
+}
+
 void DistributedLoad::describe(const LocalState& /*state*/, Description& description) const {
   if (span_.s_A > 0) return;  // the same on every element
   std::string text;

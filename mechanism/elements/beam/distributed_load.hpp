@@ -23,6 +23,7 @@
 #include "mechanism/elements/beam/formula_vector.hpp"
 #include "mechanism/math/se3.hpp"
 #include "mechanism/model/component.hpp"
+#include "mechanism/model/time_dependent.hpp"
 #include "reduce/common/yaml_file.hpp"
 
 namespace bielle::mechanism {
@@ -49,7 +50,7 @@ struct BeamSpan {
 };
 
 /// One line load on one element. See the head of this file.
-class DistributedLoad : public Component {
+class DistributedLoad : public Component, public TimeDependent {
  public:
   /// @param name  of the beam
   DistributedLoad(std::string name, const BeamSpan& span, LineLoad load);
@@ -59,6 +60,9 @@ class DistributedLoad : public Component {
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   void add_energy(const LocalState& state, Energy& energy) const override;
   void add_break_points(std::vector<double>& times) const override;
+  /// Those of the middle of the element.
+  std::vector<Formula> time_formulas() const override;
+  void calc_time_formulas(const LocalState& state, std::span<double> values) const override;
   void describe(const LocalState& state, Description& description) const override;
 
  private:

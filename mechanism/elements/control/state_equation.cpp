@@ -92,14 +92,15 @@ void StateEquation::add_break_points(std::vector<double>& times) const {
 std::vector<TimeDependent::Formula> StateEquation::time_formulas() const {
   std::vector<Formula> formulas;
   for (const StateFormula& each : inputs_)
-    if (each.uses(0)) formulas.push_back({each.text(), "(its units)"});
+    if (each.holds_time()) formulas.push_back({each.text(), ""});
   return formulas;
 }
 
-void StateEquation::calc_time_formulas(const LocalState& state, double time, std::span<double> values) const {
+void StateEquation::calc_time_formulas(const LocalState& state, std::span<double> values) const {
+  const double t = state.time();
   std::size_t next = 0;
   for (const StateFormula& each : inputs_)
-    if (each.uses(0)) values[next++] = each.value(state, {&time, 1});
+    if (each.holds_time()) values[next++] = each.value(state, {&t, 1});
 }
 
 void StateEquation::describe(const LocalState& /*state*/, Description& description) const {

@@ -34,7 +34,7 @@ class StateEquation final : public Component, public TimeDependent {
   void add_break_points(std::vector<double>& times) const override;
   void describe(const LocalState& state, Description& description) const override;
   std::vector<Formula> time_formulas() const override;
-  void calc_time_formulas(const LocalState& state, double time, std::span<double> values) const override;
+  void calc_time_formulas(const LocalState& state, std::span<double> values) const override;
 
  private:
   VectorX input(const LocalState& state) const;

@@ -48,6 +48,10 @@ bool StateOutput::reads_reactions() const {
                      [](const Through& each) { return each.input.reads_reactions(); });
 }
 
+bool StateOutput::holds_time() const {
+  return std::any_of(through_.begin(), through_.end(), [](const Through& each) { return each.input.holds_time(); });
+}
+
 void StateOutput::add_break_points(std::vector<double>& times) const {
   for (const Through& each : through_) each.input.add_break_points(0, times);
 }

@@ -6,10 +6,11 @@
 
 #include "mechanism/elements/control/state_unknowns.hpp"
 #include "mechanism/measures/state_formula.hpp"
+#include "mechanism/model/time_dependent.hpp"
 
 namespace bielle::mechanism {
 
-class StateOutput final : public Measure {
+class StateOutput final : public Measure, public TimedMeasure {
  public:
   /// One term of the direct feed-through: d_k u_k.
   struct Through {
@@ -25,6 +26,7 @@ class StateOutput final : public Measure {
   double value(const LocalState& state) const override;
   double calc(const LocalState& state, MeasureGradient& gradient) const override;
   bool reads_reactions() const override;
+  bool holds_time() const override;
   void add_break_points(std::vector<double>& times) const override;
   void describe(const LocalState& state, Description& description) const override;
 

@@ -32,15 +32,16 @@ void ForceFormulas::add_break_points(std::vector<double>& times) const {
 std::vector<TimeDependent::Formula> ForceFormulas::time_formulas() const {
   std::vector<TimeDependent::Formula> formulas;
   for (std::size_t k = 0; k < 6; ++k)
-    if (components_[k].uses(0))
+    if (components_[k].holds_time())
       formulas.push_back({fmt::format("{} {}", k < 3 ? "force" : "moment", "xyz"[k % 3]), k < 3 ? "N" : "N m"});
   return formulas;
 }
 
-void ForceFormulas::calc_time_formulas(const LocalState& state, double time, std::span<double> values) const {
+void ForceFormulas::calc_time_formulas(const LocalState& state, std::span<double> values) const {
+  const double t = state.time();
   std::size_t next = 0;
   for (const StateFormula& component : components_)
-    if (component.uses(0)) values[next++] = component.value(state, {&time, 1});
+    if (component.holds_time()) values[next++] = component.value(state, {&t, 1});
 }
 
 void ForceFormulas::evaluate(const LocalState& state, Vector3& force, Vector3& moment) const {

@@ -24,7 +24,7 @@ class ForceFormulas {
 
   /// Those that hold t, as TimeDependent has them.
   std::vector<TimeDependent::Formula> time_formulas() const;
-  void calc_time_formulas(const LocalState& state, double time, std::span<double> values) const;
+  void calc_time_formulas(const LocalState& state, std::span<double> values) const;
 
   bool has_force() const { return has_force_; }
   bool has_moment() const { return has_moment_; }

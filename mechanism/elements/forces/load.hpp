@@ -31,8 +31,8 @@ class Load : public Component, public TimeDependent {
   void add_break_points(std::vector<double>& times) const override;
   void describe(const LocalState& state, Description& description) const override;
   std::vector<Formula> time_formulas() const override { return formulas_.time_formulas(); }
-  void calc_time_formulas(const LocalState& state, double time, std::span<double> values) const override {
-    formulas_.calc_time_formulas(state, time, values);
+  void calc_time_formulas(const LocalState& state, std::span<double> values) const override {
+    formulas_.calc_time_formulas(state, values);
   }
 
  private:

@@ -34,8 +34,8 @@ class NodeForce final : public Component, public TimeDependent {
   void write_output(const LocalState& state, double* values) const override;
   void describe(const LocalState& state, Description& description) const override;
   std::vector<Formula> time_formulas() const override { return formulas_.time_formulas(); }
-  void calc_time_formulas(const LocalState& state, double time, std::span<double> values) const override {
-    formulas_.calc_time_formulas(state, time, values);
+  void calc_time_formulas(const LocalState& state, std::span<double> values) const override {
+    formulas_.calc_time_formulas(state, values);
   }
 
  private:

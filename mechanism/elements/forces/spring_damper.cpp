@@ -103,6 +103,16 @@ void SpringDamper::add_tangent(const LocalState& state, LocalTangent& tangent) c
   K.block<3, 3>(9, 9) += skew(c_b_) * skew(B.R.transpose() * f);
 }
 
+std::vector<TimeDependent::Formula> SpringDamper::time_formulas() const {
+  if (!law_.holds_time()) return {};
+  return {{"force", "N"}};
+}
+
+void SpringDamper::calc_time_formulas(const LocalState& state, std::span<double> values) const {
+  const auto [e, v] = elongation(state);
+  values[0] = law_.force(state, e, v);
+}
+
 void SpringDamper::describe(const LocalState& state, Description& description) const {
   description.add(fmt::format("between nodes {} and {}", description.node(node_a_), description.node(node_b_)));
   for (const std::string& fact : law_.describe(false)) description.add(fact);

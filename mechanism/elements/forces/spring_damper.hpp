@@ -11,6 +11,7 @@
 
 #include "mechanism/measures/force_law.hpp"
 #include "mechanism/model/model.hpp"
+#include "mechanism/model/time_dependent.hpp"
 #include "reduce/common/yaml_file.hpp"
 
 namespace bielle::mechanism {
@@ -19,7 +20,7 @@ namespace bielle::mechanism {
 /// zero without damper may pass there, any other throws ComputationError. Exact tangents.
 ///
 /// Energies: see measures/force_law.hpp.
-class SpringDamper : public Component {
+class SpringDamper : public Component, public TimeDependent {
  public:
   /// @param at_a,at_b  attachment points [m], in the axes of their nodes
   /// @param length     free length l_0 [m]
@@ -36,6 +37,8 @@ class SpringDamper : public Component {
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
   void add_break_points(std::vector<double>& times) const override { law_.add_break_points(times); }
+  std::vector<Formula> time_formulas() const override;
+  void calc_time_formulas(const LocalState& state, std::span<double> values) const override;
   void describe(const LocalState& state, Description& description) const override;
   std::vector<std::string> measure_names() const override { return {"elongation", "elongation.rate"}; }
   std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const override;

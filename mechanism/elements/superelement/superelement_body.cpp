@@ -387,6 +387,20 @@ void SuperelementBody::describe_attachments(Description& description) const {
   if (!peaks_.empty()) description.add_line(fmt::format("peaks over all steps: {}", fmt::join(peaks_, ", ")));
 }
 
+std::vector<TimeDependent::Formula> SuperelementBody::time_formulas() const {
+  std::vector<Formula> formulas;
+  for (const Load& load : loads_)
+    if (!load.factor.is_constant())
+      formulas.push_back({fmt::format("factor of load '{}'", matrices_->pattern_names[load.pattern]), ""});
+  return formulas;
+}
+
+void SuperelementBody::calc_time_formulas(const LocalState& state, std::span<double> values) const {
+  std::size_t next = 0;
+  for (const Load& load : loads_)
+    if (!load.factor.is_constant()) values[next++] = load.factor(state.time());
+}
+
 void SuperelementBody::add_break_points(std::vector<double>& times) const {
   for (const Load& load : loads_)
     for (double time : load.factor.break_points()) times.push_back(time);

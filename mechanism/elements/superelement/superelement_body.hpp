@@ -32,6 +32,7 @@
 #include "mechanism/elements/superelement/recovery/recovered_outputs.hpp"
 #include "mechanism/elements/superelement/superelement_body_motion.hpp"
 #include "mechanism/model/model.hpp"
+#include "mechanism/model/time_dependent.hpp"
 #include "reduce/common/expression.hpp"
 #include "reduce/common/yaml_file.hpp"
 
@@ -61,7 +62,7 @@ struct SuperelementPlacement {
   std::optional<double> largest_error;  ///< of its deformation, relative: a run fails beyond (validity.hpp)
 };
 
-class SuperelementBody : public Component {
+class SuperelementBody : public Component, public TimeDependent {
  public:
   /// A point inside that carries a node of its own.
   struct Point {
@@ -90,6 +91,8 @@ class SuperelementBody : public Component {
   void write_outputs(std::span<const LocalState> states, std::span<double* const> values) const override;
   std::vector<std::pair<std::string, std::string>> attributes() const override;
   void add_break_points(std::vector<double>& times) const override;
+  std::vector<Formula> time_formulas() const override;
+  void calc_time_formulas(const LocalState& state, std::span<double> values) const override;
   std::vector<std::string> optional_fields() const override;
   void record_field(const std::string& field) override;
   std::vector<std::string> point_fields() const override;

@@ -13,13 +13,13 @@
 
 #include "mechanism/hydraulics/circuit/ports.hpp"
 #include "mechanism/joints/actions/coordinate_action.hpp"
-#include "mechanism/measures/state_formula.hpp"
+#include "mechanism/measures/time_formula.hpp"
 #include "mechanism/model/model.hpp"
 #include "reduce/common/yaml_file.hpp"
 
 namespace bielle::mechanism {
 
-class Machine final : public CoordinateAction {
+class Machine final : public CoordinateAction, public TimeDependent {
  public:
   struct Data {
     double displacement;  ///< D [m^3/rad]
@@ -35,6 +35,10 @@ class Machine final : public CoordinateAction {
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   void add_energy(const LocalState& state, Energy& energy) const override;
   void add_break_points(std::vector<double>& times) const override { setting_.add_break_points(0, times); }
+  std::vector<Formula> time_formulas() const override { return time_formulas_of(setting_, "setting", ""); }
+  void calc_time_formulas(const LocalState& state, std::span<double> values) const override {
+    calc_time_formula(setting_, state, values);
+  }
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
   void describe(const LocalState& state, Description& description) const override;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mechanism/hydraulics/circuit/pressure_node.hpp"
-#include "mechanism/measures/state_formula.hpp"
+#include "mechanism/measures/time_formula.hpp"
 #include "mechanism/model/flow_balance.hpp"
 #include "mechanism/model/model.hpp"
 #include "mechanism/model/references.hpp"
@@ -34,7 +34,7 @@ class Junction final : public PressureNode, public FlowBalance {
 
 /// A given pressure, p = p_s(t, measures), whatever flows: a tank, a supply that a pump keeps at its pressure. Its
 /// second unknown is the flow into it [m^3/s].
-class PressureSource final : public PressureNode {
+class PressureSource final : public PressureNode, public TimeDependent {
  public:
   PressureSource(std::string name, const Fluid& fluid)
       : PressureNode("pressure_source", std::move(name), fluid, {0, 1, -1}) {}
@@ -47,6 +47,10 @@ class PressureSource final : public PressureNode {
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   void add_energy(const LocalState& state, Energy& energy) const override;
   void add_break_points(std::vector<double>& times) const override { formula_.add_break_points(0, times); }
+  std::vector<Formula> time_formulas() const override { return time_formulas_of(formula_, "pressure", "Pa"); }
+  void calc_time_formulas(const LocalState& state, std::span<double> values) const override {
+    calc_time_formula(formula_, state, values);
+  }
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
   void describe(const LocalState& state, Description& description) const override;

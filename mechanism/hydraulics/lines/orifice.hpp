@@ -3,18 +3,22 @@
 
 #include "mechanism/hydraulics/lines/line.hpp"
 #include "mechanism/hydraulics/lines/orifice_law.hpp"
-#include "mechanism/measures/state_formula.hpp"
+#include "mechanism/measures/time_formula.hpp"
 
 namespace bielle::mechanism {
 
 /// An orifice of the area A(t, measures) >= 0 [m^2].
-class Orifice final : public Line {
+class Orifice final : public Line, public TimeDependent {
  public:
   Orifice(std::string name, const PressureNode& from, const PressureNode& to, const OrificeLaw& law, double area);
   /// A formula in place of the area, once the model is read.
   void read_area_formula(const YamlValue& formula, Model& model);
   void calc_flow(const LocalState& state, std::size_t path, FlowJet& flow) const override;
   void add_break_points(std::vector<double>& times) const override { area_.add_break_points(0, times); }
+  std::vector<Formula> time_formulas() const override { return time_formulas_of(area_, "area", "m^2"); }
+  void calc_time_formulas(const LocalState& state, std::span<double> values) const override {
+    calc_time_formula(area_, state, values);
+  }
 
  private:
   bool has_damping() const override { return area_.reads_state(); }
@@ -38,7 +42,7 @@ class Leakage final : public Line {
 };
 
 /// A pump of constant or given flow Q(t, measures) [m^3/s], from a place or from outside. Its power is input.
-class FlowSource final : public Line {
+class FlowSource final : public Line, public TimeDependent {
  public:
   /// @param from  nullptr: from outside, where the fluid has the ambient pressure
   FlowSource(std::string name, const PressureNode* from, const PressureNode& to);
@@ -46,6 +50,10 @@ class FlowSource final : public Line {
   void calc_flow(const LocalState& state, std::size_t path, FlowJet& flow) const override;
   void add_energy(const LocalState& state, Energy& energy) const override;
   void add_break_points(std::vector<double>& times) const override { formula_.add_break_points(0, times); }
+  std::vector<Formula> time_formulas() const override { return time_formulas_of(formula_, "flow", "m^3/s"); }
+  void calc_time_formulas(const LocalState& state, std::span<double> values) const override {
+    calc_time_formula(formula_, state, values);
+  }
 
  private:
   bool has_damping() const override { return formula_.reads_state(); }

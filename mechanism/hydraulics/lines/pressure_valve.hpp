@@ -16,7 +16,7 @@
 
 #include "mechanism/hydraulics/lines/line.hpp"
 #include "mechanism/hydraulics/lines/orifice_law.hpp"
-#include "mechanism/measures/state_formula.hpp"
+#include "mechanism/measures/time_formula.hpp"
 
 namespace bielle::mechanism {
 
@@ -58,13 +58,17 @@ class PoppetValve final : public Line {
   Setting setting_;
 };
 
-class FlowValve final : public Line {
+class FlowValve final : public Line, public TimeDependent {
  public:
   /// @param pressure  D_min [Pa]
   FlowValve(std::string name, const PressureNode& from, const PressureNode& to, double pressure);
   void read(const YamlValue& formula, Model& model);  ///< Q_set(t, measures) [m^3/s]
   void calc_flow(const LocalState& state, std::size_t path, FlowJet& flow) const override;
   void add_break_points(std::vector<double>& times) const override { formula_.add_break_points(0, times); }
+  std::vector<Formula> time_formulas() const override { return time_formulas_of(formula_, "flow", "m^3/s"); }
+  void calc_time_formulas(const LocalState& state, std::span<double> values) const override {
+    calc_time_formula(formula_, state, values);
+  }
 
  private:
   bool has_damping() const override { return formula_.reads_state(); }

@@ -37,6 +37,7 @@ class Spool {
   /// @throws ComputationError  the command is beyond the spool's ends. @param name  of the valve
   void check(const LocalState& state, const std::string& name) const;
   void add_break_points(std::vector<double>& times) const { command_.add_break_points(0, times); }
+  const StateFormula& command_formula() const { return command_; }
   std::string describe() const;
 
  private:

@@ -12,10 +12,11 @@
 #include "mechanism/hydraulics/lines/line.hpp"
 #include "mechanism/hydraulics/lines/orifice_law.hpp"
 #include "mechanism/hydraulics/lines/spool.hpp"
+#include "mechanism/measures/time_formula.hpp"
 
 namespace bielle::mechanism {
 
-class SpoolValve final : public Line {
+class SpoolValve final : public Line, public TimeDependent {
  public:
   static constexpr double smoothing = 1e-3;  ///< share of the full opening
   struct Edge {
@@ -41,6 +42,12 @@ class SpoolValve final : public Line {
   void add_start_values(const LocalState& state, Eigen::Ref<VectorX> change) const override;
   void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
   void add_break_points(std::vector<double>& times) const override { spool_.add_break_points(times); }
+  std::vector<Formula> time_formulas() const override {
+    return time_formulas_of(spool_.command_formula(), "command", "");
+  }
+  void calc_time_formulas(const LocalState& state, std::span<double> values) const override {
+    calc_time_formula(spool_.command_formula(), state, values);
+  }
   void describe(const LocalState& state, Description& description) const override;
 
  private:

@@ -39,13 +39,13 @@ Drive::LawText ForceDrive::law_text() const {
 }
 
 std::vector<TimeDependent::Formula> ForceDrive::time_formulas() const {
-  if (!law_.uses(0)) return {};
+  if (!law_.holds_time()) return {};
   const LawText text = law_text();
   return {{text.driven, text.units}};
 }
 
-void ForceDrive::calc_time_formulas(const LocalState& state, double time, std::span<double> values) const {
-  values[0] = law_.value(state, {&time, 1});
+void ForceDrive::calc_time_formulas(const LocalState& state, std::span<double> values) const {
+  values[0] = released(state) ? 0 : effort(state);
 }
 
 }  // namespace bielle::mechanism

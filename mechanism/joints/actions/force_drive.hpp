@@ -14,7 +14,7 @@ class ForceDrive final : public ActuatorDrive, public TimeDependent {
   void read(const YamlValue& law, Model& model);
   void declare(Declaration& declaration) const override;
   std::vector<Formula> time_formulas() const override;
-  void calc_time_formulas(const LocalState& state, double time, std::span<double> values) const override;
+  void calc_time_formulas(const LocalState& state, std::span<double> values) const override;
 
  private:
   double effort(const LocalState& state) const override;

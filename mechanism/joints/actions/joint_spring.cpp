@@ -61,6 +61,16 @@ void JointSpring::add_energy(const LocalState& state, Energy& energy) const {
   energy.dissipation += (N - law_.force(state, x, 0)) * v;
 }
 
+std::vector<TimeDependent::Formula> JointSpring::time_formulas() const {
+  if (!law_.holds_time()) return {};
+  return {{"spring on " + coordinate().name, coordinate().force_units()}};
+}
+
+void JointSpring::calc_time_formulas(const LocalState& state, std::span<double> values) const {
+  const auto [q, v] = value(state);
+  values[0] = law_.force(state, q - rest_, v);
+}
+
 void JointSpring::describe(const LocalState& /*state*/, Description& description) const {
   const bool turning = coordinate().kind != JointCoordinate::Kind::displacement;
   description.add_line(fmt::format("spring on {}: {}, free at {:.6g} {}", coordinate().name,

@@ -7,11 +7,12 @@
 
 #include "mechanism/joints/actions/coordinate_action.hpp"
 #include "mechanism/measures/force_law.hpp"
+#include "mechanism/model/time_dependent.hpp"
 #include "reduce/common/yaml_file.hpp"
 
 namespace bielle::mechanism {
 
-class JointSpring final : public CoordinateAction {
+class JointSpring final : public CoordinateAction, public TimeDependent {
  public:
   /// @param rest  value of the coordinate at which the spring is free [m] or [rad]
   JointSpring(std::string name, const Joint& joint, std::size_t coordinate, double rest, double preload)
@@ -25,6 +26,8 @@ class JointSpring final : public CoordinateAction {
   void add_energy(const LocalState& state, Energy& energy) const override;
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
+  std::vector<Formula> time_formulas() const override;
+  void calc_time_formulas(const LocalState& state, std::span<double> values) const override;
   void describe(const LocalState& state, Description& description) const override;
   void add_break_points(std::vector<double>& times) const override { law_.add_break_points(times); }
 

@@ -16,6 +16,16 @@ void MotionDrive::declare_row(Declaration& declaration, const std::string& row, 
   declaration.multipliers.push_back(std::move(multiplier));
 }
 
+std::vector<TimeDependent::Formula> MotionDrive::time_formulas() const {
+  if (f_.is_constant()) return {};
+  const LawText text = law_text();
+  return {{text.driven, text.units, part(), coordinate().kind != JointCoordinate::Kind::displacement}};
+}
+
+void MotionDrive::calc_time_formulas(const LocalState& state, std::span<double> values) const {
+  values[0] = released(state) ? 0 : f_(state.time());
+}
+
 // -- position
 
 double PositionDrive::distance(const LocalState& state, double principal) const {

@@ -10,18 +10,22 @@
 #pragma once
 
 #include "mechanism/joints/actions/drive.hpp"
+#include "mechanism/model/time_dependent.hpp"
 
 namespace bielle::mechanism {
 
 /// What drives by motion are: a function of time, kept by a multiplier.
-class MotionDrive : public Drive {
+class MotionDrive : public Drive, public TimeDependent {
  public:
   MotionDrive(std::string name, const Joint& joint, std::size_t coordinate, Expression f)
       : Drive(std::move(name), joint, coordinate), f_(std::move(f)) {}
   bool is_on(const LocalState& state, int /*row*/) const final { return !released(state); }
+  std::vector<Formula> time_formulas() const final;
+  void calc_time_formulas(const LocalState& state, std::span<double> values) const final;
 
  protected:
   const Expression& law() const { return f_; }
+  virtual Part part() const = 0;  ///< of the law
   double force(const LocalState& state) const final { return -state.reaction()[0]; }
   void add_kinks(std::vector<double>& times) const final;
   void declare_row(Declaration& declaration, const std::string& row, ConstraintKind kind) const;
@@ -42,6 +46,7 @@ class PositionDrive final : public MotionDrive {
   void add_energy(const LocalState& state, Energy& energy) const override;
 
  private:
+  Part part() const override { return Part::position; }
   LawText law_text() const override { return {coordinate().name, law().text(), coordinate().units()}; }
   /// Of the coordinate from the value that the law prescribes.
   double distance(const LocalState& state, double principal) const;
@@ -59,6 +64,7 @@ class RateDrive final : public MotionDrive {
   void add_energy(const LocalState& state, Energy& energy) const override;
 
  private:
+  Part part() const override { return Part::rate; }
   LawText law_text() const override {
     return {"rate of " + coordinate().name, law().text(), coordinate().rate_units()};
   }

@@ -197,6 +197,16 @@ void PidDrive::accept(const LocalState& /*state*/, Eigen::Ref<VectorX> memory) c
   if (filters()) memory[own_memory()] = 1;
 }
 
+std::vector<TimeDependent::Formula> PidDrive::time_formulas() const {
+  if (!target_.holds_time()) return {};
+  return {{"target", measure_ ? measure_->units() : coordinate().units()}};
+}
+
+void PidDrive::calc_time_formulas(const LocalState& state, std::span<double> values) const {
+  const double t = state.time();
+  values[0] = released(state) ? 0 : target_.value(state, {&t, 1});
+}
+
 Drive::LawText PidDrive::law_text() const {
   const bool turning = coordinate().kind != JointCoordinate::Kind::displacement;
   std::string law = fmt::format("PID of {} - {}: kp {:.6g}, ki {:.6g}, kd {:.6g}", target_.text(),

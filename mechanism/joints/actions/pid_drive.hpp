@@ -17,6 +17,7 @@
 
 #include "mechanism/joints/actions/actuator_drive.hpp"
 #include "mechanism/measures/state_formula.hpp"
+#include "mechanism/model/time_dependent.hpp"
 
 namespace bielle::mechanism {
 
@@ -28,7 +29,7 @@ struct PidGains {
   double tracking_time = 0;  ///< T_w [s]; of no meaning without integral or limit
 };
 
-class PidDrive final : public ActuatorDrive {
+class PidDrive final : public ActuatorDrive, public TimeDependent {
  public:
   PidDrive(std::string name, const Joint& joint, std::size_t coordinate, const ForceLimit& limit, const PidGains& gains)
       : ActuatorDrive(std::move(name), joint, coordinate, limit), gains_(gains) {}
@@ -40,6 +41,8 @@ class PidDrive final : public ActuatorDrive {
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   void add_start_values(const LocalState& state, Eigen::Ref<VectorX> change) const override;
   void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
+  std::vector<Formula> time_formulas() const override;
+  void calc_time_formulas(const LocalState& state, std::span<double> values) const override;
 
  private:
   /// What the controller makes of a state.

@@ -73,6 +73,15 @@ void DistanceJoint::add_break_points(std::vector<double>& times) const {
   times.insert(times.end(), points.begin(), points.end());
 }
 
+std::vector<TimeDependent::Formula> DistanceJoint::time_formulas() const {
+  if (length_.is_constant()) return {};
+  return {{"length", "m", Part::position}};
+}
+
+void DistanceJoint::calc_time_formulas(const LocalState& state, std::span<double> values) const {
+  values[0] = length_(state.time());
+}
+
 double DistanceJoint::turning_rate(const LocalState& state) const { return turning_of_rod(state, frames()); }
 
 void DistanceJoint::describe(const LocalState& state, Description& description) const {

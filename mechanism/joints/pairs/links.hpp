@@ -11,10 +11,11 @@
 #pragma once
 
 #include "mechanism/joints/measured_pair.hpp"
+#include "mechanism/model/time_dependent.hpp"
 
 namespace bielle::mechanism {
 
-class DistanceJoint final : public MeasuredPair {
+class DistanceJoint final : public MeasuredPair, public TimeDependent {
  public:
   /// @param length  positive [m], of t
   DistanceJoint(std::string type, std::string name, JointFrames frames, Expression length, const Model& model);
@@ -22,6 +23,8 @@ class DistanceJoint final : public MeasuredPair {
                             Eigen::Ref<VectorX> acceleration) const override;
   void add_energy(const LocalState& state, Energy& energy) const override;
   void add_break_points(std::vector<double>& times) const override;
+  std::vector<Formula> time_formulas() const override;
+  void calc_time_formulas(const LocalState& state, std::span<double> values) const override;
   double turning_rate(const LocalState& state) const override;
   void describe(const LocalState& state, Description& description) const override;
 

@@ -20,6 +20,7 @@ class ErrorNorm {
   /// @param impulse  along each equation (size): of forces [N s], [N m s]
   /// @param h        of the step [s]
   double of_impulse(const VectorX& impulse, double h) const;
+  double length() const { return length_; }  ///< L [m]
   void exchange(Archive& archive);
 
  private:

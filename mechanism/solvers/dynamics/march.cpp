@@ -97,7 +97,7 @@ March::March(TimeIntegration& integration, double begin, double end, StepOptions
       options_(std::move(options)),
       norm_(integration.system(), integration.environment(), integration.state()),
       watch_(integration.system()),
-      pulses_(integration.system(), end - begin) {
+      pulses_(integration.system(), begin, end - begin, norm_.length()) {
   const bool adaptive = options_.tolerance > 0;
   stops_ = std::make_unique<Stops>(begin, end, options_);
   stops_->advance(integration.state().time);
@@ -289,26 +289,12 @@ March::Plan March::plan() const {
   return plan;
 }
 
-/// Formulas of time may act between the ends of an attempted step and not at them: this is the error of positions by
-/// it, relative to the tolerance. It is 0 with fixed steps, since their run tells it at its end.
+/// Formulas of time may act between the ends of an attempted step and not at them: this is the error by it, relative to
+/// the tolerance. It is 0 with fixed steps, since their run tells it at its end.
 double March::missed(const Plan& plan) {
-  constexpr double large = 0.2;  // of the integral of |f|: some four steps in a period
   if (pulses_.idle()) return 0;
-  const PulseWatch::Look look =
-      pulses_.look(integration_.attempted(), integration_.environment(), plan.begin, plan.end);
-  if (!adaptive() || !(look.missed > large * look.whole) || !(look.distance > 0)) return 0;
-  // The forces of then and of now tell along which unknowns it acts.
-  const System& system = integration_.system();
-  State state = integration_.attempted();
-  VectorX then(system.size()), now(system.size());
-  try {
-    system.residual(state, integration_.environment(), now);
-    state.time = look.farthest;
-    system.residual(state, integration_.environment(), then);
-  } catch (const ComputationError&) {
-    return 0;  // a component refuses a state that is not of that time
-  }
-  return norm_.of_impulse(look.missed / look.distance * (then - now), plan.size) / options_.tolerance;
+  pulses_.look(integration_.attempted(), integration_.environment(), plan.begin, plan.end);
+  return adaptive() ? pulses_.error(integration_.environment(), norm_, options_.tolerance) : 0;
 }
 
 /// One step as planned: tried, judged, and cut short at the first crossing within.

@@ -84,8 +84,9 @@ class March {
   /// @throws ComputationError when Newton's method fails with the smallest steps too: 1/1024 of the fixed size,
   ///         or 1e-10 of the span
   MarchStep advance();
-  /// The doubts are sentences for the user about formulas of time that change between steps, in this program's run.
-  std::vector<std::string> doubts() const { return pulses_.doubts(); }
+  /// The doubts are sentences for the user about formulas of time that change between steps, in this program's run. Of
+  /// adaptive steps there are none: they are refused.
+  std::vector<std::string> doubts() const { return adaptive() ? std::vector<std::string>() : pulses_.doubts(); }
   /// The log is that of this program's run: it contains no steps from before a restart.
   const MarchLog& log() const { return log_; }
   void count_as_before() {  ///< what it has done so far

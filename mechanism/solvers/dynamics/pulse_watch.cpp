@@ -2,91 +2,221 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <set>
 
 #include <fmt/format.h>
 
+#include "mechanism/solvers/dynamics/prescribed_node.hpp"
 #include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
+namespace {
 
-PulseWatch::PulseWatch(const System& system, double span) : system_(system), span_(span) {
-  const std::vector<Member>& members = system.model().members();
-  for (std::size_t m = 0; m < members.size(); ++m) {
-    const auto* component = dynamic_cast<const TimeDependent*>(members[m].component.get());
-    if (!component) continue;
-    const std::vector<TimeDependent::Formula> formulas = component->time_formulas();
-    if (formulas.empty()) continue;
-    sources_.push_back({m, component, totals_.size(), formulas.size()});
-    for (const TimeDependent::Formula& formula : formulas)
-      totals_.push_back({describe(members[m]) + ": " + formula.name, formula.units});
+const Slots no_slots;
+
+constexpr int least_parts = 4, most_parts = 20000;
+/// Of its range, by which a force may be off the chord between the ends: some seven steps in a period.
+constexpr double visible = 0.05;
+/// The same of a prescribed position, from the cubic between the ends: some five steps in a period.
+constexpr double visible_position = 0.003;
+/// Of |f|: changes that are smaller are none.
+constexpr double nothing = 1e-3;
+/// Of the model's length, or of 1 rad: motions that are smaller are none.
+constexpr double no_motion = 1e-9;
+
+}  // namespace
+
+PulseWatch::PulseWatch(const System& system, double begin, double span, double length)
+    : system_(system), span_(span), length_(length) {
+  step_.reference = begin;
+  const Model& model = system.model();
+  for (std::size_t m = 0; m < model.members().size(); ++m)
+    if (const auto* component = dynamic_cast<const TimeDependent*>(model.members()[m].component.get()))
+      add_source(nullptr, *component, describe(model.members()[m]), m, system.slots()[m]);
+  for (const Node& node : model.nodes()) {
+    auto prescribed = std::make_unique<PrescribedNode>(node);
+    const PrescribedNode& motions = *prescribed;
+    add_source(std::move(prescribed), motions, fmt::format("node '{}'", node.name), model.members().size(), no_slots);
   }
   looks_.resize(totals_.size());
-  for (std::vector<double>* buffer : {&begin_, &end_, &sum_, &value_}) buffer->resize(totals_.size());
 }
 
-/// One component's formulas over a step.
-void PulseWatch::look(const Source& source, const LocalState& state, double begin_time, double end_time, int parts) {
-  const double h = end_time - begin_time, part = h / parts, inside = 1e-9 * h;  // jumps at the ends are of other steps
-  const auto of = [&](std::vector<double>& values) { return std::span(values).subspan(source.first, source.count); };
-  source.component->calc_time_formulas(state, begin_time + inside, of(begin_));
-  source.component->calc_time_formulas(state, end_time - inside, of(end_));
-  const std::size_t end = source.first + source.count;
-  for (std::size_t k = source.first; k < end; ++k) sum_[k] = 0;
-  for (int i = 0; i < parts; ++i) {
-    const double share = (i + 0.5) / parts, time = begin_time + share * h;
-    source.component->calc_time_formulas(state, time, of(value_));
-    for (std::size_t k = source.first; k < end; ++k) {
-      sum_[k] += part * value_[k];
-      looks_[k].whole += part * std::abs(value_[k]);
-      const double distance = std::abs(value_[k] - (1 - share) * begin_[k] - share * end_[k]);
-      if (!(distance > looks_[k].distance)) continue;
-      looks_[k].distance = distance;
-      looks_[k].farthest = time;
-    }
+void PulseWatch::add_source(std::unique_ptr<TimeDependent> own, const TimeDependent& component, const std::string& name,
+                            std::size_t member, const Slots& slots) {
+  std::vector<TimeDependent::Formula> formulas = component.time_formulas();
+  if (formulas.empty()) return;
+  Source source{&component, member, &slots, std::move(formulas), totals_.size()};
+  for (const TimeDependent::Formula& formula : source.formulas) {
+    source.forces = source.forces || formula.part == TimeDependent::Part::force;
+    totals_.push_back({name + ": " + formula.name});
   }
-  for (std::size_t k = source.first; k < end; ++k)
-    looks_[k].missed = std::abs(0.5 * h * (begin_[k] + end_[k]) - sum_[k]);
+  sources_.push_back(std::move(source));
+  if (own) nodes_.push_back(std::move(own));
 }
 
-PulseWatch::Look PulseWatch::look(const State& end, const Environment& environment, double begin_time,
-                                  double end_time) {
-  constexpr int least = 16, most = 20000;
-  const int parts = std::clamp(static_cast<int>(std::ceil(most * (end_time - begin_time) / span_)), least, most);
-  Look worst;
+/// Calls act(formula, number) for each.
+template <class Act>
+void PulseWatch::for_each_formula(const Act& act) const {
+  for (const Source& source : sources_)
+    for (std::size_t k = 0; k < source.formulas.size(); ++k) act(source.formulas[k], source.first + k);
+}
+
+double PulseWatch::range(const Total& total) { return std::max(total.high - total.low, nothing * total.largest); }
+
+void PulseWatch::look(const State& end, const Environment& environment, double begin_time, double end_time) {
+  step_.begin = begin_time;
+  step_.end = end_time;
+  step_.parts = std::clamp(static_cast<int>(std::ceil(most_parts * step_.size() / span_)), least_parts, most_parts);
+  state_ = end;
+  ++count_;
   for (const Source& source : sources_) {
-    for (std::size_t k = source.first; k < source.first + source.count; ++k) looks_[k] = {k, 0, 0, 0, 0};
+    const std::span<FormulaLook> looks(looks_.data() + source.first, source.formulas.size());
     try {
-      look(source, LocalState(end, system_.slots()[source.member], environment), begin_time, end_time, parts);
+      looker_.look(*source.component, source.formulas, state_, *source.slots, environment, step_, looks);
     } catch (const ComputationError&) {
       // A formula of the state as well may have no value at times that this state is not of.
-      for (std::size_t k = source.first; k < source.first + source.count; ++k) looks_[k] = {k, 0, 0, 0, 0};
+      std::fill(looks.begin(), looks.end(), FormulaLook{});
     }
-    for (std::size_t k = source.first; k < source.first + source.count; ++k)
-      if (looks_[k].missed * worst.whole > worst.missed * looks_[k].whole || worst.missed == 0) worst = looks_[k];
+    for (std::size_t k = 0; k < looks.size(); ++k) {
+      Total& total = totals_[source.first + k];
+      total.low = std::min(total.low, looks[k].low);
+      total.high = std::max(total.high, looks[k].high);
+      total.largest = std::max(total.largest, looks[k].largest);
+    }
   }
-  return worst;
 }
 
-void PulseWatch::add(double end_time) {
-  for (std::size_t k = 0; k < totals_.size(); ++k) {
-    Total& total = totals_[k];
-    total.missed += looks_[k].missed;
-    total.whole += looks_[k].whole;
-    if (!(looks_[k].missed > total.most)) continue;
-    total.most = looks_[k].missed;
-    total.most_at = end_time;
+// -- adaptive steps
+
+double PulseWatch::error(const Environment& environment, const ErrorNorm& norm, double tolerance) {
+  return std::max(of_motions(norm, tolerance), of_forces(environment, norm, tolerance));
+}
+
+double PulseWatch::of_motions(const ErrorNorm& norm, double tolerance) const {
+  if (step_.size() * most_parts < span_) return 0;  // shorter than what is looked for: its accelerations tell
+  double error = 0;
+  for_each_formula([&](const TimeDependent::Formula& formula, std::size_t k) {
+    if (formula.part == TimeDependent::Part::force) return;
+    error = std::max(error, looks_[k].missed / (formula.turns ? 1 : norm.length()) / tolerance);
+  });
+  return error;
+}
+
+double PulseWatch::missed_by(const Source& source) const {
+  double sum = 0;
+  for (std::size_t k = 0; k < source.formulas.size(); ++k)
+    if (source.formulas[k].part == TimeDependent::Part::force) sum += looks_[source.first + k].missed;
+  return sum;
+}
+
+/// The error of a source's impulse as its formulas have it, by the effect that they had before; negative: not known.
+double PulseWatch::estimate(const Source& source) const { return source.gain * step_.size() * missed_by(source); }
+
+/// Whether the impulse of a source has to be computed. @param large  an estimate that matters
+bool PulseWatch::wants_impulse(const Source& source, double large) const {
+  constexpr std::size_t refresh = 32;  // steps after which the effect of a formula may have become another
+  if (source.gain < 0 || estimate(source) > large) return true;
+  if (count_ % refresh == 0 &&
+      count_ / refresh % sources_.size() == static_cast<std::size_t>(&source - sources_.data()))
+    return true;
+  for (std::size_t k = source.first; k < source.first + source.formulas.size(); ++k)
+    if (looks_[k].off > 0.5 * visible * range(totals_[k])) return true;
+  return false;
+}
+
+/// int r dt - h (r_n + r_{n+1})/2 of a component's part in the residual.
+void PulseWatch::set_impulse(const Source& source, const Environment& environment) {
+  const auto add = [&](double time, double weight) {
+    state_.time = time;
+    system_.residual_part(source.member, state_, environment, part_);
+    impulse_ += weight * part_;
+  };
+  part_.resize(system_.size());
+  impulse_.setZero(system_.size());
+  const double h = step_.size();
+  add(step_.begin + step_.inside(), -0.5 * h);
+  add(step_.end - step_.inside(), -0.5 * h);
+  for (int i = 0; i < step_.parts; ++i) add(step_.middle(i), h / step_.parts);
+}
+
+/// Whether the impulse acts on an algebraic unknown. Where it acts on others as well, the error is theirs.
+bool PulseWatch::acts_on_algebraic() const {
+  const std::vector<int>& algebraic = system_.algebraic();
+  return std::any_of(algebraic.begin(), algebraic.end(), [&](int k) { return impulse_[system_.dofs() + k] != 0; });
+}
+
+double PulseWatch::of_forces(const Environment& environment, const ErrorNorm& norm, double tolerance) {
+  constexpr double little = 0.3;  // of the tolerance
+  double all = 0;
+  for (const Source& source : sources_) all += std::max(0.0, estimate(source));
+  const double large = all > little * tolerance ? little * tolerance / static_cast<double>(sources_.size())
+                                                : std::numeric_limits<double>::infinity();
+  double followed = 0;  // of the formulas that steps have to follow
+  bool any = false;
+  sum_.setZero(system_.size());
+  for (Source& source : sources_) {
+    const double missed = source.forces ? missed_by(source) : 0;
+    if (!(missed > 0)) continue;
+    if (wants_impulse(source, large)) {
+      try {
+        set_impulse(source, environment);
+      } catch (const ComputationError&) {
+        continue;  // a component refuses a state that is not of that time
+      }
+      source.gain = norm.of_impulse(impulse_, step_.size()) / (missed * step_.size());
+      source.on_algebraic = source.gain == 0 && acts_on_algebraic();
+      sum_ += impulse_;
+      any = true;
+    }
+    if (source.on_algebraic && step_.size() * most_parts > span_)
+      for (std::size_t k = source.first; k < source.first + source.formulas.size(); ++k)
+        followed = std::max(followed, looks_[k].off / (visible * range(totals_[k])));
   }
+  const double error = any ? norm.of_impulse(sum_, step_.size()) / tolerance : 0;
+  return followed > 1 ? std::max(error, followed) : error;
+}
+
+// -- fixed steps
+
+void PulseWatch::add(double end_time) {
+  for_each_formula([&](const TimeDependent::Formula& formula, std::size_t k) {
+    Total& total = totals_[k];
+    const FormulaLook& look = looks_[k];
+    if (formula.part == TimeDependent::Part::position)
+      total.missed = std::max(total.missed, look.missed);
+    else
+      total.missed += look.missed;
+    total.whole += look.whole;
+    total.off = std::max(total.off, look.off);
+    if (!(look.missed > total.most)) return;
+    total.most = look.missed;
+    total.most_at = end_time;
+  });
 }
 
 std::vector<std::string> PulseWatch::doubts() const {
-  constexpr double tolerable = 0.05;  // eight steps in a period
   std::vector<std::string> doubts;
-  for (const Total& total : totals_)
-    if (total.missed > tolerable * total.whole)
-      doubts.push_back(fmt::format(
-          "{} changes between steps: of its integral over time, {:.4g} {} s, they miss {:.4g} {} s, most of "
-          "it in the step to t = {:.6g} s; take smaller steps",
-          total.name, total.whole, total.units, total.missed, total.units, total.most_at));
+  std::set<std::string> named;  // elements of one beam have one name
+  for_each_formula([&](const TimeDependent::Formula& formula, std::size_t k) {
+    const Total& total = totals_[k];
+    if (formula.part == TimeDependent::Part::position) {
+      const double extent = formula.turns ? 1 : length_, size = std::min(range(total), extent);
+      if (!(total.off > std::max(visible_position * size, no_motion * extent))) return;
+      if (!named.insert(total.name).second) return;
+      doubts.push_back(
+          fmt::format("{} moves between steps: up to {:.4g} {} away from what their ends tell, farthest in the step to "
+                      "t = {:.6g} s; take smaller steps",
+                      total.name, total.missed, formula.units, total.most_at));
+      return;
+    }
+    if (!(total.off > visible * range(total)) || !named.insert(total.name).second) return;
+    const std::string units = formula.units.empty() ? "s" : formula.units + " s";
+    doubts.push_back(fmt::format(
+        "{} changes between steps: of the integral of its changes over time, {:.4g} {}, they miss {:.4g} {}, most of "
+        "it in the step to t = {:.6g} s; take smaller steps",
+        total.name, total.whole, units, total.missed, units, total.most_at));
+  });
   return doubts;
 }
 

@@ -31,6 +31,22 @@ bool ShortSpan::moves_little(const State& begin, double span) const {
          little * begin.amplitude.lpNorm<Eigen::Infinity>();
 }
 
+/// Whether no unknown has an acceleration at the end that would have led it elsewhere.
+bool ShortSpan::is_slow(const State& begin, const State& after, const VectorX& dq, double span) const {
+  constexpr double little = 1e-3, rounding = 1e3 * std::numeric_limits<double>::epsilon();
+  const double length = model_length(begin) + model_extent(begin),
+               amplitude = begin.amplitude.size() > 0 ? begin.amplitude.lpNorm<Eigen::Infinity>() : 0;
+  VectorX unused(system_.dofs()), a(system_.dofs()), a_after(system_.dofs());
+  system_.get_rates(begin, unused, a);
+  system_.get_rates(after, unused, a_after);
+  for (int i = 0; i < system_.dofs(); ++i) {
+    const Kind kind = system_.kind(i);
+    const double size = kind == Kind::translation ? length : kind == Kind::rotation ? 1 : amplitude;
+    if (span * span * std::abs(a_after[i] - a[i]) > little * std::abs(dq[i]) + rounding * size) return false;
+  }
+  return true;
+}
+
 bool ShortSpan::leap(SchemeStep& step, MassSaddle& saddle, double span, double end, double offset, bool small) const {
   State begin = step.state();
   begin.time += offset;
@@ -50,6 +66,7 @@ bool ShortSpan::leap(SchemeStep& step, MassSaddle& saddle, double span, double e
   after.first_order += span * begin.first_order_rate;
   continue_accelerations(system_, environment_, after, saddle);
   saddle.serve_no_more();
+  if (!small && !is_slow(begin, after, dq, span)) return false;
   step.set_trial(std::move(after), span, dq);
   return true;
 }

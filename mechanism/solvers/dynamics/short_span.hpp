@@ -21,11 +21,15 @@
 // reactions are off by O(h^3)/(beta s), 7 % for a pendulum that turns by 0.03 rad per step and s = h/200. Accelerations
 // and multipliers are solved for at the end of such a step as well (`settle`); the next step begins anew in any case.
 //
-// The series is explicit. A stiff unknown (a pressure of little volume, a mode of a body) that is not at rest relative
-// to its drive would be carried too far by a span that is longer than its time constant: if first-order unknowns or
-// amplitudes would move by more than 10^-6 of their size, positions, velocities and first-order unknowns at the end
-// are those of an implicit step, and only the accelerations are solved for. Spans below 10^-6 h are shorter than any
-// time constant that matters, and go by the series.
+// The series is explicit. What is stiff (a pressure of little volume, a mode of a body, a guide of 10^9 N/m) and not at
+// rest relative to its drive would be carried too far by a span that is longer than its time constant. The
+// accelerations at the end tell: along an unknown that moves at the circular frequency omega they differ from those at
+// the begin by omega^2 Dq, and a load that changes within the span shows in them as well. If along any unknown
+//     s^2 |a_end - a_begin| > 10^-3 |Dq|,   that is (omega s)^2 > 10^-3,
+// above the rounding of positions, or if first-order unknowns or amplitudes would move by more than 10^-6 of their
+// size, positions, velocities and first-order unknowns at the end are those of an implicit step, and only the
+// accelerations are solved for. Spans below 10^-6 h are shorter than any time constant that matters, and go by the
+// series.
 #pragma once
 
 #include "mechanism/solvers/constraints/mass_saddle.hpp"
@@ -51,6 +55,7 @@ class ShortSpan {
 
  private:
   bool moves_little(const State& begin, double span) const;
+  bool is_slow(const State& begin, const State& after, const VectorX& dq, double span) const;
 
   const System& system_;
   const Environment& environment_;

@@ -2,11 +2,10 @@
 #include <catch2/catch.hpp>
 
 #include "mechanism/solvers/dynamics/error_norm.hpp"
-#include "mechanism/solvers/dynamics/march.hpp"
-#include "tests/support/run_model.hpp"
+#include "tests/support/march_model.hpp"
 
 using namespace bielle::mechanism;
-using bielle::test::ReadyModel;
+using namespace bielle::test;
 
 namespace {
 
@@ -20,53 +19,13 @@ loads: {f: {node: m, force: [")yaml" +
          force + "\", 0, 0]}}\n";
 }
 
-struct Visit {
-  double time, size, error;
-  bool on_grid;
-};
-
-struct Course {
-  std::vector<Visit> visits;
-  MarchLog log;
-  State end;
-  std::vector<std::string> doubts;
-};
-
-Course run(const ReadyModel& model, double end, StepOptions options) {
-  options.break_points = model.system.break_points();
-  TimeIntegration integration(model.system, model.environment(), Scheme::generalized_alpha(0.8), model.system.start(0));
-  Course motion;
-  March march(integration, integration.state().time, end, options);
-  while (!march.done()) {
-    const MarchStep step = march.advance();
-    motion.visits.push_back({integration.state().time, step.report.size, step.error, step.on_grid});
-  }
-  motion.log = march.log();
-  motion.doubts = march.doubts();
-  motion.end = integration.state();
-  return motion;
-}
-
 double x_of(const ReadyModel& model, const State& state) { return model.node(state, "m").x.x() - 1; }
-
-StepOptions fixed(double size) {
-  StepOptions options;
-  options.size = size;
-  return options;
-}
-
-StepOptions adaptive(double size, double tolerance) {
-  StepOptions options;
-  options.size = size;
-  options.tolerance = tolerance;
-  return options;
-}
 
 }  // namespace
 
 TEST_CASE("fixed steps keep to their grid and end on a kink between its times") {
   const ReadyModel model(oscillator("5*(t>=0.25)", 0));
-  const Course motion = run(model, 1, fixed(0.1));
+  const Course motion = march(model, 1, fixed_steps(0.1));
   REQUIRE(motion.visits.size() == 11);
   CHECK(motion.visits[2].time == 0.25);
   CHECK_FALSE(motion.visits[2].on_grid);
@@ -82,49 +41,15 @@ TEST_CASE("a force that jumps, at the start or between two times of the grid, le
        {std::pair("5*(t>=0.0437)", 0.0437), std::pair("5*(t>0.0437)", 0.0437), std::pair("5*(t>0)", 0.0)}) {
     const ReadyModel model(oscillator(law, 0));
     const double exact = 5 / (4 * pi * pi) * (1 - std::cos(2 * pi * (end - t0)));
-    double h = 0.01, coarse = std::abs(x_of(model, run(model, end, fixed(h)).end) - exact);
+    double h = 0.01, coarse = std::abs(x_of(model, march(model, end, fixed_steps(h)).end) - exact);
     for (int halving = 0; halving < 4; ++halving) {
       h /= 2;
-      const double fine = std::abs(x_of(model, run(model, end, fixed(h)).end) - exact);
+      const double fine = std::abs(x_of(model, march(model, end, fixed_steps(h)).end) - exact);
       INFO(law << ", h = " << h << ": " << coarse << " -> " << fine);
       CHECK(std::log2(coarse / fine) == Approx(2).margin(0.1));
       coarse = fine;
     }
   }
-}
-
-TEST_CASE("a pulse between the ends of steps is felt with a tolerance, and told of fixed steps") {
-  // 1 kg at 1 m/s, and a pulse of 1e6 N 1 ms sqrt(pi) = 1772.45 N s.
-  const double pulse = 1e3 * std::sqrt(std::acos(-1.0));
-  const auto model_of = [](const std::string& force) {
-    return ReadyModel(R"yaml(
-nodes: {m: {position: [1, 0, 0], velocity: [1, 0, 0], fixed: [y, z, rx, ry, rz]}}
-elements: {m: {type: point_mass, node: m, mass: 1}}
-loads: {l: {node: m, force: [")yaml" +
-                      force + "\", 0, 0]}}\n");
-  };
-  const ReadyModel struck = model_of("1e6*exp(-((t - 0.55)/0.001)^2)");
-  for (const double tolerance : {1e-4, 1e-6}) {
-    const Course motion = run(struck, 1, adaptive(0.1, tolerance));
-    CHECK(struck.node(motion.end, "m").v.x() == Approx(1 + pulse).epsilon(1e-3));
-    CHECK(motion.doubts.empty());
-    CHECK(motion.log.steps < 3000);
-  }
-  const Course coarse = run(struck, 1, fixed(0.1));
-  REQUIRE(coarse.doubts.size() == 1);
-  CHECK_THAT(coarse.doubts[0], Catch::Contains("load 'l': force x changes between steps"));
-  CHECK_THAT(coarse.doubts[0], Catch::Contains("1772 N s, they miss 1772 N s") && Catch::Contains("to t = 0.6 s"));
-  // Steps of a fifth of its width resolve it.
-  const Course fine = run(struck, 1, fixed(2e-4));
-  CHECK(fine.doubts.empty());
-  CHECK(struck.node(fine.end, "m").v.x() == Approx(1 + pulse).epsilon(1e-3));
-  // A formula that steps resolve is not doubted: 12 steps in a period miss (omega h)^2/12 = 2 %.
-  CHECK(run(model_of("3*sin(2*pi*t)"), 1, fixed(1.0 / 12)).doubts.empty());
-  CHECK(run(model_of("3*sin(2*pi*t)"), 1, fixed(1.0 / 3)).doubts.size() == 1);
-  // Fast ripples that move nothing make no step smaller.
-  const long with = run(model_of("3*sin(2*pi*t) + 1e-4*sin(5e4*t)"), 1, adaptive(0.01, 1e-5)).log.steps,
-             without = run(model_of("3*sin(2*pi*t)"), 1, adaptive(0.01, 1e-5)).log.steps;
-  CHECK(static_cast<double>(with) < 1.2 * static_cast<double>(without));
 }
 
 TEST_CASE("the local error of a step is what the norm says") {
@@ -161,7 +86,7 @@ TEST_CASE("adaptive steps keep the local error below the tolerance, and the glob
   const ReadyModel model(oscillator("0", 0.1));
   double error_before = 0;
   for (const double tolerance : {1e-5, 1e-6, 1e-7, 1e-8}) {
-    const Course motion = run(model, end, adaptive(1e-3, tolerance));
+    const Course motion = march(model, end, adaptive_steps(1e-3, tolerance));
     for (const Visit& visit : motion.visits) CHECK(visit.error <= 1);
     const double error = std::abs(x_of(model, motion.end) - 0.1 * std::cos(2 * pi * end));
     INFO("tolerance " << tolerance << ": " << motion.log.steps << " steps, error " << error);
@@ -194,7 +119,7 @@ TEST_CASE("steps that change and change again do not feed on what they left in t
   for (const double rho : {0.95, 0.9, 0.8, 0.5}) {
     TimeIntegration integration(model.system, model.environment(), Scheme::generalized_alpha(rho),
                                 model.system.start(0));
-    March march(integration, 0, 1, adaptive(0.02, 1e-6));
+    March march(integration, 0, 1, adaptive_steps(0.02, 1e-6));
     while (!march.done()) march.advance();
     INFO("rho = " << rho);
     // The local error's constants of these schemes differ by 1.6, the steps by 1.2.
@@ -218,7 +143,7 @@ elements:
       const ReadyModel model(text);
       const Scheme scheme = Scheme::generalized_alpha(0.8);
       TimeIntegration integration(model.system, model.environment(), scheme, model.system.start(0));
-      March march(integration, 0, 1, adaptive(1e-3, tolerance));
+      March march(integration, 0, 1, adaptive_steps(1e-3, tolerance));
       double worst = 0;
       long count = 0;
       while (!march.done()) {
@@ -242,7 +167,7 @@ elements:
 
 TEST_CASE("adaptive steps shorten for a short push, end on its kinks and lengthen again") {
   const ReadyModel model(oscillator("500*pulse(t, 0.5, 0.502)", 0.0));
-  const Course motion = run(model, 2, adaptive(1e-2, 1e-5));
+  const Course motion = march(model, 2, adaptive_steps(1e-2, 1e-5));
   bool at_begin = false, at_end = false;
   for (const Visit& visit : motion.visits) {
     at_begin = at_begin || visit.time == 0.5;
@@ -264,7 +189,7 @@ elements:
   m: {type: point_mass, node: m, mass: 1}
   s: {type: spring_damper, nodes: [ground, m], force: "(2*pi)^2*e/sqrt(1 - (e/0.15)^2)", length: 1}
 )yaml");
-  const Course motion = run(model, 4, fixed(0.4));
+  const Course motion = march(model, 4, fixed_steps(0.4));
   CHECK(motion.log.refused_by_newton > 0);
   CHECK_THAT(motion.log.hardest, Catch::Matchers::Contains("sqrt"));
   long on_grid = 0;
@@ -281,7 +206,7 @@ elements:
   m: {type: point_mass, node: m, mass: 1}
   s: {type: spring_damper, nodes: [ground, m], force: "e*sqrt(0.15 - e)", length: 1}
 )yaml");
-  CHECK_THROWS_WITH(run(model, 1, fixed(0.01)),
+  CHECK_THROWS_WITH(march(model, 1, fixed_steps(0.01)),
                     Catch::Matchers::Contains("sqrt(0.15 - e)") && Catch::Matchers::Contains("steps down to"));
 }
 
