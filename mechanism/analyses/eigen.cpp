@@ -41,7 +41,9 @@ double shown_damping(const Mode& mode) {
 }
 
 /// The text says how uncertain those eigenvalues are that rounding leaves hardly known.
-std::string format_uncertain(const std::vector<Mode>& modes) {
+std::string format_uncertain(const ModesReport& report) {
+  const std::vector<Mode>& modes = report.found.modes;
+  const double drift = report.steadiness ? report.steadiness->drift(report.axes) * report.steadiness->rate : 0;
   constexpr double well_known = 1e-3;
   std::string text;
   double slowest = INFINITY, resolution = 0;
@@ -58,7 +60,8 @@ std::string format_uncertain(const std::vector<Mode>& modes) {
         resolution / (2 * std::numbers::pi));
   for (std::size_t k = 0; k < std::min(most_listed, modes.size()); ++k)
     if (modes[k].kind != ModeKind::rigid && modes[k].uncertainty > well_known * std::abs(modes[k].s))
-      text += fmt::format("  mode {}: rounding leaves its eigenvalue uncertain by {:.2g} 1/s, {:.2g} % of it\n", k + 1,
+      text += fmt::format("  mode {}: {} leaves its eigenvalue uncertain by {:.2g} 1/s, {:.2g} % of it\n", k + 1,
+                          drift > 0.1 * modes[k].uncertainty ? "the motion, which is not quite steady," : "rounding",
                           modes[k].uncertainty, 100 * modes[k].uncertainty / std::abs(modes[k].s));
   return text;
 }
@@ -92,8 +95,17 @@ std::string format_remarks(const ModesReport& report) {
     text += fmt::format("  UNSTABLE: {} {} {}, the fastest to twice its size within {:.3g} s\n",
                         growing.size() == 1 ? "mode" : "modes", fmt::join(growing, ", "),
                         growing.size() == 1 ? "grows" : "grow", std::numbers::ln2 / fastest);
+  if (const int besides = report.found.growing_besides.value_or(0); besides > 0)
+    text += fmt::format("  UNSTABLE: {} {} that {} not among these modes\n",
+                        counted(besides, growing.empty() ? "motion" : "more motion"), besides == 1 ? "grows" : "grow",
+                        besides == 1 ? "is" : "are");
+  if (report.outweighed.value_or(0) > 0)
+    text += fmt::format(
+        "  above a critical speed: along {}, seen in axes that turn, centrifugal forces outweigh what holds the "
+        "mechanism; there it deflects against its unbalance, and Coriolis forces alone may keep it stable\n",
+        counted(*report.outweighed, "motion"));
   if (rigid > 0) text += fmt::format("  {}: no force resists\n", counted(rigid, "rigid mode"));
-  text += format_uncertain(report.found.modes);
+  text += format_uncertain(report);
   text += format_setting(report, "modes");
   return text;
 }

@@ -31,6 +31,8 @@ struct ModesReport : LinearisedSetting {
   Modes found;  ///< shapes of unit size (unit_factor)
   MemberEnergies energies;
   std::shared_ptr<const LinearisedEquations> equations;  ///< whose modes they are
+  /// In steady rotation: motions along which centrifugal forces outweigh what holds them (count_outweighed).
+  std::optional<int> outweighed;
 };
 
 }  // namespace bielle::mechanism

@@ -20,10 +20,13 @@ class CampbellStates {
   void begin(Campbell& found) {
     const double last = options_.values.back();
     with_modes(last, 1, [&](const System& /*system*/, const ModesReport& report) {
-      axes_ = report.axes;
+      // Frequencies of whirl are seen in inertial axes where these are good to a thousandth.
+      const bool inertial = report.steadiness && report.steadiness->steady_in(ModeAxes::inertial);
+      axes_ = inertial ? ModeAxes::inertial : report.axes;
       axis_ = options_.axis.isZero(0) ? fastest(report.about.state, last) : Vector3(options_.axis);
       check_turns(report.about.state, last);
       static_cast<LinearisedSetting&>(found) = report;
+      found.axes = *axes_;
     });
     found.axis = axis_;
     unsteady_ = &found.unsteady;
@@ -43,7 +46,8 @@ class CampbellStates {
         // Forwards is in the sense of the speed, and nothing is where nothing turns.
         sample.modes.whirl.push_back(whirl && sample.speed != 0 ? std::copysign(1, sample.speed) * *whirl : NAN);
       }
-      if (report.steadiness && !steady_in(*report.steadiness) && (unsteady_->empty() || unsteady_->back() != value))
+      if (report.steadiness && !report.steadiness->steady_in(*axes_) &&
+          (unsteady_->empty() || unsteady_->back() != value))
         unsteady_->push_back(value);
     });
     return sample;
@@ -86,11 +90,6 @@ class CampbellStates {
   double rate_of(const Model& model) const {
     const std::string& formula = options_.rate.empty() ? options_.parameter : options_.rate;
     return Expression(formula, {}, model.parameters)({});
-  }
-
-  bool steady_in(const Steadiness& steadiness) const {
-    constexpr double changes = 1e-3;
-    return (axes_ == ModeAxes::turning ? steadiness.turning : steadiness.inertial) <= changes * steadiness.rate;
   }
 
   void check_turns(const State& state, double value) const {

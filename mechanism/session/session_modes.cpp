@@ -3,6 +3,7 @@
 
 #include "mechanism/session/session.hpp"
 #include "mechanism/solvers/constraints/redundancy.hpp"
+#include "mechanism/solvers/linearised/growing_motions.hpp"
 #include "mechanism/solvers/start/assemble_positions.hpp"
 #include "mechanism/solvers/start/consistent_start.hpp"
 #include "mechanism/solvers/start/rigid_start.hpp"
@@ -47,6 +48,12 @@ namespace {
                   what));
 }
 
+std::optional<int> outweighed(const System& system, const ModesReport& report, double rate) {
+  if (report.axes == ModeAxes::turning) return count_outweighed(*report.equations, rate);
+  return count_outweighed(linearised_equations(system, report.about.environment, report.about.state, ModeAxes::turning),
+                          rate);
+}
+
 }  // namespace
 
 ModesReport Session::modes(const ModesOptions& options) const {
@@ -60,8 +67,14 @@ ModesReport Session::modes(const ModesOptions& options) const {
   report.equations =
       std::make_shared<const LinearisedEquations>(linearised_equations(system_, environment, state, report.axes));
   const LinearisedEquations& equations = *report.equations;
+  if (options.rotation) report.outweighed = outweighed(system_, report, options.rotation->omega.norm());
+  ModeOptions search = options.search;
+  if (report.steadiness) {
+    search.drift = report.steadiness->drift(report.axes);
+    search.rate = report.steadiness->rate;
+  }
   try {
-    report.found = find_modes(equations, options.search);
+    report.found = find_modes(equations, search);
   } catch (const SingularEquations& singular) {
     throw_undetermined(system_, equations, singular.at());
   }

@@ -33,12 +33,19 @@ VectorX roots_of_rows(const Sparse& A) {
 
 }  // namespace
 
-EquationSymmetry equation_symmetry(const LinearisedEquations& e) {
+Sparse stiffness_in_axes(const LinearisedEquations& e) { return e.K + Sparse(e.C * e.W); }
+Sparse damping_in_axes(const LinearisedEquations& e) { return e.C + Sparse(e.M * e.W); }
+
+bool has_symmetric_stiffness(const LinearisedEquations& e) {
   const bool rolls = std::any_of(e.nonholonomic.begin(), e.nonholonomic.end(), [](char each) { return each != 0; });
-  if (rolls || e.unknowns() != e.dofs || e.F.nonZeros() > 0) return EquationSymmetry::none;
-  const Sparse K = e.K + Sparse(e.C * e.W), C = e.C + Sparse(e.M * e.W);
-  if (!is_own_transpose(e.M, 1, roots_of_rows(e.M)) || !is_own_transpose(K, 1, roots_of_rows(K)))
-    return EquationSymmetry::none;
+  if (rolls || e.unknowns() != e.dofs || e.F.nonZeros() > 0) return false;
+  const Sparse K = stiffness_in_axes(e);
+  return is_own_transpose(K, 1, roots_of_rows(K));
+}
+
+EquationSymmetry equation_symmetry(const LinearisedEquations& e) {
+  if (!has_symmetric_stiffness(e) || !is_own_transpose(e.M, 1, roots_of_rows(e.M))) return EquationSymmetry::none;
+  const Sparse C = damping_in_axes(e);
   const VectorX sizes = roots_of_rows(C);
   if (is_own_transpose(C, 1, sizes)) return EquationSymmetry::symmetric;
   return is_own_transpose(C, -1, sizes) ? EquationSymmetry::gyroscopic : EquationSymmetry::none;

@@ -11,6 +11,12 @@ enum class EquationSymmetry {
   none
 };
 
+/// D(0) = K + C W, and what goes with s in D(s) = M s^2 + (C + M W) s + D(0).
+LinearisedEquations::Sparse stiffness_in_axes(const LinearisedEquations& equations);
+LinearisedEquations::Sparse damping_in_axes(const LinearisedEquations& equations);
+/// Whether D(0) is symmetric, with holonomic constraints that only hold.
+bool has_symmetric_stiffness(const LinearisedEquations& equations);
+
 EquationSymmetry equation_symmetry(const LinearisedEquations& equations);
 
 /// A left vector y (n + constraints) of an eigenvalue that pairs with a right one, y^T D(s) = 0, by inverse iteration

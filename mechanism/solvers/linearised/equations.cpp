@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "mechanism/solvers/newton/model_length.hpp"
+#include "mechanism/system/unknown_groups.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -64,19 +65,11 @@ Sparse chosen_rows(const Sparse& A, const std::vector<int>& number) {
   return chosen;
 }
 
-/// Translations of a node, its turns, and every other unknown are a group each.
 void number_groups(const System& system, LinearisedEquations& equations) {
-  const int n = equations.unknowns();
+  const int n = equations.unknowns(), scalars = system.kinematics().unknowns();
+  equations.group = unknown_groups(system, n);
   equations.turns.assign(static_cast<std::size_t>(n), 0);
-  equations.group.resize(static_cast<std::size_t>(n));
-  int groups = 0;
-  for (int i = 0; i < n; ++i) {
-    const int scalars = system.kinematics().unknowns();
-    equations.turns[static_cast<std::size_t>(i)] = i < scalars && system.kind(i) == Kind::rotation;
-    const bool goes_on = i > 0 && i < scalars && system.kind(i) == system.kind(i - 1) &&
-                         system.kinematics().node_of(i) == system.kinematics().node_of(i - 1);
-    equations.group[static_cast<std::size_t>(i)] = goes_on ? groups - 1 : groups++;
-  }
+  for (int i = 0; i < scalars; ++i) equations.turns[static_cast<std::size_t>(i)] = system.kind(i) == Kind::rotation;
 }
 
 /// The residual, and what rounding of positions, turns and amplitudes makes of forces.

@@ -26,6 +26,13 @@ VectorXc ModeJudgement::left(const Mode& mode) const {
   return left_vector(e_, mode.s, mode.u);
 }
 
+/// The operator (A - sigma E)^-1 E, sigma the rate, changes by this part, and so does s - sigma; of double zeros, which
+/// such a change splits, its square.
+double ModeJudgement::drift_uncertainty(Complex s) const {
+  const double size = std::abs(s), split = rate_ * std::sqrt(drift_);
+  return std::max(drift_ * (rate_ + size), size < split ? split : 0.0);
+}
+
 void ModeJudgement::judge(Mode& mode) const {
   const int n = e_.unknowns();
   VectorXc y = left(mode), u = VectorXc::Zero(n + e_.constraints());
@@ -46,6 +53,7 @@ void ModeJudgement::judge(Mode& mode) const {
       if (real) mode.s = mode.s.real();
     }
   }
+  mode.uncertainty += drift_uncertainty(mode.s);
   if (mode.s.real() > mode.uncertainty)
     mode.kind = ModeKind::growing;
   else

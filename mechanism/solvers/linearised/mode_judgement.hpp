@@ -9,8 +9,13 @@ namespace bielle::mechanism {
 
 class ModeJudgement {
  public:
-  ModeJudgement(const LinearisedEquations& equations, const EquationRounding& rounding)
-      : e_(equations), rounding_(rounding), symmetry_(equation_symmetry(equations)) {}
+  /// @param options  with the changes of the equations
+  ModeJudgement(const LinearisedEquations& equations, const EquationRounding& rounding, const ModeOptions& options)
+      : e_(equations),
+        rounding_(rounding),
+        symmetry_(equation_symmetry(equations)),
+        drift_(options.drift),
+        rate_(options.rate) {}
 
   /// Sets the uncertainty and the kind of a mode that is not rigid. An eigenvalue that is farther from what its vectors
   /// say than its uncertainty is moved there (s -= y^T D x/y^T D' x: y and x stand still to first order).
@@ -20,9 +25,11 @@ class ModeJudgement {
 
  private:
   Eigen::VectorXcd left(const Mode& mode) const;
+  double drift_uncertainty(std::complex<double> s) const;
   const LinearisedEquations& e_;
   const EquationRounding& rounding_;
   EquationSymmetry symmetry_;
+  double drift_, rate_;
 };
 
 }  // namespace bielle::mechanism

@@ -8,6 +8,7 @@
 #include "mechanism/solvers/linearised/eigenpairs_around.hpp"
 #include "mechanism/solvers/linearised/finite_states.hpp"
 #include "mechanism/solvers/linearised/free_shapes.hpp"
+#include "mechanism/solvers/linearised/growing_motions.hpp"
 #include "mechanism/solvers/linearised/indifferent_motions.hpp"
 #include "mechanism/solvers/linearised/mode_judgement.hpp"
 #include "reduce/common/error.hpp"
@@ -25,7 +26,7 @@ class ModeSearch {
         options_(options),
         rounding_(equations),
         around_(equations, options.dense),
-        judgement_(equations, rounding_) {}
+        judgement_(equations, rounding_, options) {}
 
   Modes run() {
     Modes result;
@@ -209,12 +210,25 @@ class ModeSearch {
     return std::max<Eigen::Index>(0, static_cast<Eigen::Index>(zeros.size()) - 2 * rigid_.shapes.cols());
   }
 
+  /// @param from  growth [1/s] above which motions are counted
+  void note_growing_besides(double from, Modes& result) const {
+    result.growing_besides = result.all ? 0 : from > 0 ? count_growing(e_, from) : std::nullopt;
+    if (!result.growing_besides) return;
+    for (const Mode& mode : result.modes)
+      if (mode.s.imag() == 0 && mode.s.real() > from && *result.growing_besides > 0) --*result.growing_besides;
+  }
+
   Modes finished(Modes result, bool all) const {
     const auto count = static_cast<std::size_t>(options_.count);
     result.states = e_.states();
     result.all = all && result.modes.size() <= count;
     sort_by_rate(result.modes);
     if (!options_.below && result.modes.size() > count) result.modes.resize(count);
+    constexpr double next_below = 1 - 1e-6;  // the last one may have equals
+    note_growing_besides(options_.below         ? 2 * std::numbers::pi * *options_.below
+                         : result.modes.empty() ? 0
+                                                : next_below * std::abs(result.modes.back().s),
+                         result);
     add_rigid_modes(result);
     return result;
   }
@@ -242,6 +256,8 @@ class ModeSearch {
         result.modes.resize(static_cast<std::size_t>(options_.count));
       }
       sort_by_rate(result.modes);
+      constexpr double slower = 0.5;
+      note_growing_besides(slower * rigid_.slowest, result);
       return result;
     }
   }

@@ -29,7 +29,8 @@ struct Mode {
   ModeKind kind = ModeKind::oscillating;
   Eigen::VectorXcd u;  ///< increments of dofs and first-order unknowns (n), of any size
   Eigen::VectorXcd w;  ///< variations of the dofs' rates that go with them
-  /// |ds| [1/s] by rounding of the equations and errors of the equilibrium (equation_rounding.hpp); 0 where not known:
+  /// |ds| [1/s] by rounding of the equations, errors of the equilibrium (equation_rounding.hpp) and changes of the
+  /// equations in a motion that is not quite steady; 0 where not known:
   /// for unsymmetric equations it is computed for modes that seem to grow. Rates up to the uncertainty of a rigid mode
   /// cannot be told from zero.
   double uncertainty = 0;
@@ -43,13 +44,17 @@ struct ModeOptions {
   int count = 20;                    ///< of modes that are not rigid; where `below` is given, it does not count
   std::optional<double> near = {};   ///< those nearest to this frequency [Hz] > 0; no rigid ones
   std::optional<double> below = {};  ///< all with |s| / 2 pi up to this frequency [Hz] > 0
-  int dense = 300;                   ///< systems of up to so many independent states are solved densely; 0: none
+  /// By what part the equations change while the motion goes on by a radian at this rate [1/s] (Steadiness::drift).
+  double drift = 0, rate = 0;
+  int dense = 300;  ///< systems of up to so many independent states are solved densely; 0: none
 };
 
 struct Modes {
   std::vector<Mode> modes;  ///< |s| ascending
   bool all = false;         ///< there are no others: as many as the equations have finite eigenvalues
   int states = 0;
+  /// Growing motions that are not among the modes; nothing where that is not known (equations that are not symmetric).
+  std::optional<int> growing_besides;
 };
 
 /// Sizes of rates from diagonal entries alone, of the softest and of the stiffest unknown [1/s].

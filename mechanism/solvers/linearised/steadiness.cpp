@@ -43,6 +43,8 @@ void carry(const System& system, const State& from, const State& to, ModeAxes ax
   }
 }
 
+constexpr double steadily = 1e-3;  // change in a radian
+
 struct Rates {
   double velocity = 0, acceleration = 0;  ///< [1/s]
 };
@@ -101,9 +103,15 @@ double change(const System& system, const Environment& environment, const State&
 }  // namespace
 
 ModeAxes Steadiness::axes() const {
-  constexpr double clearly = 0.3;
-  return turning < clearly * inertial && inertial > 1e-3 * rate ? ModeAxes::turning : ModeAxes::inertial;
+  constexpr double clearly = 0.3, exactly = 1e-2, rounding = 1e-8;
+  const bool worse = inertial > steadily * rate && turning < clearly * inertial;
+  const bool not_exact = inertial > rounding * rate && turning < exactly * inertial;
+  return worse || not_exact ? ModeAxes::turning : ModeAxes::inertial;
 }
+
+bool Steadiness::steady() const { return least() <= steadily * rate; }
+bool Steadiness::steady_in(ModeAxes axes) const { return change(axes) <= steadily * rate; }
+double Steadiness::drift(ModeAxes axes) const { return steady_in(axes) ? change(axes) / rate : 0; }
 
 std::optional<Steadiness> find_steadiness(const System& system, const Environment& environment, const State& state) {
   Steadiness steadiness;

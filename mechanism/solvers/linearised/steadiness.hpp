@@ -18,10 +18,15 @@ struct Steadiness {
   double inertial = 0;  ///< how fast the equations change in inertial axes [1/s], relative to themselves
   double turning = 0;   ///< the same in axes that turn with the nodes
   double least() const { return inertial < turning ? inertial : turning; }
-  /// Inertial ones, unless these are worse.
+  double change(ModeAxes axes) const { return axes == ModeAxes::turning ? turning : inertial; }
+  /// Inertial ones, unless these are worse, or turning ones exact where these are not: a slightly unbalanced rotor
+  /// would seem to be unstable in the others.
   ModeAxes axes() const;
   /// Whether the equations change by less than a thousandth while the motion goes on by a radian or its size.
-  bool steady() const { return least() <= 1e-3 * rate; }
+  bool steady() const;
+  bool steady_in(ModeAxes axes) const;
+  /// By what part they change meanwhile, if that counts as steady; otherwise 0.
+  double drift(ModeAxes axes) const;
 };
 
 /// Of a state whose accelerations and multipliers belong to its velocities. Nothing where it is at rest,

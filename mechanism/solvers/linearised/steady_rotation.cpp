@@ -31,6 +31,24 @@ void turn(const System& system, const SteadyRotation& rotation, State& state) {
   state.first_order_rate.setZero();
 }
 
+/// Loose motions (a free shaft) are held where they are: a little inertia resists displacements themselves. Rates must
+/// not have a part in it, or the Coriolis forces of an eccentric rotor that moves outwards turn its free shaft far.
+/// Unknowns without inertia are held as much as the others.
+void hold_loose(double rate, LinearisedEquations& equations) {
+  constexpr double little = 1e-6;  // of centrifugal forces
+  VectorX sum = VectorX::Zero(2), count = sum;
+  const VectorX inertia = equations.M.diagonal();
+  const auto kind = [&](int i) { return equations.turns[static_cast<std::size_t>(i)] != 0 ? 1 : 0; };
+  for (int i = 0; i < equations.dofs; ++i) {
+    sum[kind(i)] += inertia[i];
+    count[kind(i)] += inertia[i] > 0 ? 1 : 0;
+  }
+  VectorX missing = VectorX::Zero(equations.unknowns());
+  for (int i = 0; i < equations.dofs; ++i)
+    if (!(inertia[i] > 0) && count[kind(i)] > 0) missing[i] = sum[kind(i)] / count[kind(i)];
+  equations.K += little * rate * rate * (equations.M + LinearisedEquations::Sparse(missing.asDiagonal()));
+}
+
 /// Newton's method for the equilibrium at one angular velocity, with the safeguards of statics (equilibrium.hpp):
 /// stiffness comes from the stress that the last step predicted, and steps are shortened that turn a node far or that a
 /// component refuses.
@@ -40,11 +58,25 @@ class RotationEquilibrium {
       : system_(system), environment_(environment), linear_(system), convergence_(system, tolerances()) {}
 
   /// @returns whether it was found; otherwise the state is some iterate
-  bool find(const SteadyRotation& rotation, State& state) {
+  bool find(const SteadyRotation& rotation, const State& from, State& state) {
+    for (const Hold hold : {Hold::displacements, Hold::rates}) {
+      hold_ = hold;
+      state = from;
+      try {
+        if (iterate(rotation, state)) return true;
+      } catch (const ComputationError&) {
+        continue;  // a wild iterate that a component refuses
+      }
+    }
+    return false;
+  }
+
+ private:
+  bool iterate(const SteadyRotation& rotation, State& state) {
     constexpr int most = 40;
-    constexpr double small = 1e-10;    // relative to the mechanism's size, and [rad]: below, the last step ends it
+    constexpr double small = 1e-10;    // relative to the mechanism's size, and [rad]: below, it is found
     constexpr double balanced = 1e-6;  // the same of a step after which nothing but rounding is left of the residual
-    bool stepped = false;
+    bool stepped = false, found = false;
     State before = state;
     VectorX r(system_.size());
     for (int iteration = 0; iteration < most; ++iteration) {
@@ -55,15 +87,16 @@ class RotationEquilibrium {
       before = state;
       stepped = true;
       if (!go(rotation, before, shortened(state), state)) return false;
-      if (size < small || (size < balanced && reached(state))) {
+      if (found) {
         turn(system_, rotation, state);
         return true;
       }
+      // One step more leaves nothing but rounding: rigid motions are told by what an equilibrium leaves over.
+      found = size < small || (size < balanced && reached(state));
     }
     return false;
   }
 
- private:
   static NewtonOptions tolerances() {
     NewtonOptions options;
     options.tolerance = 1e-12;
@@ -76,9 +109,10 @@ class RotationEquilibrium {
     system_.residual(state, environment_, r);
     Environment predicted = environment_;
     predicted.before = before;
-    const LinearisedEquations equations = linearised_equations(system_, predicted, state, ModeAxes::turning);
-    // A little inertia, so that what nothing holds (a free shaft) stays where it is.
-    const ShiftedOperator D(equations, 1e-3 * rotation.omega.norm());
+    LinearisedEquations equations = linearised_equations(system_, predicted, state, ModeAxes::turning);
+    const double rate = rotation.omega.norm();
+    if (hold_ == Hold::displacements) hold_loose(rate, equations);
+    const ShiftedOperator D(equations, hold_ == Hold::displacements ? 0 : 1e-3 * rate);
     if (!D.regular()) return false;
     VectorX right(n + equations.constraints());
     right.head(n) = -r.head(n);
@@ -136,10 +170,16 @@ class RotationEquilibrium {
     return convergence_.reached(r, scale);
   }
 
+  /// How loose motions are held: by inertia against displacements (hold_loose); or, where that finds nothing, by
+  /// inertia and Coriolis forces of a small rate. These keep directions apart where D(0) is nearly singular on the way,
+  /// as with elements that are too long for their tension.
+  enum class Hold { displacements, rates };
+
   const System& system_;
   Environment environment_;
   LinearStep linear_;
   Convergence convergence_;
+  Hold hold_ = Hold::displacements;
   VectorX step_;  ///< (size)
 };
 
@@ -194,12 +234,7 @@ void settle_in_rotation(const System& system, const Environment& environment, co
     SteadyRotation slower = rotation;
     slower.omega *= std::sqrt(end);
     State trial = state;
-    bool good = false;
-    try {
-      good = equilibrium.find(slower, trial);
-    } catch (const ComputationError&) {
-      // A wild iterate that a component refuses.
-    }
+    const bool good = equilibrium.find(slower, state, trial);
     if (!good || (part > 16 * least && farthest_between(state, trial) > far)) {
       part /= 2;
       if (part < least)

@@ -5,103 +5,144 @@
 #include <cmath>
 #include <vector>
 
-#include <Eigen/SparseCholesky>
-
+#include "mechanism/math/negative_directions.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
+#include "mechanism/solvers/statics/load_ramp.hpp"
+#include "mechanism/system/unknown_groups.hpp"
 
 namespace bielle::mechanism {
 namespace {
 
+using Sparse = Eigen::SparseMatrix<double>;
+
 const TangentWeights stiffness_alone{1, 0, 0, 0, 1, true};
-constexpr double give = 1e-4;  // of constraints, see the head of stability.hpp
+
+/// The largest magnitude in each unknown's group.
+VectorX largest_of_groups(const std::vector<int>& group, const VectorX& x) {
+  VectorX most = VectorX::Zero(group.back() + 1), result(static_cast<Eigen::Index>(group.size()));
+  for (int i = 0; i < result.size(); ++i) {
+    double& largest = most[group[static_cast<std::size_t>(i)]];
+    largest = std::max(largest, std::abs(x[i]));
+  }
+  for (int i = 0; i < result.size(); ++i) result[i] = most[group[static_cast<std::size_t>(i)]];
+  return result;
+}
+
+/// Entries that are rounding of others, which would give sizes to unknowns that have no stiffness (displacements of a
+/// rigid body), are left out.
+void leave_rounding_out(const System& system, double length, Sparse& K) {
+  constexpr double rounding = 1e-14;
+  double translation = 0, rotation = 0;
+  const VectorX diagonal = K.diagonal();
+  for (int i = 0; i < diagonal.size(); ++i) {
+    double* most = system.kind(i) == Kind::translation ? &translation
+                   : system.kind(i) == Kind::rotation  ? &rotation
+                                                       : nullptr;
+    if (most) *most = std::max(*most, std::abs(diagonal[i]));
+  }
+  translation = std::max(translation, rotation / (length * length));
+  const auto size = [&](Eigen::Index i) {
+    const Kind kind = system.kind(static_cast<int>(i));
+    return kind == Kind::translation ? translation : kind == Kind::rotation ? rotation : 0.0;
+  };
+  K.prune([&](Eigen::Index row, Eigen::Index column, double value) {
+    return std::abs(value) > rounding * std::sqrt(size(row) * size(column));
+  });
+}
+
+/// Sizes that are no more than rounding of others of their kind are raised: nothing is judged by them.
+void raise_least(const System& system, VectorX& sizes) {
+  constexpr double least = 1e-6;  // of the mean
+  std::array<double, kind_count> sum{}, count{};
+  for (int i = 0; i < system.dofs(); ++i) {
+    sum[static_cast<std::size_t>(system.kind(i))] += sizes[i];
+    count[static_cast<std::size_t>(system.kind(i))] += 1;
+  }
+  for (int i = 0; i < system.dofs(); ++i) {
+    const auto kind = static_cast<std::size_t>(system.kind(i));
+    sizes[i] = std::max(sizes[i], least * sum[kind] / count[kind]);
+  }
+}
 
 }  // namespace
 
-std::optional<int> Stability::count(const State& state, const Environment& environment) {
-  constexpr double asymmetry = 1e-6, of_size = 1e-7;  // relative to an entry, and to the stiffness
-  if (system_.dofs() == 0) return 0;
-  linear_.assemble(state, environment, stiffness_alone, nullptr, held());
+Stability::Stability(const System& system, const VectorX* held)
+    : system_(system),
+      linear_(system),
+      group_(unknown_groups(system, system.dofs())),
+      held_(held ? *held : VectorX()) {}
+
+/// The tangent's parts. @returns nothing where forces depend on first-order unknowns
+std::optional<Stability::Parts> Stability::parts() const {
   const std::vector<double>& values = linear_.values();
   const SparsePattern& pattern = system_.pattern();
   const int dofs = system_.dofs(), first = system_.size() - system_.multipliers();
-  const VectorX scale = row_scales();
-  std::vector<Eigen::Triplet<double>> lower;
-  lower.reserve(values.size());
+  std::vector<int> number(static_cast<std::size_t>(system_.multipliers()), -1);
+  int constraints = 0;
+  for (int k = 0; k < system_.multipliers(); ++k) {
+    const int place = pattern.find(first + k, first + k);
+    const bool out = place >= 0 && values[static_cast<std::size_t>(place)] > 0;  // of the equations
+    if (!out) number[static_cast<std::size_t>(k)] = constraints++;
+  }
+  std::vector<Eigen::Triplet<double>> stiffness, rows, columns;
   bool known = true;
   pattern.for_each([&](int place, int row, int column) {
     const double value = values[static_cast<std::size_t>(place)];
-    if (!known || value == 0) return;
-    const bool row_state = row >= dofs && row < first, column_state = column >= dofs && column < first;
-    if (row_state) return;  // what first-order unknowns do is no stiffness,
-    if (column_state) {     // unless forces depend on them
+    if (value == 0 || (row >= dofs && row < first)) return;  // what first-order unknowns do is no stiffness
+    if (column >= dofs && column < first) {
       known = false;
-      return;
+    } else if (row < dofs && column < dofs) {
+      stiffness.emplace_back(row, column, value);
+    } else if (row < dofs) {
+      if (const int k = number[static_cast<std::size_t>(column - first)]; k >= 0) columns.emplace_back(k, row, value);
+    } else if (column < dofs) {
+      if (const int k = number[static_cast<std::size_t>(row - first)]; k >= 0) rows.emplace_back(k, column, value);
     }
-    const int other = pattern.find(column, row);
-    if (row < column && other >= 0) return;  // seen from the other side
-    const double transposed = other >= 0 ? values[static_cast<std::size_t>(other)] : 0;
-    const double size = row >= first || column >= first ? 1 : linear_.scale();
-    if (std::abs(value - transposed) > asymmetry * std::max(std::abs(value), std::abs(transposed)) + of_size * size) {
-      known = false;
-      return;
-    }
-    lower.emplace_back(std::max(row, column), std::min(row, column),
-                       scale[row] * scale[column] * 0.5 * (value + transposed));
   });
   if (!known) return {};
-  for (int i = dofs; i < first; ++i) lower.emplace_back(i, i, 1);
-  int constraints = 0;
-  for (int i = first; i < system_.size(); ++i) {
-    const int place = pattern.find(i, i);
-    if (place >= 0 && values[static_cast<std::size_t>(place)] > 0) continue;  // out of the equations
-    lower.emplace_back(i, i, -give);
-    ++constraints;
-  }
-  Eigen::SparseMatrix<double> A(system_.size(), system_.size());
-  A.setFromTriplets(lower.begin(), lower.end());
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> factors(A);
-  if (factors.info() != Eigen::Success) return {};
-  const auto pivots = factors.vectorD();
-  return static_cast<int>((pivots.array() < 0).count()) - constraints;
+  Parts parts{Sparse(dofs, dofs), Sparse(constraints, dofs), Sparse(constraints, dofs)};
+  parts.K.setFromTriplets(stiffness.begin(), stiffness.end());
+  parts.B.setFromTriplets(rows.begin(), rows.end());
+  parts.B_of_forces.setFromTriplets(columns.begin(), columns.end());
+  return parts;
 }
 
-/// 1 for unknowns; of each constraint the root of the stiffness that it meets: the largest K_jj/B_ij^2 along its row,
-/// in which no unit is left, or of what has no stiffness itself (free bodies) that of the whole.
-VectorX Stability::row_scales() const {
-  const std::vector<double>& values = linear_.values();
-  const SparsePattern& pattern = system_.pattern();
-  const int dofs = system_.dofs(), first = system_.size() - system_.multipliers();
-  VectorX diagonal(dofs), largest = VectorX::Zero(system_.size()), scale = VectorX::Ones(system_.size());
-  for (int i = 0; i < dofs; ++i) diagonal[i] = std::abs(linear_.diagonal(i));
-  // Stiffness per kind, for rows that meet none.
-  std::array<double, kind_count> sum{}, count{};
-  for (int i = 0; i < dofs; ++i) {
-    sum[static_cast<std::size_t>(system_.kind(i))] += diagonal[i];
-    count[static_cast<std::size_t>(system_.kind(i))] += 1;
-  }
-  const auto usual = [&](int dof) {
-    const auto kind = static_cast<std::size_t>(system_.kind(dof));
-    return count[kind] > 0 && sum[kind] > 0 ? sum[kind] / count[kind] : linear_.scale();
-  };
-  const auto each = [&](const auto& act) {
-    pattern.for_each([&](int place, int row, int column) {
-      const double b = std::abs(values[static_cast<std::size_t>(place)]);
-      if (row >= first && column < dofs && b > 0) act(row, column, b);
-    });
-  };
-  each([&](int row, int, double b) { largest[row] = std::max(largest[row], b); });
-  VectorX met = VectorX::Zero(system_.size()), fallback = met;
-  constexpr double counts = 0.1;  // share of the row's largest entry
-  each([&](int row, int column, double b) {
-    if (b < counts * largest[row]) return;
-    met[row] = std::max(met[row], diagonal[column] / (b * b));
-    fallback[row] = std::max(fallback[row], usual(column) / (b * b));
-  });
-  for (int i = first; i < system_.size(); ++i) {
-    const double stiffness = met[i] > 0 ? met[i] : fallback[i];
-    if (stiffness > 0) scale[i] = std::sqrt(stiffness);
-  }
-  return scale;
+/// Whether forces have a potential. Turns of a node commute only where its moments balance: what an equilibrium leaves
+/// over of them is no asymmetry.
+bool Stability::is_symmetric(const Parts& parts, const VectorX& sizes, const VectorX& left_over) const {
+  constexpr double asymmetry = 1e-7;  // of sizes
+  const Sparse difference = parts.K - Sparse(parts.K.transpose());
+  for (int j = 0; j < difference.outerSize(); ++j)
+    for (Sparse::InnerIterator it(difference, j); it; ++it) {
+      const auto i = static_cast<int>(it.row());
+      double most = asymmetry * std::sqrt(sizes[i] * sizes[j]);
+      if (system_.kind(i) == Kind::rotation && system_.kind(j) == Kind::rotation)
+        most += std::max(left_over[i], left_over[j]);
+      if (std::abs(it.value()) > most) return false;
+    }
+  VectorX row_sizes = VectorX::Zero(parts.B.rows());
+  for (int j = 0; j < parts.B.outerSize(); ++j)
+    for (Sparse::InnerIterator it(parts.B, j); it; ++it) row_sizes[it.row()] += it.value() * it.value() / sizes[j];
+  const Sparse of_rows = parts.B - parts.B_of_forces;
+  for (int j = 0; j < of_rows.outerSize(); ++j)
+    for (Sparse::InnerIterator it(of_rows, j); it; ++it)
+      if (std::abs(it.value()) > asymmetry * std::sqrt(row_sizes[it.row()] * sizes[j])) return false;
+  return true;
+}
+
+std::optional<int> Stability::count(const State& state, const Environment& environment) {
+  if (system_.dofs() == 0) return 0;
+  linear_.assemble(state, environment, stiffness_alone, nullptr);
+  std::optional<Parts> tangent = parts();
+  if (!tangent) return {};
+  leave_rounding_out(system_, model_extent(state), tangent->K);
+  VectorX sizes = group_sizes(tangent->K, tangent->B, group_), left_over(system_.size());
+  raise_least(system_, sizes);
+  residual_at_rest(system_, environment, state, left_over);
+  if (!is_symmetric(*tangent, sizes, largest_of_groups(group_, left_over))) return {};
+  Sparse K = 0.5 * (tangent->K + Sparse(tangent->K.transpose()));
+  if (held()) K += Sparse(held()->asDiagonal());
+  return count_negative_directions(K, tangent->B, sizes);
 }
 
 std::optional<Stability::Mode> Stability::softest(const State& state, const Environment& environment) {

@@ -1,12 +1,7 @@
 // Whether an equilibrium is stable: the inertia of its stiffness along the motions that the constraints allow.
 //
-// The number of negative eigenvalues of K on the null space of B is that of
-//     [ K    B^T S ]
-//     [ S B  -eps  ]
-// less one for each constraint (Sylvester; the Schur complement of the lower block is K + B^T S^2 B/eps), S^2 diagonal
-// with the stiffness that each constraint meets: constraints give by eps = 1e-4 of what is next to them, which soft
-// motions do not notice. It is read off the pivots of a symmetric factorisation. The sign of a determinant would miss
-// two eigenvalues that change sign together, as of a square column.
+// The number of negative eigenvalues of K on the null space of B is read off the pivots of a symmetric factorisation
+// (math/negative_directions.hpp); sizes of unknowns are those of their own stiffness, so that no unit decides.
 //
 // Where the tangent is not symmetric (forces that follow, moments about fixed axes, friction), or forces depend on
 // first-order unknowns (controllers, hydraulics), stability is a question of motion, and nothing is counted.
@@ -14,6 +9,9 @@
 
 #include <optional>
 #include <string>
+#include <vector>
+
+#include <Eigen/SparseCore>
 
 #include "mechanism/solvers/newton/linear_step.hpp"
 
@@ -22,8 +20,7 @@ namespace bielle::mechanism {
 class Stability {
  public:
   /// @param held  stiffness (dofs) that holds what is loose, see StaticTangent; null: nothing is
-  explicit Stability(const System& system, const VectorX* held = nullptr)
-      : system_(system), linear_(system), held_(held ? *held : VectorX()) {}
+  explicit Stability(const System& system, const VectorX* held = nullptr);
 
   /// The same from now on.
   void hold(const VectorX& held) { held_ = held; }
@@ -45,10 +42,16 @@ class Stability {
   std::string describe(const Mode& mode) const;
 
  private:
-  VectorX row_scales() const;  ///< S, of all rows
+  struct Parts {
+    Eigen::SparseMatrix<double> K;               ///< (dofs, dofs)
+    Eigen::SparseMatrix<double> B, B_of_forces;  ///< (constraints, dofs): of constraints, and of how reactions act
+  };
+  std::optional<Parts> parts() const;
+  bool is_symmetric(const Parts& parts, const VectorX& sizes, const VectorX& left_over) const;
   const VectorX* held() const { return held_.size() > 0 ? &held_ : nullptr; }
   const System& system_;
   LinearStep linear_;
+  std::vector<int> group_;  ///< (dofs) of one unit
   VectorX held_;
 };
 

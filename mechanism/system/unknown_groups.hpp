@@ -1,0 +1,15 @@
+// Which unknowns have one unit and mix when axes turn: translations of a node are a group, its turns are another, and
+// every other unknown is a group of its own.
+#pragma once
+
+#include <vector>
+
+#include "mechanism/system/system.hpp"
+
+namespace bielle::mechanism {
+
+/// @param count  of unknowns, the dofs first (System)
+/// @returns the group of each, ascending from 0
+std::vector<int> unknown_groups(const System& system, int count);
+
+}  // namespace bielle::mechanism
