@@ -160,13 +160,17 @@ BeamElement::Deformation BeamElement::deformation(const LocalState& state) const
       Matrix3::Zero(), -inverse.topLeftCorner<3, 3>().transpose(), inverse.bottomRows<3>();
   D.v << D.R_A.transpose() * A.v, R_A_.transpose() * A.Omega, D.R_B.transpose() * B.v, R_B_.transpose() * B.Omega;
   const Vector6 e = (D.d - d0_) / L_;
-  constexpr double largest = 0.01;
+  const double chord = D.d.head<3>().norm() / L_;
+  Vector6 n;
+  n << D.d.head<3>() / (chord * L_), Vector3::Zero();
   const Vector6 Qe = bowing_ * e;
-  const double squared = e.dot(Qe), share = 1 / (1 + squared / largest);
-  D.bows = 1.2 * share * share * Qe;
-  D.bows_gradient = 1.2 * share * share * (bowing_ - 4 * share / largest * Qe * Qe.transpose());
+  const double ratio = e.dot(Qe) / chord;
+  D.bows = (1.2 * Qe - 0.6 * ratio * n) / chord;
+  D.bows_gradient =
+      1.2 / chord * (bowing_ - (Qe * n.transpose() + n * Qe.transpose() - 1.5 * ratio * n * n.transpose()) / chord);
+  D.bows_gradient.topLeftCorner<3, 3>().diagonal().array() -= 0.6 * ratio / (chord * chord);
   D.eps = e;
-  D.eps.head<3>() += 0.6 * share * squared * along_;
+  D.eps.head<3>() += 0.6 * ratio * along_;
   D.S = D.P;
   D.S.topRows<3>() += along_ * (D.bows.transpose() * D.P);
   D.epsdot = D.S * D.v / L_;

@@ -26,11 +26,12 @@
 // Stretch by bending (bowing). Of the shear gamma = e_u - t (t . e_u) the part gamma_b = S_b V is an S-shaped bending,
 // of slope v' = 6 gamma_b (1/12 - z^2) at -1/2 <= z <= 1/2. The helix takes it for shear, -gamma_b^2/2 of stretch,
 // where the bent line has +gamma_b^2/10. The difference
-//     eps = e + t q,   q = (3/5) g/(1 + g/0.01),   g = gamma_b^2 = e^T Q e,   J = I + t dq/de
+//     eps = e + t q,   q = (3/5) gamma_b^2/rho,   gamma_b^2 = e^T Q e,   rho = |d_u|/L,   J = I + t dq/de
 // makes the geometric stiffness of a straight slender element the consistent one of the cubic beam (J. Przemieniecki,
 // Theory of Matrix Structural Analysis, 1968, ch. 15); without it, an element under a tension of 12 EI/L^2 yields
-// sideways. Slopes of 0.1 and more, as Newton's method meets on its way, count for less: without bounds the stretch
-// would be large there. Products of gamma_b with shear and stretch of the section are left to the mesh.
+// sideways. The length rho of the chord is one but for the strain; wild iterates of Newton's method, whose chords are
+// long, would be far stiffer without it. Products of gamma_b with shear and stretch of the section are left to the
+// mesh.
 //
 // Limits: the ends of one element turn by less than 180 degrees against each other (`largest_turn` at the end of a
 // step); an error advises to refine. The relative rotation may well grow over several elements. Strains are small
