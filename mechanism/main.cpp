@@ -13,7 +13,7 @@
 #include "reduce/common/error.hpp"
 #include "reduce/common/progress.hpp"
 #include "reduce/common/run_program.hpp"
-#include "reduce/spectral/blas.hpp"
+#include "reduce/dense/blas.hpp"
 
 namespace {
 
@@ -37,9 +37,10 @@ std::string default_results(const std::string& model, const std::string& restart
   const std::string results = fs::path(model).replace_extension(".h5").string();
   std::error_code none;
   if (!restart.empty() && fs::exists(results, none) && !fs::equivalent(results, restart, none))
-    throw InputError(fmt::format("{}: exists, and the run that goes on from '{}' would replace it: say with -o where its "
-                                 "results go",
-                                 results, restart));
+    throw InputError(
+        fmt::format("{}: exists, and the run that goes on from '{}' would replace it: say with -o where its "
+                    "results go",
+                    results, restart));
   return results;
 }
 
@@ -58,9 +59,10 @@ int body(int argc, char** argv) {
   add_common_options(app, common);
   if (!parse_command_line(app, argc, argv)) return 0;
 
-  // Matrices of a mechanism are small, and its own threads share the elements: those of BLAS would only be in their way.
+  // Matrices of a mechanism are small, and its own threads share the elements: those of BLAS would only be in their
+  // way.
   const BlasThreads one(1);
-  reserve_blas_memory(common.threads);
+  start_blas(common.threads);
   const MechanismFile file = read_mechanism_file(model_path, read_overrides(settings));
   Progress progress(common.quiet);
   for (const std::string& doubt : file.doubts) progress.warn(doubt);

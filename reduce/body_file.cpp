@@ -131,13 +131,19 @@ void read_regions(const YamlValue& root, BodyFile& body) {
 }
 
 void read_modes(const YamlValue& value, ReductionOptions& options) {
-  value.check_keys({"count", "below", "proof"}, "the modes");
+  value.check_keys({"count", "below", "method", "proof"}, "the modes");
   if (const auto count = value.find("count")) {
     options.mode_count = count->integer();
     if (*options.mode_count < 0)
       count->fail(fmt::format("expected a number of at least 0, found {}", *options.mode_count));
   }
   if (const auto below = value.find("below")) options.modes_below = below->positive_number();
+  if (const auto method = value.find("method")) {
+    const std::string word = method->word({"auto", "arpack", "block_lanczos"}, "a method for modes");
+    options.mode_method = word == "arpack"          ? EigenMethod::arpack
+                          : word == "block_lanczos" ? EigenMethod::block_lanczos
+                                                    : EigenMethod::automatic;
+  }
   if (const auto proof = value.find("proof")) options.modes_proven = proof->boolean();
   if (!options.mode_count && !options.modes_below) value.fail("expected how many modes: count, or below [Hz], or both");
 }

@@ -19,13 +19,14 @@
 #include "reduce/common/file_checks.hpp"
 #include "reduce/common/progress.hpp"
 #include "reduce/common/run_program.hpp"
+#include "reduce/common/sleeping_threads.hpp"
+#include "reduce/dense/blas.hpp"
 #include "reduce/distributed/distributed_matrices.hpp"
 #include "reduce/distributed/greeting.hpp"
 #include "reduce/mesh/checks.hpp"
 #include "reduce/mesh/describe.hpp"
 #include "reduce/mesh/import.hpp"
 #include "reduce/reduction/reduce_pieces.hpp"
-#include "reduce/spectral/blas.hpp"
 #include "reduce/summary.hpp"
 #include "reduce/summary_of_pieces.hpp"
 #include "reduce/verdict.hpp"
@@ -112,7 +113,7 @@ void reduce(const std::string& input, std::string output, bool system_calls, con
     output = std::filesystem::path(input).replace_extension(".h5").string();
   }
   check_output(output, input, file.mesh.path);
-  reserve_blas_memory(common.threads);
+  start_blas(common.threads);
   Progress progress(common.quiet);
   if (const std::string warning = blas_warning(); !warning.empty()) {
     progress.warn(warning);
@@ -229,6 +230,7 @@ int body(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  bielle::let_waiting_threads_sleep(argv);
   const int status = bielle::run_program("bielle-reduce", body, argc, argv);
   std::fflush(nullptr);
   _exit(status);  // libraries that clean up at exit hang there when memory has run out

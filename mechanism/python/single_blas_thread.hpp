@@ -4,7 +4,7 @@
 #include <memory>
 #include <mutex>
 
-#include "reduce/spectral/blas.hpp"
+#include "reduce/dense/blas.hpp"
 
 namespace bielle::python {
 

@@ -53,7 +53,7 @@ void send_block(Channel& channel, const RowMatrix& block) {
   channel.send(block.data(), sizeof(double) * static_cast<std::size_t>(block.size()));
 }
 
-class DistributedFactor : public InsideFactor {
+class DistributedFactor : public Factor {
  public:
   DistributedFactor(Channel& channel, const FactorStatistics& statistics)
       : channel_(channel), statistics_(statistics) {}
@@ -125,12 +125,16 @@ class DistributedMatrices : public BodyMatrices {
     return result;
   }
 
-  std::unique_ptr<InsideFactor> factorise(const InsideUnknowns& inside) const override;
+  std::unique_ptr<Factor> factorise(const InsideUnknowns& inside) const override;
 
-  EigenIteration eigen_iteration() const override {
-    return [this](const ShiftInvertProblem& problem, int count, const EigenpairOptions& options) {
-      return distributed_modes(channel_, problem, count, options);
+  Eigenpairs eigenpairs(const ShiftInvertProblem& problem, int count, const EigenpairOptions& options) const override {
+    if (options.method != EigenMethod::automatic)
+      throw InputError("method: on ranks SLEPc finds the modes; leave the method out");
+    EigenpairOptions on_ranks = options;
+    on_ranks.iteration = [this](const ShiftInvertProblem& asked, int wanted, const EigenpairOptions& given) {
+      return distributed_modes(channel_, asked, wanted, given);
     };
+    return shift_invert_eigenpairs(problem, count, on_ranks);
   }
 
  private:
@@ -158,7 +162,7 @@ class DistributedMatrices : public BodyMatrices {
 
   InsideShare inside_of(const std::vector<int>& points, const std::vector<int>& numbers, std::size_t kept,
                         const SparseRows& carried) const;
-  void check_regular(const InsideFactor& factor, const std::vector<std::int64_t>& kept, const SparseRows& carried,
+  void check_regular(const Factor& factor, const std::vector<std::int64_t>& kept, const SparseRows& carried,
                      bool suspected) const;
 
   Channel& channel_;
@@ -183,7 +187,7 @@ InsideShare DistributedMatrices::inside_of(const std::vector<int>& points, const
   return share;
 }
 
-std::unique_ptr<InsideFactor> DistributedMatrices::factorise(const InsideUnknowns& inside) const {
+std::unique_ptr<Factor> DistributedMatrices::factorise(const InsideUnknowns& inside) const {
   const std::vector<std::int64_t>& kept = inside.kept;
   const SparseRows& carried = inside.carried;
   const std::size_t size = kept.size() + static_cast<std::size_t>(carried.cols());
@@ -219,7 +223,7 @@ std::unique_ptr<InsideFactor> DistributedMatrices::factorise(const InsideUnknown
 
 /// MUMPS goes on where a pivot is tiny or negative. Inverse iteration on D^-1/2 A D^-1/2, D the diagonal, finds the
 /// motion that the inside resists least.
-void DistributedMatrices::check_regular(const InsideFactor& factor, const std::vector<std::int64_t>& kept,
+void DistributedMatrices::check_regular(const Factor& factor, const std::vector<std::int64_t>& kept,
                                         const SparseRows& carried, bool suspected) const {
   const Eigen::VectorXd of_points = stiffness_diagonal();
   const auto count = static_cast<Eigen::Index>(kept.size());

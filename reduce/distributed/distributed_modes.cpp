@@ -39,6 +39,7 @@ Eigenpairs distributed_modes(Channel& channel, const ShiftInvertProblem& problem
   channel.send_number(options.tolerance);
   channel.send_number(static_cast<std::int64_t>(options.restarts));
   Eigenpairs pairs;
+  pairs.method = "SLEPc";
   pairs.solves = pairs.sweeps = answer_questions(channel, problem, options);
   const Outcome outcome = channel.receive_outcome();
   if (outcome.kind != Outcome::good) throw ComputationError(outcome.message);

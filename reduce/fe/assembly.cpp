@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 
 #include "reduce/common/error.hpp"
+#include "reduce/dense/blas.hpp"
 #include "reduce/fe/cell_geometry.hpp"
 #include "reduce/fe/elasticity.hpp"
-#include "reduce/spectral/blas.hpp"
 
 namespace bielle::reduce {
 

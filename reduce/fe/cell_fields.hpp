@@ -9,9 +9,9 @@
 
 #include <Eigen/Core>
 
+#include "reduce/dense/blas.hpp"
 #include "reduce/fe/elasticity.hpp"
-#include "reduce/spectral/blas.hpp"
-#include "reduce/spectral/symmetric_matrix.hpp"
+#include "reduce/sparse/symmetric_matrix.hpp"
 
 namespace bielle::reduce {
 

@@ -5,9 +5,9 @@
 
 #include <omp.h>
 
+#include "reduce/dense/blas.hpp"
 #include "reduce/fe/cell_fields.hpp"
 #include "reduce/fe/cell_geometry.hpp"
-#include "reduce/spectral/blas.hpp"
 
 namespace bielle::reduce {
 

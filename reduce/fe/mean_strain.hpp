@@ -2,7 +2,7 @@
 #pragma once
 
 #include "reduce/fe/solid.hpp"
-#include "reduce/spectral/symmetric_matrix.hpp"
+#include "reduce/sparse/symmetric_matrix.hpp"
 
 namespace bielle::reduce {
 

@@ -9,10 +9,10 @@
 
 #include "reduce/common/dense_solves.hpp"
 #include "reduce/common/symmetric_eigenpairs.hpp"
+#include "reduce/dense/blas.hpp"
 #include "reduce/fe/cell_fields.hpp"
 #include "reduce/fe/cell_geometry.hpp"
 #include "reduce/fe/vertex_patches.hpp"
-#include "reduce/spectral/blas.hpp"
 
 namespace bielle::reduce {
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <span>
 #include <stdexcept>
-
-#include "reduce/spectral/wide_products.hpp"
 
 namespace bielle::reduce {
 
@@ -33,6 +33,17 @@ CellsOfNodes cells_of_nodes(const Eigen::MatrixXi& nodes, Eigen::Index points) {
     }
   }
   return result;
+}
+
+/// y = sum_k factors[k] x_k for some of the numbers of each row x_k. @param rows  numbers of the rows, `stride` apart
+template <int width>
+void set_sum_of_rows(std::span<const double> factors, const int* rows, const double* x, Eigen::Index stride,
+                     double* y) {
+  using Row = Eigen::Array<double, width, 1>;
+  Row sum = Row::Zero();
+  for (std::size_t k = 0; k < factors.size(); ++k) sum += factors[k] * Eigen::Map<const Row>(x + rows[k] * stride);
+  Eigen::Map<Row> result(y);
+  result = sum;
 }
 
 }  // namespace
@@ -104,10 +115,18 @@ RowMatrix NodeMatrix::multiply(const RowMatrix& x, int rows_per_node, int thread
 
 void NodeMatrix::multiply_into(const RowMatrix& x, int rows_per_node, RowMatrix& y, int threads) const {
   const Eigen::Index width = rows_per_node * x.cols();  // numbers that a node owns, consecutive in memory
+  constexpr int many = 8;                               // as many stay in registers
 #pragma omp parallel for num_threads(threads) schedule(static)
-  for (Eigen::Index a = 0; a < graph->size(); ++a)
-    set_sum_of_rows(values.data() + graph->starts[a], graph->neighbours.data() + graph->starts[a],
-                    graph->starts[a + 1] - graph->starts[a], x.data(), width, y.data() + a * width);
+  for (Eigen::Index a = 0; a < graph->size(); ++a) {
+    const auto first = static_cast<std::size_t>(graph->starts[a]),
+               count = static_cast<std::size_t>(graph->starts[a + 1]) - first;
+    const std::span<const double> factors(values.data() + first, count);
+    const int* const rows = graph->neighbours.data() + first;
+    double* const own = y.data() + a * width;
+    Eigen::Index at = 0;
+    for (; at + many <= width; at += many) set_sum_of_rows<many>(factors, rows, x.data() + at, width, own + at);
+    for (; at < width; ++at) set_sum_of_rows<1>(factors, rows, x.data() + at, width, own + at);
+  }
 }
 
 }  // namespace bielle::reduce

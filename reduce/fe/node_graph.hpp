@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "reduce/spectral/symmetric_matrix.hpp"
+#include "reduce/sparse/symmetric_matrix.hpp"
 
 namespace bielle::reduce {
 

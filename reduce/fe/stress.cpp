@@ -4,11 +4,11 @@
 
 #include <Eigen/LU>
 
+#include "reduce/dense/blas.hpp"
 #include "reduce/fe/cell_fields.hpp"
 #include "reduce/fe/cell_geometry.hpp"
 #include "reduce/fe/node_graph.hpp"
 #include "reduce/mesh/faces.hpp"
-#include "reduce/spectral/blas.hpp"
 
 namespace bielle::reduce {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "reduce/fe/solid.hpp"
-#include "reduce/spectral/symmetric_matrix.hpp"
+#include "reduce/sparse/symmetric_matrix.hpp"
 
 namespace bielle::reduce {
 

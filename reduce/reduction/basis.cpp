@@ -8,8 +8,8 @@
 
 #include "reduce/common/counted.hpp"
 #include "reduce/common/error.hpp"
+#include "reduce/dense/blas.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
-#include "reduce/spectral/blas.hpp"
 #include "reduce/spectral/eigenpairs.hpp"
 
 namespace bielle::reduce {
@@ -74,18 +74,16 @@ Eigenpairs fixed_boundary_modes(const BodyMatrices& matrices, const HeldBody& he
     return {};
   }
   const ShiftInvertProblem problem{held.size(), 0, [&](const Eigen::MatrixXd& b) { return held.solve(b); },
-                                   [&](const Eigen::MatrixXd& z) { return held.inertia(matrices, z, threads); }};
+                                   [&](const Eigen::MatrixXd& z) { return held.inertia(matrices, z); }};
   EigenpairOptions options;
   const double expected = 2.0 * modes.count.value_or(20) + 150;
   options.threads = threads;
-  options.iteration = matrices.eigen_iteration();
+  options.method = modes.method;
   options.on_solve = [&](int solves) {
     progress.update(std::min(0.99, solves / expected), counted(solves, "solution"));
   };
-  const auto one_more = [&] {
-    return shift_invert_eigenpairs(problem, static_cast<int>(std::min<Eigen::Index>(*modes.count + 1, held.size())),
-                                   options);
-  };
+  const auto search = [&](int count) { return matrices.eigenpairs(problem, count, options); };
+  const auto one_more = [&] { return search(static_cast<int>(std::min<Eigen::Index>(*modes.count + 1, held.size()))); };
   if (!modes.below) {
     Eigenpairs pairs = one_more();
     keep_first(pairs, *modes.count);
@@ -94,7 +92,7 @@ Eigenpairs fixed_boundary_modes(const BodyMatrices& matrices, const HeldBody& he
   const double limit = std::pow(2 * std::numbers::pi * *modes.below, 2);
   if (!modes.count) {
     try {
-      return shift_invert_eigenpairs_below(problem, limit, 20, options, most_modes_below);
+      return eigenpairs_below(search, problem, limit, 20, most_modes_below);
     } catch (const InputError& error) {
       throw InputError(fmt::format("modes.below: {}; more than {} modes are computed only when `count` asks for them",
                                    error.what(), most_modes_below));
@@ -168,6 +166,7 @@ Basis make_basis(const Solid& solid, const BodyMatrices& matrices, const Ties& t
   basis.residuals = pairs.residuals;
   basis.solves = pairs.solves;
   basis.sweeps = pairs.sweeps;
+  basis.method = pairs.method;
   basis.next = pairs.next;
   solutions.conservativeResize(Eigen::NoChange, kept + pairs.values.size());
   if (pairs.vectors.cols() > 0) solutions.rightCols(pairs.vectors.cols()) = pairs.vectors;

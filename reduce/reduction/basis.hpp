@@ -9,9 +9,11 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "reduce/common/progress.hpp"
 #include "reduce/reduction/held_body.hpp"
+#include "reduce/spectral/eigenpairs.hpp"
 
 namespace bielle::reduce {
 
@@ -31,8 +33,9 @@ struct Basis {
   Eigen::Index residual_vectors = 0;  ///< so many of the modes, the last ones
   std::optional<double> next;         ///< omega^2 of the first mode left out [rad^2/s^2]; absent: not sought, or none
   LinearFields linear;
-  int solves = 0;  ///< columns that the eigenvalue iteration solved for
-  int sweeps = 0;  ///< calls that it took: each reads the factor once
+  int solves = 0;      ///< columns that the eigenvalue iteration solved for
+  int sweeps = 0;      ///< calls that it took: each reads the factor once
+  std::string method;  ///< in words, see Eigenpairs
 
   Eigen::Index modes() const { return eigenvalues.size(); }
   Eigen::Index kept() const { return shapes.cols() - modes(); }
@@ -43,6 +46,7 @@ struct Basis {
 struct ModeRequest {
   std::optional<int> count;
   std::optional<double> below;
+  EigenMethod method = EigenMethod::automatic;
 };
 
 /// Radius of gyration of the body [m]: turns rotations into comparable displacements.

@@ -8,29 +8,32 @@
 #include "reduce/common/error.hpp"
 #include "reduce/fe/assembly.hpp"
 #include "reduce/fe/geometric_stiffness.hpp"
+#include "reduce/fe/node_graph.hpp"
+#include "reduce/sparse/symmetric_factor.hpp"
 
 namespace bielle::reduce {
 
 namespace {
 
-class FactorHere : public InsideFactor {
- public:
-  FactorHere(const BorderedPart& matrix, std::shared_ptr<const FactorStructure> structure, int threads)
-      : factor_(matrix, std::move(structure), threads) {}
-  const FactorStatistics& statistics() const override { return factor_.statistics(); }
-  Eigen::MatrixXd solve(const Eigen::MatrixXd& f) const override { return factor_.solve(f); }
-  std::optional<PivotSigns> count_signs(SymmetricMatrix matrix, const std::vector<double>& scale) const override {
-    return factor_.count_signs(std::move(matrix), scale);
-  }
-
- private:
-  SymmetricFactor factor_;
-};
-
 /// Nothing where no unknown is left.
 std::shared_ptr<const FactorStructure> structure_of(const BlockGraph& points, const InsideUnknowns& inside) {
   const BlockGraph graph = inside_graph(points, inside);
   return graph.unknowns() == 0 ? nullptr : std::make_shared<const FactorStructure>(graph);
+}
+
+/// K_ii - sigma M_ii. @param kept  unknowns x y z of points, ascending
+void subtract_inertia(SymmetricMatrix& matrix, const std::vector<std::int64_t>& kept, const NodeMatrix& mass,
+                      double sigma, int threads) {
+#pragma omp parallel for schedule(dynamic, 1024) num_threads(threads)
+  for (std::int64_t j = 0; j < matrix.size; ++j) {
+    const std::int64_t column = kept[static_cast<std::size_t>(j)], a = column / 3;
+    for (std::int64_t p = matrix.starts[j]; p < matrix.starts[j + 1]; ++p) {
+      const std::int64_t row = kept[static_cast<std::size_t>(matrix.rows[p])];
+      if (row % 3 != column % 3) continue;
+      const std::int64_t at = mass.graph->place(static_cast<int>(a), static_cast<int>(row / 3));
+      matrix.values[p] -= sigma * mass.values[static_cast<std::size_t>(at)];
+    }
+  }
 }
 
 class MatricesHere : public BodyMatrices {
@@ -64,13 +67,26 @@ class MatricesHere : public BodyMatrices {
   RowMatrix mass_times(const RowMatrix& u, int rows_per_node) const override {
     return mass_.multiply(u, rows_per_node, threads_);
   }
-  const SymmetricMatrix* stiffness_here() const override { return &stiffness_; }
-  const NodeMatrix* mass_here() const override { return &mass_; }
   std::vector<Eigen::MatrixXd> geometric_stiffness(const RowMatrix& fields, const RowMatrix& shapes) const override {
     return reduced_geometric_stiffness(solid_, graph_, fields, shapes, threads_);
   }
-  std::unique_ptr<InsideFactor> factorise(const InsideUnknowns& inside) const override {
-    return factorise_inside(stiffness_, inside, inside.is_like(prepared_for_) ? structure_ : nullptr, threads_);
+  std::unique_ptr<Factor> factorise(const InsideUnknowns& inside) const override {
+    const std::shared_ptr<const FactorStructure> structure =
+        inside.is_like(prepared_for_) ? structure_ : structure_of(point_graph(graph_), inside);
+    if (!structure) return nullptr;
+    SymmetricMatrix matrix = principal_submatrix(stiffness_, inside.kept);
+    if (inside.carried.cols() > 0) {
+      const RowMatrix forces = stiffness_.multiply(RowMatrix(inside.carried), threads_);
+      matrix = bordered(matrix, forces(inside.kept, Eigen::all), inside.carried.transpose() * forces);
+    }
+    return std::make_unique<SymmetricFactor>(structure, std::move(matrix), threads_);
+  }
+  bool can_count_signs() const override { return true; }
+  std::optional<PivotSigns> count_signs(const Factor& factor, const BorderedShift& shifted) const override {
+    SymmetricMatrix matrix = principal_submatrix(stiffness_, shifted.kept);
+    subtract_inertia(matrix, shifted.kept, mass_, shifted.eigenvalue, threads_);
+    if (shifted.corner.cols() > 0) matrix = bordered(matrix, shifted.border, shifted.corner);
+    return factor.count_signs(matrix, shifted.scale);
   }
 
  private:
@@ -87,19 +103,6 @@ class MatricesHere : public BodyMatrices {
 
 std::unique_ptr<BodyMatrices> assembled_matrices(const Solid& solid, const InsideUnknowns& inside, int threads) {
   return std::make_unique<MatricesHere>(solid, inside, threads);
-}
-
-std::unique_ptr<InsideFactor> factorise_inside(const SymmetricMatrix& stiffness, const InsideUnknowns& inside,
-                                               std::shared_ptr<const FactorStructure> structure, int threads) {
-  if (!structure) structure = structure_of(point_graph(stiffness), inside);
-  if (!structure) return nullptr;
-  BorderedPart matrix{stiffness, inside.kept, {}, {}};
-  if (inside.carried.cols() > 0) {
-    const RowMatrix forces = stiffness.multiply(RowMatrix(inside.carried), threads);
-    matrix.border = forces(inside.kept, Eigen::all);
-    matrix.corner = inside.carried.transpose() * forces;
-  }
-  return std::make_unique<FactorHere>(matrix, std::move(structure), threads);
 }
 
 }  // namespace bielle::reduce

@@ -8,26 +8,19 @@
 #include <optional>
 #include <vector>
 
-#include "reduce/fe/node_graph.hpp"
 #include "reduce/fe/solid.hpp"
 #include "reduce/reduction/inside_graph.hpp"
+#include "reduce/sparse/factor.hpp"
 #include "reduce/spectral/eigenpairs.hpp"
-#include "reduce/spectral/symmetric_factor.hpp"
 
 namespace bielle::reduce {
 
-/// K of the inside, factorised.
-class InsideFactor {
- public:
-  virtual ~InsideFactor() = default;
-  virtual const FactorStatistics& statistics() const = 0;
-  /// K^-1 f for a block of right-hand sides (size,k).
-  virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& f) const = 0;
-  /// As SymmetricFactor::count_signs; nothing where that cannot be done.
-  virtual std::optional<PivotSigns> count_signs(SymmetricMatrix /*matrix*/,
-                                                const std::vector<double>& /*scale*/) const {
-    return std::nullopt;
-  }
+/// The inside's K - sigma M with what the factor leaves out at its border, for the signs of its pivots.
+struct BorderedShift {
+  std::vector<std::int64_t> kept;  ///< unknowns x y z of points, ascending: all that is factorised but carried ones
+  double eigenvalue = 0;           ///< sigma = omega^2 [rad^2/s^2]
+  Eigen::MatrixXd border, corner;  ///< B (kept,c), C (c,c): [K - sigma M, B; B^T, C]
+  std::vector<double> scale;       ///< of each row, the size of its diagonal entry
 };
 
 /// K [N/m] and M [kg] of all points of a solid, unknowns x y z of point 0, of point 1, ...
@@ -39,18 +32,22 @@ class BodyMatrices {
   virtual Eigen::VectorXd stiffness_diagonal() const = 0;
   /// M is m (x) I3. @param rows_per_node  rows of u that each point owns: 3, or 1 for the product with m
   virtual RowMatrix mass_times(const RowMatrix& u, int rows_per_node = 3) const = 0;
-  /// K and m where this process has all of them: products may then go on in several threads; nullptr elsewhere.
-  virtual const SymmetricMatrix* stiffness_here() const { return nullptr; }
-  virtual const NodeMatrix* mass_here() const { return nullptr; }
   /// As fe/geometric_stiffness.hpp.
   virtual std::vector<Eigen::MatrixXd> geometric_stiffness(const RowMatrix& fields, const RowMatrix& shapes) const = 0;
 
   /// P^T K P.
   /// @returns nothing where no unknown is left
   /// @throws NotPositiveDefinite; ComputationError when memory does not suffice
-  virtual std::unique_ptr<InsideFactor> factorise(const InsideUnknowns& inside) const = 0;
-  /// How eigenpairs are found where `shift_invert_eigenpairs` would iterate; none: as it does.
-  virtual EigenIteration eigen_iteration() const { return {}; }
+  virtual std::unique_ptr<Factor> factorise(const InsideUnknowns& inside) const = 0;
+  /// As shift_invert_eigenpairs: the pencil is that of the inside, whatever conditions are worked into its solution.
+  virtual Eigenpairs eigenpairs(const ShiftInvertProblem& problem, int count, const EigenpairOptions& options) const {
+    return shift_invert_eigenpairs(problem, count, options);
+  }
+  virtual bool can_count_signs() const { return false; }
+  /// Signs of the pivots, eliminated in the order of the factor. @returns nothing where they cannot be counted
+  virtual std::optional<PivotSigns> count_signs(const Factor& /*factor*/, const BorderedShift& /*shifted*/) const {
+    return std::nullopt;
+  }
 };
 
 /// Makes the matrices of a solid, which they may refer to.
@@ -62,10 +59,5 @@ using MatrixMaker =
 /// All in this process. While one thread finds the structure of the factor, the others assemble.
 /// @throws ComputationError as assemble_stiffness, and when memory does not suffice
 std::unique_ptr<BodyMatrices> assembled_matrices(const Solid& solid, const InsideUnknowns& inside, int threads);
-
-/// As BodyMatrices::factorise, of a stiffness that is here.
-/// @param structure  made for the inside; none: it is found now
-std::unique_ptr<InsideFactor> factorise_inside(const SymmetricMatrix& stiffness, const InsideUnknowns& inside,
-                                               std::shared_ptr<const FactorStructure> structure, int threads);
 
 }  // namespace bielle::reduce

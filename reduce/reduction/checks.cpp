@@ -8,11 +8,11 @@
 
 #include "reduce/common/error.hpp"
 #include "reduce/common/symmetric_eigenpairs.hpp"
+#include "reduce/dense/dense_products.hpp"
 #include "reduce/reduction/basis.hpp"
 #include "reduce/reduction/geometric_checks.hpp"
 #include "reduce/reduction/reduced_matrices.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
-#include "reduce/spectral/dense_products.hpp"
 
 namespace bielle::reduce {
 

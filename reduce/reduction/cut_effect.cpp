@@ -7,8 +7,8 @@
 #include "reduce/common/error.hpp"
 #include "reduce/common/orthogonal_factors.hpp"
 #include "reduce/common/symmetric_eigenpairs.hpp"
+#include "reduce/dense/dense_products.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
-#include "reduce/spectral/dense_products.hpp"
 
 namespace bielle::reduce {
 

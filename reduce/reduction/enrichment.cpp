@@ -2,8 +2,8 @@
 
 #include "reduce/common/dense_solves.hpp"
 #include "reduce/common/symmetric_eigenpairs.hpp"
+#include "reduce/dense/dense_products.hpp"
 #include "reduce/reduction/checks.hpp"
-#include "reduce/spectral/dense_products.hpp"
 
 namespace bielle::reduce {
 

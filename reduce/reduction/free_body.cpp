@@ -6,10 +6,10 @@
 #include <Eigen/LU>
 
 #include "reduce/common/symmetric_eigenpairs.hpp"
+#include "reduce/dense/dense_products.hpp"
 #include "reduce/reduction/reduced_matrices.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
 #include "reduce/reduction/tie_second_order.hpp"
-#include "reduce/spectral/dense_products.hpp"
 
 namespace bielle::reduce {
 

@@ -5,9 +5,9 @@
 
 #include <Eigen/Geometry>
 
+#include "reduce/dense/dense_products.hpp"
 #include "reduce/reduction/free_body.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
-#include "reduce/spectral/dense_products.hpp"
 
 namespace bielle::reduce {
 
@@ -63,8 +63,9 @@ void add_turned_rows(const Interface& interface, const Eigen::MatrixXd& rotation
   }
 }
 
-/// The elastic energy in linear coordinates eps, q = eps - g(eps), g_j = eps^T K_j eps / 2, must not notice which of two
-/// close frames a body is described in: sym[K~ (W_a + N_a)] = 0 for all a, W_a the rows above and N_a rows (K_j U a)^T.
+/// The elastic energy in linear coordinates eps, q = eps - g(eps), g_j = eps^T K_j eps / 2, must not notice which of
+/// two close frames a body is described in: sym[K~ (W_a + N_a)] = 0 for all a, W_a the rows above and N_a rows (K_j U
+/// a)^T.
 void add_objectivity_check(const Superelement& body, std::vector<Check>& checks) {
   const bool whole = std::all_of(body.interfaces.begin(), body.interfaces.end(), [](const Interface& interface) {
     const auto kept = std::count(interface.kept.begin(), interface.kept.begin() + 3, true);

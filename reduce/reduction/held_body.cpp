@@ -10,9 +10,8 @@
 
 #include "reduce/common/dense_solves.hpp"
 #include "reduce/common/error.hpp"
-#include "reduce/spectral/dense_products.hpp"
-#include "reduce/spectral/few_vectors.hpp"
-#include "reduce/spectral/tall_products.hpp"
+#include "reduce/dense/dense_products.hpp"
+#include "reduce/dense/tall_products.hpp"
 
 namespace bielle::reduce {
 
@@ -20,25 +19,10 @@ HeldBody::~HeldBody() = default;
 
 const FactorStatistics& HeldBody::statistics() const { return factor_ ? factor_->statistics() : no_statistics_; }
 
-HeldBody::HeldBody(const Solid& solid, const BodyMatrices& matrices, const Ties& ties, int threads)
-    : HeldBody(HeldFreedoms(solid, ties), solid, matrices, ties, threads) {}
-
 HeldBody::HeldBody(HeldFreedoms freedoms, const Solid& solid, const BodyMatrices& matrices, const Ties& ties,
                    int threads)
-    : HeldBody(
-          std::move(freedoms), solid, ties, [&](const InsideUnknowns& inside) { return matrices.factorise(inside); },
-          threads) {}
-
-HeldBody::HeldBody(const Solid& solid, const SymmetricMatrix& stiffness, const Ties& ties, int threads)
-    : HeldBody(
-          HeldFreedoms(solid, ties), solid, ties,
-          [&](const InsideUnknowns& inside) { return factorise_inside(stiffness, inside, nullptr, threads); },
-          threads) {}
-
-HeldBody::HeldBody(HeldFreedoms freedoms, const Solid& solid, const Ties& ties, const Factorisation& factorisation,
-                   int threads)
     : threads_(threads), freedoms_(std::move(freedoms)) {
-  factorise(factorisation, solid);
+  factorise(matrices, solid);
   close_conditions(ties);
 }
 
@@ -54,32 +38,22 @@ Eigen::MatrixXd HeldBody::restrict(const RowMatrix& forces) const {
   return f;
 }
 
-Eigen::MatrixXd HeldBody::inertia(const NodeMatrix& mass, const Eigen::MatrixXd& z, int threads) const {
-  constexpr Eigen::Index few = 16;
+Eigen::MatrixXd HeldBody::inertia(const BodyMatrices& matrices, const Eigen::MatrixXd& z) const {
+  constexpr Eigen::Index few = 16;  // columns at a time: fields on all points are large
   Eigen::MatrixXd forces(freedoms_.size, z.cols());
-  RowMatrix u, of_points;
   for (Eigen::Index first = 0; first < z.cols(); first += few) {
     const Eigen::Index width = std::min(few, z.cols() - first);
-    // Products with several vectors are fastest for a multiple of so many.
-    const Eigen::Index columns = width == 1 ? 1 : (width + vectors_abreast - 1) / vectors_abreast * vectors_abreast;
-    u.resize(freedoms_.carry_released.rows(), columns);
-    of_points.resize(u.rows(), columns);
-    freedoms_.expand_into(z.middleCols(first, width), u, threads);
-    mass.multiply_into(u, 3, of_points, threads);
-    freedoms_.restrict_into(of_points, forces.middleCols(first, width), threads);
+    RowMatrix u(freedoms_.carry_released.rows(), width);
+    freedoms_.expand_into(z.middleCols(first, width), u, threads_);
+    freedoms_.restrict_into(matrices.mass_times(u), forces.middleCols(first, width), threads_);
   }
   return forces;
 }
 
-Eigen::MatrixXd HeldBody::inertia(const BodyMatrices& matrices, const Eigen::MatrixXd& z, int threads) const {
-  if (const NodeMatrix* mass = matrices.mass_here()) return inertia(*mass, z, threads);
-  return restrict(matrices.mass_times(expand(z)));
-}
-
-void HeldBody::factorise(const Factorisation& factorisation, const Solid& solid) {
+void HeldBody::factorise(const BodyMatrices& matrices, const Solid& solid) {
   const InsideUnknowns inside = freedoms_.inside();
   try {
-    factor_ = factorisation(inside);
+    factor_ = matrices.factorise(inside);
   } catch (const NotPositiveDefinite& error) {
     if (error.unknown() < static_cast<std::int64_t>(inside.kept.size())) {
       const Eigen::Vector3d x = solid.mesh.points.col(inside.kept[error.unknown()] / 3);

@@ -12,7 +12,6 @@
 // there too. (The two-field form of FETI: C. Farhat, F.-X. Roux, IJNME 32 (1991) 1205.)
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 
@@ -23,16 +22,12 @@ namespace bielle::reduce {
 
 class HeldBody {
  public:
-  /// @param solid  in one piece
-  /// @param threads  of its own products; solutions are the same for the same number
-  /// @throws InputError when the body can still move with all kept directions held: how; ComputationError when a part
-  /// of
-  ///         the mesh hangs on by a point or an edge only: where
-  HeldBody(const Solid& solid, const BodyMatrices& matrices, const Ties& ties, int threads = 1);
-  /// The same with freedoms that are known: those of this solid with these ties.
+  /// @param freedoms  those of this solid with these ties
+  /// @param solid     in one piece
+  /// @param matrices  its own
+  /// @param threads   of its own products; solutions are the same for the same number
+  /// @throws ComputationError when a part of the mesh hangs on by a point or an edge only: where
   HeldBody(HeldFreedoms freedoms, const Solid& solid, const BodyMatrices& matrices, const Ties& ties, int threads);
-  /// The same with a stiffness of all points that is here, unknowns x y z of point 0, 1, ...
-  HeldBody(const Solid& solid, const SymmetricMatrix& stiffness, const Ties& ties, int threads);
   ~HeldBody();
 
   Eigen::Index size() const { return freedoms_.size; }  ///< of z
@@ -44,29 +39,24 @@ class HeldBody {
   /// The transposed: forces on points become forces on z.
   Eigen::MatrixXd restrict(const RowMatrix& forces) const;
 
-  /// Forces on z of the inertia of accelerations z, a few columns at a time.
-  /// @param mass  of all points
-  Eigen::MatrixXd inertia(const NodeMatrix& mass, const Eigen::MatrixXd& z, int threads) const;
-  Eigen::MatrixXd inertia(const BodyMatrices& matrices, const Eigen::MatrixXd& z, int threads) const;
+  /// Forces on z of the inertia of accelerations z.
+  Eigen::MatrixXd inertia(const BodyMatrices& matrices, const Eigen::MatrixXd& z) const;
 
   /// z under the loads f (size,k), the averages at q_a (averages,k); none: at zero.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& f, const Eigen::MatrixXd& averages = {}) const;
 
   /// How many modes lie below an eigenvalue omega^2 [rad^2/s^2], counted by the pivots of K - omega^2 M: what it takes
-  /// is another factorisation. @returns nothing where the matrices are not in this process
-  std::optional<PivotSigns> count_below(const BodyMatrices& matrices, double eigenvalue, int threads) const;
+  /// is another factorisation. @returns nothing where signs cannot be counted
+  std::optional<PivotSigns> count_below(const BodyMatrices& matrices, double eigenvalue) const;
 
  private:
-  using Factorisation = std::function<std::unique_ptr<InsideFactor>(const InsideUnknowns& inside)>;
-  HeldBody(HeldFreedoms freedoms, const Solid& solid, const Ties& ties, const Factorisation& factorisation,
-           int threads);
-  void factorise(const Factorisation& factorisation, const Solid& solid);
+  void factorise(const BodyMatrices& matrices, const Solid& solid);
   void close_conditions(const Ties& ties);
   Eigen::MatrixXd pseudo_solve(const Eigen::MatrixXd& f) const;  // K+ f
 
   int threads_ = 1;
   HeldFreedoms freedoms_;
-  std::unique_ptr<InsideFactor> factor_;  // of K_ii without the supports; none when nothing is left
+  std::unique_ptr<Factor> factor_;  // of K_ii without the supports; none when nothing is left
   FactorStatistics no_statistics_;
   Eigen::MatrixXd corrections_;  // K+ C^T, then -N: what lambda and alpha take away
   Eigen::MatrixXd small_;        // inverse of the matrix of lambda and alpha

@@ -9,8 +9,8 @@
 
 #include "reduce/common/error.hpp"
 #include "reduce/common/orthogonal_factors.hpp"
+#include "reduce/dense/dense_products.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
-#include "reduce/spectral/dense_products.hpp"
 
 namespace bielle::reduce {
 
@@ -74,21 +74,20 @@ InsideUnknowns HeldFreedoms::inside() const {
 }
 
 void HeldFreedoms::expand_into(const Eigen::Ref<const Eigen::MatrixXd>& z, RowMatrix& u, int threads) const {
-  const auto count = static_cast<Eigen::Index>(free.size()), columns = z.cols(), blank = u.cols() - columns;
+  const auto count = static_cast<Eigen::Index>(free.size()), columns = z.cols();
 #pragma omp parallel num_threads(threads)
   {
 #pragma omp for schedule(static) nowait
     for (Eigen::Index k = 0; k < count; ++k) {
       auto row = u.row(free[static_cast<std::size_t>(k)]);
       for (Eigen::Index c = 0; c < columns; ++c) row(c) = z(k, c);
-      row.tail(blank).setZero();
     }
 #pragma omp for schedule(static)
     for (std::size_t k = 0; k < not_free.size(); ++k) {
       auto row = u.row(not_free[k]);
       row.setZero();
       for (SparseRows::InnerIterator carried(carry_released, not_free[k]); carried; ++carried)
-        row.head(columns) += carried.value() * z.row(count + carried.col());
+        row += carried.value() * z.row(count + carried.col());
     }
   }
 }

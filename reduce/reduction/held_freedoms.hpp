@@ -28,7 +28,7 @@ struct HeldFreedoms {
 
   /// What is factorised: all but the supports.
   InsideUnknowns inside() const;
-  /// Displacements of z. @param u  (3 points, at least k): the columns of z, then zeros
+  /// Displacements of z. @param u  (3 points, k)
   void expand_into(const Eigen::Ref<const Eigen::MatrixXd>& z, RowMatrix& u, int threads) const;
   /// The transposed: forces on points become forces on z. @param f  (size, k): of the first k columns of the forces
   void restrict_into(const RowMatrix& forces, Eigen::Ref<Eigen::MatrixXd> f, int threads) const;

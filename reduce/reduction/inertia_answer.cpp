@@ -2,8 +2,8 @@
 
 #include <utility>
 
+#include "reduce/dense/dense_products.hpp"
 #include "reduce/reduction/reduced_matrices.hpp"
-#include "reduce/spectral/dense_products.hpp"
 
 namespace bielle::reduce {
 

@@ -67,12 +67,6 @@ BlockGraph point_graph(const NodeGraph& graph) {
   return result;
 }
 
-BlockGraph point_graph(const SymmetricMatrix& stiffness) {
-  std::vector<std::int64_t> starts;
-  for (std::int64_t first = 0; first <= stiffness.size; first += 3) starts.push_back(first);
-  return block_graph(stiffness, starts);
-}
-
 BlockGraph inside_graph(const BlockGraph& points, const InsideUnknowns& inside) {
   std::vector<int> block_of(static_cast<std::size_t>(points.size()), -1), point_of;
   BlockGraph result;

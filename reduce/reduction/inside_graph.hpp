@@ -7,7 +7,7 @@
 
 #include "reduce/fe/node_graph.hpp"
 #include "reduce/reduction/ties.hpp"
-#include "reduce/spectral/block_graph.hpp"
+#include "reduce/sparse/block_graph.hpp"
 
 namespace bielle::reduce {
 
@@ -22,8 +22,6 @@ struct InsideUnknowns {
 
 /// One block of three unknowns for each point.
 BlockGraph point_graph(const NodeGraph& graph);
-/// The same, from the pattern of a stiffness.
-BlockGraph point_graph(const SymmetricMatrix& stiffness);
 
 /// Blocks of P^T K P: points of which unknowns are kept, then each column of `carried` by itself.
 /// @param points  that of K

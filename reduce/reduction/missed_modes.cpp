@@ -15,8 +15,7 @@ constexpr int most_trials = 3;
 
 }  // namespace
 
-std::optional<ModeCount> count_modes(const BodyMatrices& matrices, const HeldBody& held, const Basis& basis,
-                                     int threads) {
+std::optional<ModeCount> count_modes(const BodyMatrices& matrices, const HeldBody& held, const Basis& basis) {
   const Eigen::Index found = basis.modes() - basis.residual_vectors;
   int trials = 0;
   for (Eigen::Index k = found; k > 0; --k) {
@@ -27,7 +26,7 @@ std::optional<ModeCount> count_modes(const BodyMatrices& matrices, const HeldBod
     if (gap < least_gap * last) continue;
     for (const double part : {0.5, 0.7}) {
       const double shift = last + part * gap;
-      const std::optional<PivotSigns> signs = held.count_below(matrices, shift, threads);
+      const std::optional<PivotSigns> signs = held.count_below(matrices, shift);
       if (!signs) return std::nullopt;
       if (signs->growth < most_growth)
         return ModeCount{std::sqrt(shift) / (2 * std::numbers::pi), k, signs->negative, signs->growth};

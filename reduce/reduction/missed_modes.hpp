@@ -23,7 +23,6 @@ struct ModeCount {
 /// too small, below it.
 /// @returns nothing where it cannot be done: no modes, too few of them apart from each other, or matrices that are not
 /// in this process
-std::optional<ModeCount> count_modes(const BodyMatrices& matrices, const HeldBody& held, const Basis& basis,
-                                     int threads);
+std::optional<ModeCount> count_modes(const BodyMatrices& matrices, const HeldBody& held, const Basis& basis);
 
 }  // namespace bielle::reduce

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "reduce/fe/solid.hpp"
-#include "reduce/spectral/symmetric_matrix.hpp"
+#include "reduce/sparse/symmetric_matrix.hpp"
 
 namespace bielle::reduce {
 

@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include "reduce/fe/material.hpp"
+#include "reduce/spectral/eigenpairs.hpp"
 
 namespace bielle::reduce {
 
@@ -60,8 +61,9 @@ struct ReductionOptions {
   std::vector<InterfaceRequest> interfaces;    ///< at least one: a mechanism moves a body by its interfaces
   std::optional<int> mode_count;               ///< the lowest so many fixed-boundary modes; with neither: none
   std::optional<double> modes_below;           ///< those below [Hz]; with both: the lowest `mode_count` of them
-  bool inertia_relief = false;                 ///< residual vectors for its own accelerations (inertia_answer.hpp)
-  bool modes_proven = false;                   ///< whether to count the modes, as a proof that none was missed
+  EigenMethod mode_method = EigenMethod::automatic;
+  bool inertia_relief = false;  ///< residual vectors for its own accelerations (inertia_answer.hpp)
+  bool modes_proven = false;    ///< whether to count the modes, as a proof that none was missed
   /// Damping of the eigenmodes of the free reduced body, in their order, the last ratio holding for all further ones;
   /// or Rayleigh.
   std::vector<double> damping_ratios;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "reduce/reduction/ties.hpp"
-#include "reduce/spectral/symmetric_matrix.hpp"
+#include "reduce/sparse/symmetric_matrix.hpp"
 
 namespace bielle::reduce {
 

@@ -3,7 +3,7 @@
 
 #include "reduce/fe/solid.hpp"
 #include "reduce/reduction/options.hpp"
-#include "reduce/spectral/symmetric_matrix.hpp"
+#include "reduce/sparse/symmetric_matrix.hpp"
 #include "reduce/superelement/superelement.hpp"
 
 namespace bielle::reduce {

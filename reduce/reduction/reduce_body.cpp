@@ -9,6 +9,7 @@
 
 #include "reduce/common/counted.hpp"
 #include "reduce/common/error.hpp"
+#include "reduce/dense/dense_products.hpp"
 #include "reduce/mesh/checks.hpp"
 #include "reduce/mesh/place.hpp"
 #include "reduce/reduction/adequacy.hpp"
@@ -23,7 +24,6 @@
 #include "reduce/reduction/reduced_matrices.hpp"
 #include "reduce/reduction/residual_vectors.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
-#include "reduce/spectral/dense_products.hpp"
 
 namespace bielle::reduce {
 
@@ -142,10 +142,10 @@ std::vector<Check> check_reduction(const Superelement& body, const ReducedStiffn
 
 /// Says what the count of the modes gave, or that it could not be made.
 std::optional<ModeCount> prove_modes(const BodyMatrices& matrices, const HeldBody& held, const Basis& basis,
-                                     Progress& progress, int threads) {
+                                     Progress& progress) {
   if (basis.modes() == 0) return std::nullopt;
   progress.start("count of the modes");
-  const std::optional<ModeCount> count = count_modes(matrices, held, basis, threads);
+  const std::optional<ModeCount> count = count_modes(matrices, held, basis);
   if (!count) {
     progress.warn(
         "modes.proof: that no mode was missed could not be proven, since the modes are too close to each other or the "
@@ -202,18 +202,18 @@ Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Prog
   const std::unique_ptr<BodyMatrices> kept_matrices = make(solid, freedoms.inside(), threads);
   const BodyMatrices& matrices = *kept_matrices;
 
-  if (options.modes_proven && matrices.stiffness_here() == nullptr)
+  if (options.modes_proven && !matrices.can_count_signs())
     in_section(options, "modes",
                [] { throw InputError("proof: modes are counted by bielle-reduce alone, not on ranks"); });
 
   progress.start("factorisation");
   const HeldBody held(std::move(freedoms), solid, matrices, ties, threads);
   Basis basis = in_section(options, "modes", [&] {
-    return make_basis(solid, matrices, ties, held, properties, {options.mode_count, options.modes_below}, progress,
-                      threads);
+    return make_basis(solid, matrices, ties, held, properties,
+                      {options.mode_count, options.modes_below, options.mode_method}, progress, threads);
   });
   const std::optional<ModeCount> count =
-      options.modes_proven ? prove_modes(matrices, held, basis, progress, threads) : std::nullopt;
+      options.modes_proven ? prove_modes(matrices, held, basis, progress) : std::nullopt;
   add_all_residual_vectors(options, std::move(residual), matrices, held, basis, progress);
 
   progress.start("reduced matrices");
@@ -261,7 +261,7 @@ Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Prog
   progress.finish();
   fail_when_a_check_does(checks, "the reduced body");
   if (report) {
-    *report = {mesh.point_count(), solid.cells(), held.statistics(), basis.solves, basis.sweeps, checks};
+    *report = {mesh.point_count(), solid.cells(), held.statistics(), basis.method, basis.solves, basis.sweeps, checks};
   }
   return body;
 }

@@ -8,7 +8,7 @@
 #include "reduce/reduction/body_matrices.hpp"
 #include "reduce/reduction/checks.hpp"
 #include "reduce/reduction/options.hpp"
-#include "reduce/spectral/symmetric_factor.hpp"
+#include "reduce/sparse/factor.hpp"
 #include "reduce/superelement/superelement.hpp"
 
 namespace bielle::reduce {
@@ -17,6 +17,7 @@ namespace bielle::reduce {
 struct ReductionReport {
   Eigen::Index points = 0, cells = 0;
   FactorStatistics factor;
+  std::string method;         ///< by which modes were found, in words; empty: there are none
   int solves = 0;             ///< columns that the eigenvalue iteration solved for
   int sweeps = 0;             ///< calls that it took: each reads the factor once
   std::vector<Check> checks;  ///< those of the superelement and those that only the mesh could answer

@@ -6,8 +6,8 @@
 #include "reduce/common/error.hpp"
 #include "reduce/common/orthogonal_factors.hpp"
 #include "reduce/common/symmetric_eigenpairs.hpp"
-#include "reduce/spectral/blas.hpp"
-#include "reduce/spectral/dense_products.hpp"
+#include "reduce/dense/blas.hpp"
+#include "reduce/dense/dense_products.hpp"
 
 namespace bielle::reduce {
 

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "reduce/spectral/symmetric_matrix.hpp"
+#include "reduce/sparse/symmetric_matrix.hpp"
 #include "reduce/superelement/superelement.hpp"
 
 namespace bielle::reduce {

@@ -5,8 +5,8 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "reduce/dense/dense_products.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
-#include "reduce/spectral/dense_products.hpp"
 
 namespace bielle::reduce {
 

@@ -11,7 +11,7 @@
 
 #include "reduce/common/counted.hpp"
 #include "reduce/common/error.hpp"
-#include "reduce/spectral/blas.hpp"
+#include "reduce/dense/blas.hpp"
 #include "reduce/spectral/start_vectors.hpp"
 
 namespace bielle {
@@ -36,9 +36,11 @@ class LanczosIteration {
     parameters_[6] = 3;                 // shift-invert
   }
 
+  enum class End { converged, not_converged, no_more_directions };
+
   /// @param solve  (K - shift M)^-1 b
   template <class Solve>
-  void run(const ShiftInvertProblem& problem, const Solve& solve) {
+  End run(const ShiftInvertProblem& problem, const Solve& solve) {
     a_int request = 0;
     while (request != 99) {
       arpack::saupd(request, arpack::bmat::generalized, size_, arpack::which::largest_magnitude, wanted_, tolerance_,
@@ -54,15 +56,16 @@ class LanczosIteration {
         throw ComputationError(fmt::format("ARPACK made an unknown request ({})", request));
       }
     }
-    const int converged = parameters_[4];
-    if (info_ == 1 || (info_ >= 0 && converged < wanted_)) {
-      throw ComputationError(fmt::format("the eigenvalue iteration stopped after {}, with {} of {} converged",
-                                         counted(restarts(), "restart"), converged, counted(wanted_, "mode")));
-    }
-    if (info_ < 0) {
+    constexpr int no_convergence = 1, no_shift_left = 3, no_factorisation = -9999;
+    if (info_ == no_factorisation) return End::no_more_directions;
+    if (info_ < 0)
       throw ComputationError(fmt::format("the eigenvalue iteration failed (ARPACK's dsaupd returned {})", info_));
-    }
+    return info_ != no_convergence && info_ != no_shift_left && converged() >= wanted_ ? End::converged
+                                                                                       : End::not_converged;
   }
+  int directions() const { return parameters_[4]; }  ///< of the space, where there are no more
+  int converged() const { return parameters_[4]; }
+  int restarts() const { return parameters_[2]; }
 
   /// The pairs that were found, once it has run.
   void get(double shift, Eigenpairs& pairs) {
@@ -83,7 +86,6 @@ class LanczosIteration {
   Eigen::Map<Eigen::VectorXd> column(int pointer) {
     return Eigen::Map<Eigen::VectorXd>(work_.data() + pointers_[static_cast<std::size_t>(pointer)] - 1, size_);
   }
-  int restarts() const { return parameters_[2]; }
   a_int small_size() const { return static_cast<a_int>(small_work_.size()); }
   a_int size_, wanted_, basis_;
   a_int info_ = 1;  ///< start from `residual_`
@@ -99,11 +101,12 @@ class LanczosIteration {
 Eigenpairs single_search(const ShiftInvertProblem& problem, int count, const EigenpairOptions& options,
                          const Eigen::MatrixXd& known, int seed) {
   // Enough vectors that most problems converge in one sweep: solutions are expensive, vectors are not.
-  const auto basis = static_cast<int>(std::min<Eigen::Index>(problem.size, 2 * count + (known.cols() > 0 ? 12 : 20)));
+  const auto sensible =
+      static_cast<int>(std::min<Eigen::Index>(problem.size, 2 * count + (known.cols() > 0 ? 12 : 20)));
+  const auto larger = static_cast<int>(std::min<Eigen::Index>(problem.size, 2 * sensible));
   const Eigen::MatrixXd mass_known = known.cols() > 0 ? problem.multiply_mass(known) : known;
   Eigenpairs pairs;
-  LanczosIteration iteration(problem.size, count, basis, options, seed);
-  iteration.run(problem, [&](const Eigen::MatrixXd& b) {
+  const auto solve = [&](const Eigen::MatrixXd& b) {
     ++pairs.solves;
     if (options.on_solve) {
       options.on_solve(pairs.solves);
@@ -111,9 +114,26 @@ Eigenpairs single_search(const ShiftInvertProblem& problem, int count, const Eig
     Eigen::MatrixXd y = problem.solve(b);
     if (known.cols() > 0) y -= known * (mass_known.transpose() * y);
     return y;
-  });
-  iteration.get(problem.shift, pairs);
-  return pairs;
+  };
+  for (int basis = sensible, found = 0;; basis = found > 0 ? found : larger) {
+    LanczosIteration iteration(problem.size, count, basis, options, seed);
+    const LanczosIteration::End end = iteration.run(problem, solve);
+    if (end == LanczosIteration::End::converged) {
+      iteration.get(problem.shift, pairs);
+      return pairs;
+    }
+    if (end == LanczosIteration::End::not_converged && (basis == larger || found > 0))
+      throw ComputationError(fmt::format("the eigenvalue iteration stopped after {}, with {} of {} converged",
+                                         counted(iteration.restarts(), "restart"), iteration.converged(),
+                                         counted(count, "mode")));
+    if (end == LanczosIteration::End::no_more_directions) {
+      if (found > 0 || iteration.directions() <= count)
+        throw TooFewDirections(
+            fmt::format("ARPACK finds {} only, of {} wanted; 'method: block_lanczos' takes what there is",
+                        counted(iteration.directions(), "direction"), counted(count, "mode")));
+      found = iteration.directions();
+    }
+  }
 }
 
 /// A Krylov space grown from one vector holds one vector of each eigenspace but for rounding: of a multiple eigenvalue
@@ -163,6 +183,7 @@ Eigenpairs arpack_eigenpairs(const ShiftInvertProblem& problem, int count, const
   Eigenpairs pairs = single_search(problem, count, options, {}, 1);
   add_missed_copies(problem, options, pairs);
   pairs.sweeps = pairs.solves;
+  pairs.method = "ARPACK";
   return pairs;
 }
 

@@ -53,6 +53,7 @@ class BlockLanczos {
     }
     result_.values = shift + basis_.locked_values().array().inverse();
     result_.vectors = basis_.take_locked_vectors();
+    result_.method = "block Lanczos";
     return std::move(result_);
   }
 

@@ -10,9 +10,9 @@
 #include "reduce/common/error.hpp"
 #include "reduce/common/leading_component.hpp"
 #include "reduce/common/symmetric_eigenpairs.hpp"
+#include "reduce/dense/tall_products.hpp"
 #include "reduce/spectral/arpack_eigenpairs.hpp"
 #include "reduce/spectral/block_lanczos.hpp"
-#include "reduce/spectral/tall_products.hpp"
 
 namespace bielle {
 
@@ -105,10 +105,28 @@ Eigenpairs dense_eigenpairs(const ShiftInvertProblem& problem, int count) {
   pairs.vectors = range * eigen.vectors(Eigen::all, order) * nu(order).inverse().matrix().asDiagonal();
   pairs.solves = static_cast<int>(problem.size);
   pairs.sweeps = 1;
+  pairs.method = "dense algebra";
   return pairs;
 }
 
+Eigenpairs iterated(const ShiftInvertProblem& problem, int count, const EigenpairOptions& options) {
+  if (options.iteration) return options.iteration(problem, count, options);
+  const bool choose = options.method == EigenMethod::automatic;
+  if ((choose ? sensible_method(problem.size, count) : options.method) == EigenMethod::arpack) try {
+      return arpack_eigenpairs(problem, count, options);
+    } catch (const TooFewDirections&) {
+      if (!choose) throw;
+    }
+  return block_lanczos_eigenpairs(problem, count, options);
+}
+
 }  // namespace
+
+EigenMethod sensible_method(Eigen::Index size, int count) {
+  constexpr Eigen::Index most_unknowns = 100000;
+  constexpr int most_pairs = 61;
+  return size <= most_unknowns && count <= most_pairs ? EigenMethod::arpack : EigenMethod::block_lanczos;
+}
 
 Eigenpairs shift_invert_eigenpairs(const ShiftInvertProblem& problem, int count, const EigenpairOptions& options) {
   // Below the first size the vectors of an iteration would fill the space anyway; above the second dense matrices cost
@@ -120,10 +138,7 @@ Eigenpairs shift_invert_eigenpairs(const ShiftInvertProblem& problem, int count,
         fmt::format("all {} eigenpairs of a problem of that size cannot be computed; ask for fewer", n));
   }
   const bool dense = n <= small || (n <= large && 2 * static_cast<Eigen::Index>(count) + 20 > n);
-  Eigenpairs pairs = dense                                   ? dense_eigenpairs(problem, count)
-                     : options.iteration                     ? options.iteration(problem, count, options)
-                     : options.method == EigenMethod::arpack ? arpack_eigenpairs(problem, count, options)
-                                                             : block_lanczos_eigenpairs(problem, count, options);
+  Eigenpairs pairs = dense ? dense_eigenpairs(problem, count) : iterated(problem, count, options);
   // Who iterates elsewhere has little memory here.
   const Eigen::MatrixXd gram = polish(problem, options.iteration ? 8 : 64, options.threads, pairs);
   make_orthonormal(gram, pairs.vectors, options.threads);
@@ -131,12 +146,12 @@ Eigenpairs shift_invert_eigenpairs(const ShiftInvertProblem& problem, int count,
   return pairs;
 }
 
-Eigenpairs shift_invert_eigenpairs_below(const ShiftInvertProblem& problem, double limit, int first_guess,
-                                         const EigenpairOptions& options, int most) {
+Eigenpairs eigenpairs_below(const std::function<Eigenpairs(int count)>& search, const ShiftInvertProblem& problem,
+                            double limit, int first_guess, int most) {
   const auto all = static_cast<int>(problem.size);
   int count = std::min(std::max(first_guess, 1), all);
   while (true) {
-    Eigenpairs pairs = shift_invert_eigenpairs(problem, count, options);
+    Eigenpairs pairs = search(count);
     const Eigen::Index found = pairs.values.size();
     const Eigen::Index below = (pairs.values.array() <= limit).count();
     if (below < found || found < count || count == all) {

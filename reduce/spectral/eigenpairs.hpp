@@ -1,5 +1,6 @@
-// Eigenpairs of K phi = lambda M phi nearest to a shift: by a block Lanczos method of our own (block_lanczos.hpp), by
-// ARPACK with single vectors (arpack_eigenpairs.hpp), or densely where the problem is small.
+// Eigenpairs of K phi = lambda M phi nearest to a shift: by ARPACK with single vectors (arpack_eigenpairs.hpp), by a
+// block Lanczos method of our own where solutions are expensive (block_lanczos.hpp), or densely where the problem is
+// small.
 //
 // The caller gives the solution with K - shift M and the product with M, so that one factorisation serves here and
 // elsewhere, and constraints may be worked into the solution.
@@ -7,6 +8,7 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 
 #include <Eigen/Core>
 
@@ -23,7 +25,10 @@ struct ShiftInvertProblem {
   std::function<Eigen::MatrixXd(const Eigen::MatrixXd& x)> multiply_mass;
 };
 
-enum class EigenMethod { block_lanczos, arpack };
+enum class EigenMethod { automatic, arpack, block_lanczos };
+
+/// `automatic` stands for this: ARPACK for problems of up to 100,000 unknowns and 60 pairs and one more.
+EigenMethod sensible_method(Eigen::Index size, int count);
 
 struct Eigenpairs;
 struct EigenpairOptions;
@@ -33,8 +38,8 @@ using EigenIteration =
     std::function<Eigenpairs(const ShiftInvertProblem& problem, int count, const EigenpairOptions& options)>;
 
 struct EigenpairOptions {
-  EigenMethod method = EigenMethod::block_lanczos;
-  EigenIteration iteration;  ///< in place of the method, where it is given
+  EigenMethod method = EigenMethod::automatic;
+  EigenIteration iteration;  ///< in place of the method, where it is given; it names itself
   /// Residuals of the eigenpairs of the inverted operator, relative to their eigenvalues.
   double tolerance = 1e-8;
   int restarts = 300;  ///< before giving up
@@ -52,6 +57,7 @@ struct Eigenpairs {
   /// |phi - (lambda - shift) (K - shift M)^-1 M phi|_M for each pair, before the last step of inverse iteration: some
   /// eigenvalue of the pencil lies within this, relative to lambda - shift.
   Eigen::VectorXd residuals;
+  std::string method;  ///< in words: "ARPACK", "block Lanczos", "dense algebra"
   /// Of a search up to a limit: the least eigenvalue beyond it, where one was found.
   std::optional<double> next;
   int solves = 0;    ///< columns that the iteration solved for
@@ -65,10 +71,11 @@ struct Eigenpairs {
 Eigenpairs shift_invert_eigenpairs(const ShiftInvertProblem& problem, int count, const EigenpairOptions& options = {});
 
 /// All eigenpairs with eigenvalues in (shift, limit], found by asking for growing counts.
+/// @param search       as shift_invert_eigenpairs: the `count` nearest to the shift, of that problem
 /// @param first_guess  how many to ask for first
 /// @param most         more than this are not sought
 /// @throws InputError when there are more than `most`, or seem to be from the spacing of those found: about how many
-Eigenpairs shift_invert_eigenpairs_below(const ShiftInvertProblem& problem, double limit, int first_guess = 10,
-                                         const EigenpairOptions& options = {}, int most = 1000000);
+Eigenpairs eigenpairs_below(const std::function<Eigenpairs(int count)>& search, const ShiftInvertProblem& problem,
+                            double limit, int first_guess = 10, int most = 1000000);
 
 }  // namespace bielle

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "reduce/common/symmetric_eigenpairs.hpp"
-#include "reduce/spectral/tall_products.hpp"
+#include "reduce/dense/tall_products.hpp"
 
 namespace bielle {
 

@@ -14,7 +14,7 @@
 
 #include "reduce/common/counted.hpp"
 #include "reduce/common/error.hpp"
-#include "reduce/spectral/blas.hpp"
+#include "reduce/dense/blas.hpp"
 
 // LAPACK comes with OpenBLAS, without a C header.
 extern "C" {

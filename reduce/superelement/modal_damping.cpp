@@ -6,7 +6,7 @@
 #include "reduce/common/error.hpp"
 #include "reduce/common/orthogonal_factors.hpp"
 #include "reduce/common/symmetric_eigenpairs.hpp"
-#include "reduce/spectral/dense_products.hpp"
+#include "reduce/dense/dense_products.hpp"
 #include "reduce/superelement/superelement.hpp"
 
 namespace bielle {

@@ -10,7 +10,7 @@
 
 #include "reduce/common/dense_solves.hpp"
 #include "reduce/common/error.hpp"
-#include "reduce/spectral/dense_products.hpp"
+#include "reduce/dense/dense_products.hpp"
 
 namespace bielle {
 

@@ -1,4 +1,4 @@
-// What the programs share that compare_reduction and compare_factorisations run.
+// Times and arguments of the program that compare_reduction runs.
 #pragma once
 
 #include <algorithm>

@@ -5,8 +5,8 @@
 //
 // Elapsed times, the fastest of several rounds, with as many threads as OpenMP has (OMP_NUM_THREADS). Bytes are those
 // that have to move at least: the recovery matrices once, and the fields. Bandwidth is that of a copy, of what is read
-// and what is written, by the same threads. With more than some ten coordinates it is not memory but multiplications that
-// limit: they are measured as a product of square matrices.
+// and what is written, by the same threads. With more than some ten coordinates it is not memory but multiplications
+// that limit: they are measured as a product of square matrices.
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
@@ -18,7 +18,7 @@
 
 #include "mechanism/elements/superelement/recovery/recovered_outputs.hpp"
 #include "mechanism/elements/superelement/recovery/stress_peaks.hpp"
-#include "reduce/spectral/blas.hpp"
+#include "reduce/dense/blas.hpp"
 
 namespace {
 

@@ -23,7 +23,7 @@
 #include "mechanism/solvers/constraints/redundancy.hpp"
 #include "mechanism/solvers/dynamics/time_integration.hpp"
 #include "reduce/common/command_line.hpp"
-#include "reduce/spectral/blas.hpp"
+#include "reduce/dense/blas.hpp"
 #include "tests/performance/processor_time.hpp"
 #include "tests/support/beam_superelement.hpp"
 

@@ -1,4 +1,4 @@
-"""What compare_reduction and compare_factorisations share: the rod, other programs run alone, matrices in files."""
+"""What compare_reduction compares with: the rod, other programs run alone, matrices in files."""
 
 import glob
 import os

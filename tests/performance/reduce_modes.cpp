@@ -11,7 +11,9 @@
 #include <chrono>
 #include <cstdio>
 #include <ctime>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -20,10 +22,9 @@
 #include "reduce/body_file.hpp"
 #include "reduce/common/command_line.hpp"
 #include "reduce/common/progress.hpp"
-#include "reduce/fe/assembly.hpp"
+#include "reduce/dense/blas.hpp"
 #include "reduce/mesh/import.hpp"
 #include "reduce/reduction/held_body.hpp"
-#include "reduce/spectral/blas.hpp"
 #include "reduce/spectral/eigenpairs.hpp"
 
 namespace {
@@ -98,6 +99,7 @@ void measure_methods(const ShiftInvertProblem& problem, int modes, const Setting
   }
   for (const int block : settings.blocks) {
     runs.push_back({block == 0 ? "block (default)" : fmt::format("block of {}", block), {}});
+    runs.back().options.method = EigenMethod::block_lanczos;
     runs.back().options.block = block;
   }
   for (Run& run : runs) {
@@ -134,13 +136,13 @@ void measure(double size, const Settings& settings) {
   progress.finish();
   const Solid solid = make_solid(mesh, file.options.materials, file.options.regions);
   const Ties ties = make_ties(solid, file.options.interfaces);
-  const NodeGraph graph = node_graph(solid.nodes, solid.points(), settings.threads);
-  const NodeMatrix mass = assemble_mass(solid, graph, settings.threads);
-  const HeldBody held(solid, assemble_stiffness(solid, graph, settings.threads), ties, settings.threads);
+  HeldFreedoms freedoms(solid, ties);
+  const std::unique_ptr<BodyMatrices> matrices = assembled_matrices(solid, freedoms.inside(), settings.threads);
+  const HeldBody held(std::move(freedoms), solid, *matrices, ties, settings.threads);
   fmt::print("\n{} dofs, {:.0f} MB of factor, factorised in {:.2f} s ({:.1f} GFLOP/s)\n", held.size(),
              held.statistics().memory_MB(), held.statistics().factorisation_seconds, held.statistics().speed());
   const ShiftInvertProblem problem{held.size(), 0, [&](const Eigen::MatrixXd& b) { return held.solve(b); },
-                                   [&](const Eigen::MatrixXd& z) { return held.inertia(mass, z, settings.threads); }};
+                                   [&](const Eigen::MatrixXd& z) { return held.inertia(*matrices, z); }};
   measure_parts(problem);
   for (const int modes : settings.modes) measure_methods(problem, modes, settings);
 }

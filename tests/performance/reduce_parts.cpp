@@ -16,12 +16,12 @@
 
 #include "reduce/body_file.hpp"
 #include "reduce/common/progress.hpp"
+#include "reduce/dense/blas.hpp"
 #include "reduce/fe/assembly.hpp"
 #include "reduce/mesh/import.hpp"
 #include "reduce/reduction/held_freedoms.hpp"
 #include "reduce/reduction/ties.hpp"
-#include "reduce/spectral/blas.hpp"
-#include "reduce/spectral/symmetric_factor.hpp"
+#include "reduce/sparse/symmetric_factor.hpp"
 #include "tests/performance/compared_program.hpp"
 
 namespace {

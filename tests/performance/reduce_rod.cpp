@@ -10,6 +10,8 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -17,11 +19,10 @@
 #include "reduce/body_file.hpp"
 #include "reduce/common/command_line.hpp"
 #include "reduce/common/progress.hpp"
-#include "reduce/fe/assembly.hpp"
+#include "reduce/dense/blas.hpp"
 #include "reduce/mesh/import.hpp"
 #include "reduce/reduction/held_body.hpp"
 #include "reduce/reduction/reduce_body.hpp"
-#include "reduce/spectral/blas.hpp"
 
 namespace {
 
@@ -41,8 +42,9 @@ struct Bare {
 Bare measure_bare(const Mesh& mesh, const ReductionOptions& options, int threads) {
   const Solid solid = make_solid(mesh, options.materials, options.regions);
   const Ties ties = make_ties(solid, options.interfaces);
-  const NodeGraph graph = node_graph(solid.nodes, solid.points(), threads);
-  const HeldBody held(solid, assemble_stiffness(solid, graph, threads), ties, threads);
+  HeldFreedoms freedoms(solid, ties);
+  const std::unique_ptr<BodyMatrices> matrices = assembled_matrices(solid, freedoms.inside(), threads);
+  const HeldBody held(std::move(freedoms), solid, *matrices, ties, threads);
   Bare bare;
   bare.factor = held.statistics();
   Eigen::MatrixXd b = Eigen::MatrixXd::Ones(held.size(), 1);

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "reduce/fe/assembly.hpp"
+#include "reduce/sparse/symmetric_factor.hpp"
 #include "reduce/spectral/eigenpairs.hpp"
-#include "reduce/spectral/symmetric_factor.hpp"
 
 namespace bielle::test {
 

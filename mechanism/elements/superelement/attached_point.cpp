@@ -1,7 +1,7 @@
 #include "mechanism/elements/superelement/attached_point.hpp"
 
 #include "mechanism/math/so3.hpp"
-#include "reduce/spectral/dense_products.hpp"
+#include "reduce/dense/dense_products.hpp"
 
 namespace bielle::mechanism {
 namespace {

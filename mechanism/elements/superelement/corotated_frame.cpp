@@ -7,7 +7,7 @@
 
 #include "mechanism/math/inverse.hpp"
 #include "reduce/common/error.hpp"
-#include "reduce/spectral/dense_products.hpp"
+#include "reduce/dense/dense_products.hpp"
 
 namespace bielle::mechanism {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "reduce/common/error.hpp"
-#include "reduce/spectral/dense_products.hpp"
+#include "reduce/dense/dense_products.hpp"
 
 namespace bielle::mechanism {
 namespace {

@@ -8,7 +8,7 @@
 #include "reduce/common/counted.hpp"
 #include "reduce/common/dense_solves.hpp"
 #include "reduce/common/error.hpp"
-#include "reduce/spectral/dense_products.hpp"
+#include "reduce/dense/dense_products.hpp"
 
 namespace bielle::mechanism {
 namespace {

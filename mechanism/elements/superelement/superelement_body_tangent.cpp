@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "reduce/spectral/dense_products.hpp"
+#include "reduce/dense/dense_products.hpp"
 
 namespace bielle::mechanism {
 

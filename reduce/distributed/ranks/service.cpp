@@ -5,8 +5,8 @@
 
 #include <unistd.h>
 
+#include "reduce/dense/blas.hpp"
 #include "reduce/distributed/ranks/driver.hpp"
-#include "reduce/spectral/blas.hpp"
 
 namespace bielle::reduce {
 

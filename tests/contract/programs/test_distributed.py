@@ -158,6 +158,7 @@ class Distributed(CommandTest):
         self.write("bar.geo", BAR)
         for body, status, says in ((BODY.replace("count: 4", "cuont: 4"), 1, "body.yaml:11: modes: 'cuont' is not a key"),
                                    (BODY.replace("count: 4", "count: 100000"), 1, "are asked for"),
+                                   (BODY.replace("count: 4", "count: 4, method: arpack"), 1, "on ranks SLEPc finds the modes"),
                                    (BODY.replace("tie: rigid}", "directions: [x]}"), 1, "the body can still")):
             self.write("body.yaml", body)
             got, said = self.distribute(2, "body.yaml")

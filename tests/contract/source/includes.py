@@ -1,7 +1,7 @@
 """Which folder may include which: the layout of the project as a rule.
 
 A folder includes only from itself and from those before it in its program's list. `mechanism` knows of `reduce` the common
-floor, the superelement and the sparse solvers; `reduce` knows nothing of `mechanism`. What moves (elements, joints) and what
+floor, the superelement, dense algebra and eigenpairs; `reduce` knows nothing of `mechanism`. What moves (elements, joints) and what
 solves (systems, solvers) know the model between them, and nothing of each other.
 """
 
@@ -10,7 +10,7 @@ import re
 
 # "" is the program's own folder: what stands beside main.
 FOLDERS = {
-    "reduce": ["common", "spectral", "superelement", "mesh", "fe", "reduction", "distributed", "distributed/ranks", ""],
+    "reduce": ["common", "dense", "sparse", "spectral", "superelement", "mesh", "fe", "reduction", "distributed", "distributed/ranks", ""],
     "mechanism": ["math", "model", "reading", "contact_laws", "measures",
                   "elements/beam", "elements/control", "elements/forces", "elements/rigid_body",
                   "elements/superelement/recovery", "elements/superelement",
@@ -19,7 +19,7 @@ FOLDERS = {
                   "system", "solvers/newton", "solvers/constraints", "solvers/start", "solvers/linearised", "solvers/statics", "solvers/dynamics",
                   "session", "analyses", "io", "python", ""],
 }
-SHARED = ["common", "spectral", "superelement"]
+SHARED = ["common", "dense", "spectral", "superelement"]
 COMPONENTS = [f for f in FOLDERS["mechanism"] if f.split("/")[0] in ("contact_laws", "measures", "elements", "joints", "hydraulics")]
 SOLVING = [f for f in FOLDERS["mechanism"] if f.split("/")[0] in ("system", "solvers")]
 

@@ -32,6 +32,7 @@ class Includes(unittest.TestCase):
                    ("mechanism/io/a.cpp", "mechanism/elements/beam/beam.hpp")]
         refused = [("reduce/common/a.hpp", "reduce/mesh/mesh.hpp"), ("reduce/mesh/a.hpp", "reduce/body_file.hpp"),
                    ("mechanism/model/a.cpp", "mechanism/elements/beam/beam.hpp"), ("mechanism/io/a.cpp", "reduce/fe/a.hpp"),
+                   ("mechanism/io/a.cpp", "reduce/sparse/a.hpp"), ("reduce/dense/a.cpp", "reduce/sparse/a.hpp"), ("reduce/sparse/a.cpp", "reduce/spectral/a.hpp"),
                    ("mechanism/session/a.cpp", "mechanism/io/results_file.hpp"), ("mechanism/io/a.cpp", "mechanism/python/a.hpp"),
                    ("mechanism/session/a.cpp", "mechanism/analyses/analysis.hpp"),
                    ("mechanism/joints/a.cpp", "reduce/body_file.hpp"), ("reduce/fe/a.cpp", "mechanism/math/so3.hpp"),

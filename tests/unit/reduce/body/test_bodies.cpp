@@ -8,6 +8,7 @@
 #include "reduce/common/progress.hpp"
 #include "reduce/mesh/import.hpp"
 #include "reduce/mesh/measures.hpp"
+#include "reduce/summary.hpp"
 
 using namespace bielle;
 using namespace bielle::reduce;
@@ -29,4 +30,18 @@ TEST_CASE("every body of meshes/ is read and meshed with its groups") {
     names.insert(entry.path().stem().string());
   }
   CHECK(names == std::set<std::string>{"arc", "bar", "bar_in_pieces", "boom", "conrod", "conrod_step", "plate"});
+}
+
+TEST_CASE(
+    "The summary names the method for modes, and the other where it would save more than a quarter of the whole") {
+  ReductionReport report;
+  report.method = "ARPACK";
+  report.solves = report.sweeps = 445;
+  const auto said = [&](double modes) {
+    return describe(report, {{"factorisation", 10, 1}, {"fixed-boundary modes", modes, 1}});
+  };
+  CHECK_THAT(said(24), Catch::Contains("modes by ARPACK: 445 solutions in 445 sweeps\n"));
+  CHECK_THAT(said(26), Catch::Contains("445 sweeps; 'method: block_lanczos' would probably take a third less\n"));
+  report.method = "block Lanczos";
+  CHECK_THAT(said(1000), Catch::Contains("modes by block Lanczos: 445 solutions in 445 sweeps\n"));
 }

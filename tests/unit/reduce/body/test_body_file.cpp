@@ -186,6 +186,11 @@ TEST_CASE("modes by number, by frequency or both") {
   const BodyFile both = read("count: 20", "count: 20, below: 3e3");
   CHECK(both.options.mode_count == 20);
   CHECK(both.options.modes_below == 3000);
+  CHECK(both.options.mode_method == EigenMethod::automatic);
+  CHECK(read("count: 20", "count: 20, method: auto").options.mode_method == EigenMethod::automatic);
+  CHECK(read("count: 20", "count: 20, method: arpack").options.mode_method == EigenMethod::arpack);
+  CHECK(read("count: 20", "count: 20, method: block_lanczos").options.mode_method == EigenMethod::block_lanczos);
+  check("count: 20", "count: 20, method: lanczos", "11: modes.method: 'lanczos' is not a method for modes");
   check("count: 20", "count: -1", "11: modes.count: expected a number of at least 0, found -1");
   check("count: 20", "count: 2.5", "11: modes.count: expected a whole number, found 2.5");
   check("count: 20", "below: 0", "11: modes.below: expected a number greater than 0");

@@ -1,6 +1,7 @@
 // Bodies and requests that the tests of the reduction share.
 #pragma once
 
+#include "reduce/reduction/held_body.hpp"
 #include "reduce/reduction/reduce_body.hpp"
 #include "tests/support/box_mesh.hpp"
 
@@ -52,6 +53,12 @@ inline reduce::Mesh twisted_block() {
     return Eigen::Vector3d(x.x() + 0.1 * x.y(), std::cos(angle) * r.y() - std::sin(angle) * r.z(),
                            std::sin(angle) * r.y() + std::cos(angle) * r.z() + 0.2 * x.x() * x.x());
   });
+}
+
+inline reduce::HeldBody held_body(const reduce::Solid& solid, const reduce::Ties& ties) {
+  reduce::HeldFreedoms freedoms(solid, ties);
+  const auto matrices = reduce::assembled_matrices(solid, freedoms.inside(), 2);
+  return {std::move(freedoms), solid, *matrices, ties, 2};
 }
 
 inline Superelement reduced(const reduce::Mesh& mesh, const reduce::ReductionOptions& options,

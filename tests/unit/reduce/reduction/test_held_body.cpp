@@ -24,7 +24,7 @@ struct Model {
         solid(make_solid(mesh, {{"steel", test::steel()}}, {{"all", "steel"}})),
         stiffness(assemble_stiffness(solid, node_graph(solid.nodes, solid.points()))),
         ties(make_ties(solid, requests)) {}
-  HeldBody held() const { return {solid, stiffness, ties, 2}; }
+  HeldBody held() const { return test::held_body(solid, ties); }
 };
 
 }  // namespace

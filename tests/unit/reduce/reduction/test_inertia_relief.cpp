@@ -92,9 +92,7 @@ TEST_CASE("With inertia relief the static answer to any acceleration that is lin
   CHECK(body.residual_vectors == 12);
   const Solid solid = make_solid(mesh, options.materials, options.regions);
   const RowMatrix loads = inertia_loads(solid);
-  const NodeGraph graph = node_graph(solid.nodes, solid.points());
-  const SymmetricMatrix stiffness = assemble_stiffness(solid, graph);
-  const HeldBody held(solid, stiffness, make_ties(solid, {options.interfaces.front()}), 2);
+  const HeldBody held = test::held_body(solid, make_ties(solid, {options.interfaces.front()}));
   const RowMatrix exact = held.expand(held.solve(held.restrict(loads)));
   const Eigen::MatrixXd& T = body.displacement_recovery;
   const Eigen::Index of_a = body.interface_directions() - 6;
@@ -120,8 +118,7 @@ TEST_CASE("The energies of the answer to accelerations say what is missing") {
   CHECK(without.missing.norm() > 0.01 * without.whole.norm());
   // The energies of the mesh, held at its interfaces.
   const Solid solid = make_solid(mesh, options.materials, options.regions);
-  const SymmetricMatrix stiffness = assemble_stiffness(solid, node_graph(solid.nodes, solid.points()));
-  const HeldBody held(solid, stiffness, make_ties(solid, options.interfaces), 2);
+  const HeldBody held = test::held_body(solid, make_ties(solid, options.interfaces));
   const RowMatrix loads = inertia_loads(solid);
   const RowMatrix exact = held.expand(held.solve(held.restrict(loads)));
   CHECK(relative(with.whole, loads.transpose() * exact) < 1e-9);

@@ -17,6 +17,7 @@ void compare(const test::SolidModel& model, int count) {
   for (const int block : {1, 2, 5, 12}) {
     CAPTURE(block);
     EigenpairOptions options;
+    options.method = EigenMethod::block_lanczos;
     options.block = block;
     const Eigen::VectorXd found = model.frequencies(count, options);
     REQUIRE(found.size() == count);

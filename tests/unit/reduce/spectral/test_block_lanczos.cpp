@@ -5,11 +5,11 @@
 #include <catch2/catch.hpp>
 
 #include "reduce/common/error.hpp"
+#include "reduce/sparse/symmetric_factor.hpp"
 #include "reduce/spectral/arpack_eigenpairs.hpp"
 #include "reduce/spectral/block_lanczos.hpp"
-#include "reduce/spectral/symmetric_factor.hpp"
+#include "tests/unit/reduce/sparse/laplacian.hpp"
 #include "tests/unit/reduce/spectral/dense_pencil.hpp"
-#include "tests/unit/reduce/spectral/laplacian.hpp"
 
 using namespace bielle;
 using Eigen::Index;
@@ -21,6 +21,7 @@ namespace {
 
 EigenpairOptions with_block(int block, int basis = 0) {
   EigenpairOptions options;
+  options.method = EigenMethod::block_lanczos;
   options.block = block;
   options.basis = basis;
   return options;
@@ -112,7 +113,7 @@ TEST_CASE("block Lanczos: a ring that floats", "[spectral]") {
   MatrixXd K = test::chain_of_springs(VectorXd::Ones(n + 1));
   K(0, n - 1) = K(n - 1, 0) = -1;
   const DensePencil pencil{K, MatrixXd::Identity(n, n), -1e-3};
-  const Eigenpairs pairs = shift_invert_eigenpairs(pencil.problem(), 21);
+  const Eigenpairs pairs = shift_invert_eigenpairs(pencil.problem(), 21, with_block(0));
   REQUIRE(pairs.values.size() == 21);
   for (Index k = 0; k < 21; ++k) {
     const double exact = 4 * std::pow(std::sin(std::numbers::pi * static_cast<double>((k + 1) / 2) / n), 2);
@@ -126,7 +127,7 @@ TEST_CASE("block Lanczos: springs a million times as stiff as others", "[spectra
   for (Index k = 0; k < springs.size(); ++k) springs(k) = (k / 50) % 2 == 0 ? 1 : 1e6;
   VectorXd masses = VectorXd::LinSpaced(500, 1, 3);
   const DensePencil pencil{test::chain_of_springs(springs), masses.asDiagonal()};
-  const Eigenpairs pairs = shift_invert_eigenpairs(pencil.problem(), 30);
+  const Eigenpairs pairs = shift_invert_eigenpairs(pencil.problem(), 30, with_block(0));
   const Eigenpairs reference = shift_invert_eigenpairs(pencil.problem(), 30, by_arpack());
   CHECK(difference(pairs.values, reference.values) < 1e-11);
   CHECK(difference(pairs.values, pencil.values().head(30)) < 1e-8);  // eps times 1e6 times the range of nu
@@ -143,12 +144,16 @@ TEST_CASE("block Lanczos: a mass that is singular", "[spectral]") {
   REQUIRE(exact.size() == 50);
   for (const int count : {1, 10, 40, 50}) {
     CAPTURE(count);
-    const Eigenpairs pairs = shift_invert_eigenpairs(pencil.problem(), count);
+    const Eigenpairs pairs = shift_invert_eigenpairs(pencil.problem(), count, with_block(0));
     CHECK(difference(pairs.values, exact.head(count)) < 1e-10);
     CHECK(pencil.residual(pairs) < 1e-9);
     CHECK(pencil.orthogonality(pairs) < 1e-11);
     CHECK(difference(block_values(pencil.problem(), count, with_block(8)), exact.head(count)) < 1e-10);
+    const Eigenpairs chosen = shift_invert_eigenpairs(pencil.problem(), count);
+    CHECK(difference(chosen.values, exact.head(count)) < 1e-10);
+    CHECK(chosen.method == (count < 50 ? "ARPACK" : "block Lanczos"));
   }
+  CHECK_THROWS_WITH(shift_invert_eigenpairs(pencil.problem(), 50, by_arpack()), Catch::Contains("block_lanczos"));
   // More than exist: all there are.
   CHECK(difference(block_values(pencil.problem(), 70, with_block(8)), exact) < 1e-10);
   CHECK(

@@ -1,13 +1,14 @@
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <vector>
 
 #include <catch2/catch.hpp>
 
 #include "reduce/common/error.hpp"
+#include "reduce/sparse/symmetric_factor.hpp"
 #include "reduce/spectral/eigenpairs.hpp"
-#include "reduce/spectral/symmetric_factor.hpp"
-#include "tests/unit/reduce/spectral/laplacian.hpp"
+#include "tests/unit/reduce/sparse/laplacian.hpp"
 
 using namespace bielle;
 
@@ -61,30 +62,67 @@ void check_pairs(const GridProblem& grid, const Eigenpairs& pairs) {
   CHECK((gram - Eigen::MatrixXd::Identity(gram.rows(), gram.cols())).cwiseAbs().maxCoeff() < 1e-10);
 }
 
+EigenpairOptions by(EigenMethod method) {
+  EigenpairOptions options;
+  options.method = method;
+  return options;
+}
+
+const auto both_methods = {EigenMethod::arpack, EigenMethod::block_lanczos};
+
 }  // namespace
 
 TEST_CASE("The lowest eigenvalues of a chain are those of the closed form") {
   const GridProblem chain({2000, 1, 1}, 2.5);
-  const Eigenpairs pairs = shift_invert_eigenpairs(chain.problem(), 12);
-  REQUIRE(pairs.values.size() == 12);
-  check_pairs(chain, pairs);
-  CHECK(pairs.sweeps < 12);
+  for (const EigenMethod method : both_methods) {
+    const Eigenpairs pairs = shift_invert_eigenpairs(chain.problem(), 12, by(method));
+    REQUIRE(pairs.values.size() == 12);
+    check_pairs(chain, pairs);
+    if (method == EigenMethod::block_lanczos) CHECK(pairs.sweeps < 12);
+    CHECK(pairs.method == (method == EigenMethod::arpack ? "ARPACK" : "block Lanczos"));
+  }
 }
 
 TEST_CASE("Every copy of a multiple eigenvalue is found") {
   const GridProblem cube({12, 12, 12});  // eigenvalues up to six times
-  const Eigenpairs pairs = shift_invert_eigenpairs(cube.problem(), 30);
-  REQUIRE(pairs.values.size() == 30);
-  check_pairs(cube, pairs);
+  for (const EigenMethod method : both_methods) {
+    const Eigenpairs pairs = shift_invert_eigenpairs(cube.problem(), 30, by(method));
+    REQUIRE(pairs.values.size() == 30);
+    check_pairs(cube, pairs);
+  }
 }
 
 TEST_CASE("Eigenvalues that are far from the shift take restarts, and none is missed") {
   // Seen from the shift all of them lie close together: the best of a first subspace are far from converged.
   const GridProblem cube({11, 11, 11}, 1, -4);
-  const Eigenpairs pairs = shift_invert_eigenpairs(cube.problem(), 11);
-  CHECK(pairs.restarts > 0);
+  for (const EigenMethod method : both_methods) {
+    const Eigenpairs pairs = shift_invert_eigenpairs(cube.problem(), 11, by(method));
+    CHECK(pairs.restarts > 0);
+    REQUIRE(pairs.values.size() == 11);
+    check_pairs(cube, pairs);
+  }
+}
+
+TEST_CASE("ARPACK that does not converge is tried once more in a space of twice the size") {
+  const GridProblem cube({11, 11, 11}, 1, -4), farther({11, 11, 11}, 1, -400);
+  EigenpairOptions options = by(EigenMethod::arpack);
+  const Eigenpairs enough = shift_invert_eigenpairs(cube.problem(), 11, options);
+  REQUIRE(enough.restarts > 4);
+  options.restarts = enough.restarts / 2;
+  const Eigenpairs pairs = shift_invert_eigenpairs(cube.problem(), 11, options);
+  CHECK(pairs.solves > enough.solves);
   REQUIRE(pairs.values.size() == 11);
   check_pairs(cube, pairs);
+  options.restarts = 1;
+  CHECK_THROWS_WITH(shift_invert_eigenpairs(farther.problem(), 11, options), Catch::Contains("of 11 modes converged"));
+}
+
+TEST_CASE("The method follows the numbers of unknowns and of pairs") {
+  CHECK(sensible_method(100000, 61) == EigenMethod::arpack);
+  CHECK(sensible_method(100001, 61) == EigenMethod::block_lanczos);
+  CHECK(sensible_method(100000, 62) == EigenMethod::block_lanczos);
+  const GridProblem plate({5, 4, 1});
+  CHECK(shift_invert_eigenpairs(plate.problem(), 20).method == "dense algebra");
 }
 
 TEST_CASE("Small problems give all of their eigenvalues") {
@@ -104,11 +142,13 @@ TEST_CASE("All eigenvalues below a limit are found") {
   const GridProblem cube({12, 11, 10});
   const std::vector<double> exact = cube.exact();
   const double limit = (exact[41] + exact[42]) / 2;
-  const Eigenpairs pairs = shift_invert_eigenpairs_below(cube.problem(), limit, 5);
+  const ShiftInvertProblem problem = cube.problem();
+  const auto search = [&](int count) { return shift_invert_eigenpairs(problem, count); };
+  const Eigenpairs pairs = eigenpairs_below(search, problem, limit, 5);
   REQUIRE(pairs.values.size() == 42);
   check_pairs(cube, pairs);
-  CHECK(shift_invert_eigenpairs_below(cube.problem(), exact[0] / 2).values.size() == 0);
-  CHECK_THROWS_AS(shift_invert_eigenpairs_below(cube.problem(), limit, 5, {}, 20), InputError);
+  CHECK(eigenpairs_below(search, problem, exact[0] / 2).values.size() == 0);
+  CHECK_THROWS_AS(eigenpairs_below(search, problem, limit, 5, 20), InputError);
 }
 
 TEST_CASE("Constraints worked into the solution remove their directions from the spectrum") {
@@ -122,16 +162,18 @@ TEST_CASE("Constraints worked into the solution remove their directions from the
     x -= influence * (x.row(400) / influence(400));
     return x;
   };
-  const Eigenpairs pairs = shift_invert_eigenpairs(problem, 6);
-  for (int k = 0; k < 6; ++k) {
-    CHECK(pairs.values(k) == Approx(test::grid_eigenvalue(k / 2 + 1, 400)).epsilon(1e-11));
-    CHECK(std::abs(pairs.vectors(400, k)) < 1e-12);
+  for (const EigenMethod method : both_methods) {
+    const Eigenpairs pairs = shift_invert_eigenpairs(problem, 6, by(method));
+    for (int k = 0; k < 6; ++k) {
+      CHECK(pairs.values(k) == Approx(test::grid_eigenvalue(k / 2 + 1, 400)).epsilon(1e-11));
+      CHECK(std::abs(pairs.vectors(400, k)) < 1e-12);
+    }
   }
 }
 
 TEST_CASE("An iteration that is cut off says how far it came") {
   const GridProblem cube({12, 12, 12});
-  EigenpairOptions options;
+  EigenpairOptions options = by(EigenMethod::block_lanczos);
   options.restarts = 1;
   options.tolerance = 1e-14;
   CHECK_THROWS_WITH(shift_invert_eigenpairs(cube.problem(), 40, options), Catch::Contains("of 40 modes converged"));
