@@ -9,6 +9,7 @@
 // given by constants are taken as rectangles, b = sqrt(3 EI/EA), of Poisson's ratio 0.3.
 #pragma once
 
+#include <algorithm>
 #include <string>
 
 #include "mechanism/elements/beam/beam_element.hpp"
@@ -29,11 +30,12 @@ class BeamStrainWatch final : public Gatherer {
   std::string summary() override;
   std::string what() const override;
   std::string voice() const override;
-  double loudness() const override { return strain_; }
+  double loudness() const override { return std::max(strain_, tension_); }
 
  private:
   const BeamElement& element_;
   double strain_ = 0, time_ = 0;
+  double tension_ = 0;    ///< BeamElement::tension_share
   bool statics_ = false;  ///< the time is a load factor
 };
 

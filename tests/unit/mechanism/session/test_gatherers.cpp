@@ -56,3 +56,25 @@ TEST_CASE("of a beam's elements the one that is strained most speaks") {
   CHECK_THAT(text, Contains("DOUBTFUL: beam 'one' is strained by 3 %, most in element 4 of 4, at t = 0 s"));
   CHECK(std::count(text.begin(), text.end(), '\n') == 1);
 }
+
+TEST_CASE("a beam whose elements are too long for its tension says so") {
+  // Under N = 12 EI/L^2 of an element, a strain of 3 (r/L)^2 = 0.48 %, residual flexibility yields sideways; shear adds
+  // N/(G A k), of which 2.9 times the strain is less than a fiftieth here.
+  const auto says = [](double strain, const std::string& more) {
+    const ReadyModel model(
+        "nodes: {a: {fixed: true}, b: {position: [1, 0, 0]}}\nelements: {one: {type: beam, nodes: [a, b], elements: 4, "
+        "section: {circle: 0.01, young: 2e11, poisson: 0.3, density: 7800}" +
+        more + "}}\n");
+    Gatherers gatherers(model.file.model);
+    gatherers.begin();
+    State state = model.system.start(0);
+    state.nodes[static_cast<std::size_t>(*model.file.model.find_node("b"))].x.x() += 0.25 * strain;
+    gatherers.add(state, model.system.slots(), model.environment());
+    return gatherers.summary();
+  };
+  CHECK_THAT(says(0.003, ""),
+             Contains("DOUBTFUL: beam 'one' is pulled by 63 % of the tension") && Contains("take at least 18 of them"));
+  CHECK(says(0.001, "").empty());
+  CHECK(says(-0.003, "").empty());
+  CHECK(says(0.003, ", bending: constant").empty());
+}
