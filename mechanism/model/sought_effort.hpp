@@ -28,7 +28,7 @@ class SoughtEffort {
   SoughtEffort& operator=(const SoughtEffort&) = default;
 };
 
-/// What holds or moves a node, and tells with which force.
+/// A support holds or moves a node, and tells with which force.
 class NodeSupport {
  public:
   virtual ~NodeSupport() = default;

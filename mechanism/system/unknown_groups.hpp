@@ -1,4 +1,4 @@
-// Which unknowns have one unit and mix when axes turn: translations of a node are a group, its turns are another, and
+// Groups of unknowns have one unit and mix when axes turn: translations of a node are a group, its turns another, and
 // every other unknown is a group of its own.
 #pragma once
 

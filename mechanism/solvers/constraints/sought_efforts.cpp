@@ -110,7 +110,7 @@ VectorX SoughtEfforts::along(const State& state, const MatrixX& reactions) const
       forces[row] = reactions(axis, column);
       continue;
     }
-    // Of R = exp(psi) R_start the inertial rotation is T^T dpsi.
+    // R = exp(psi) R_start turns by T^T dpsi, inertial components.
     const Node& moved = system_.model().node(nodes_[node]);
     const Vector3 psi = state.motion_factor *
                         Vector3(moved.motion[3](state.time), moved.motion[4](state.time), moved.motion[5](state.time));

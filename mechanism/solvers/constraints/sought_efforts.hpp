@@ -81,7 +81,7 @@ class EffortResponse {
                  const Answer& answer);
   /// The change of the efforts that takes away forces of the supports. @param forces  (count)
   VectorX change(const VectorX& forces) const { return -(inverse_ * forces); }
-  /// What it makes of the other unknowns (size).
+  /// The change of the other unknowns by it (size).
   VectorX step(const VectorX& change) const { return Z_ * change; }
 
  private:

@@ -7,7 +7,7 @@
 // the ends. Of what steps resolve, |T - Q| is (omega h)^2/12 of int |f| dt and |f - H| is (omega h)^4/384 of |f|; of a
 // pulse within the step it is all of it.
 //
-// What a formula has of the state (a spring with a force of time) does not count: its change is taken relative to its
+// The part that the state has in a formula (a spring with a force of time) does not count: changes are relative to its
 // value at another time, with the state as it is at the end of the step.
 #pragma once
 

@@ -16,13 +16,13 @@ namespace {
 const Slots no_slots;
 
 constexpr int least_parts = 4, most_parts = 20000;
-/// Of its range, by which a force may be off the chord between the ends: some seven steps in a period.
+/// A force may be off the chord between the ends by this part of its range: some seven steps in a period.
 constexpr double visible = 0.05;
 /// The same of a prescribed position, from the cubic between the ends: some five steps in a period.
 constexpr double visible_position = 0.003;
-/// Of |f|: changes that are smaller are none.
+/// Changes below this part of |f| are none.
 constexpr double nothing = 1e-3;
-/// Of the model's length, or of 1 rad: motions that are smaller are none.
+/// Motions below this part of the model's length, or of 1 rad, are none.
 constexpr double no_motion = 1e-9;
 
 }  // namespace

@@ -47,7 +47,7 @@ class PulseWatch {
     double gain = -1;           ///< error of its impulse over what its formulas have missed [-/s]; negative: not known
     bool on_algebraic = false;  ///< its impulses act on algebraic unknowns alone
   };
-  /// What the run has seen of a formula.
+  /// The run's looks at a formula, summed up.
   struct Total {
     std::string name;
     double low = 0, high = 0, largest = 0;  ///< range of its change, and of |f| [units]
@@ -59,7 +59,7 @@ class PulseWatch {
   void for_each_formula(const Act& act) const;
   void add_source(std::unique_ptr<TimeDependent> own, const TimeDependent& component, const std::string& name,
                   std::size_t member, const Slots& slots);
-  /// What a formula's changes are large against.
+  /// A formula's changes are judged relative to this.
   static double range(const Total& total);
   double of_motions(const ErrorNorm& norm, double tolerance) const;
   double of_forces(const Environment& environment, const ErrorNorm& norm, double tolerance);

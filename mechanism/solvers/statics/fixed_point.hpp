@@ -2,7 +2,7 @@
 //
 // With g = G(x) - x, and the changes dx, dg of x and g over the last iterations as columns X and Y,
 //     x_next = x + g - (X + Y) c,   c that with the least |g - Y c|.
-// What G contracts slowly, or does not contract in a few directions, converges as with a secant method.
+// Directions that G contracts slowly, or not at all, converge as with a secant method as long as they are few.
 #pragma once
 
 #include <vector>

@@ -233,7 +233,7 @@ VectorX QuasiStaticMotion::inertia_of(const State& state) const {
   return all;
 }
 
-/// What a force of each kind is worth next to others: moments by the mechanism's size, forces on amplitudes by none.
+/// The weight of a force of each kind next to others: moments by the mechanism's size, forces on amplitudes by none.
 VectorX QuasiStaticMotion::weights_of_inertia(const State& state) const {
   const double length = std::max(model_extent(state), 1e-30);
   VectorX weights = VectorX::Ones(f_.size() + support_.size());

@@ -191,7 +191,7 @@ TEST_CASE("the force that moves a mass through a spring is found, and so is wher
 }
 
 TEST_CASE("torques about a spherical joint turn a body as its rotation vector is prescribed") {
-  // Of inertia J about its node: the torque is J dOmega/dt + Omega x J Omega, and its power that of the kinetic energy.
+  // The inertia about the node is J: the torque is J dOmega/dt + Omega x J Omega, its power that of the kinetic energy.
   const MechanismFile file = read_mechanism_text(
       "nodes: {b: {motion: {rx: \"0.4*sin(2*t)\", ry: \"0.5*t\", rz: \"0.3*(1 - cos(3*t))\"}}}\n"
       "elements: {b: {type: rigid_body, node: b, mass: 1, inertia: [0.2, 0.3, 0.4]}}\n"

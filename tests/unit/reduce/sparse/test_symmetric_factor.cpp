@@ -217,8 +217,8 @@ TEST_CASE("A factor that will not fit is refused before it is computed, with the
   CHECK(whole.estimated_MB < 2.5 * whole.memory_MB());
   rlimit before{};
   REQUIRE(getrlimit(RLIMIT_AS, &before) == 0);
-  // Memory that the heap holds free at its end would go back to the system while the factor is analysed, and more would be
-  // left then than the limit says now.
+  // Memory that the heap holds free at its end would go back to the system while the factor is analysed, and more would
+  // be left then than the limit says now.
   malloc_trim(0);
   // Lowers the limit until less is left than the factor needs, yet enough for its symbolic analysis.
   const double wanted = 0.9 * whole.estimated_MB;

@@ -69,7 +69,7 @@ std::string carried(const std::string& node, const std::string& more, const std:
          joint + "}\n" + more;
 }
 
-/// Of Duhamel's integral z = omega int u(s) sin omega(t - s) ds, u = A exp(-((t - tp)/w)^2), all of which has passed.
+/// Duhamel's integral z = omega int u(s) sin omega(t - s) ds of u = A exp(-((t - tp)/w)^2), all of which has passed.
 double after_bump(double A, double w) {
   const double omega = std::sqrt(1000.0);
   return omega * A * w * std::sqrt(M_PI) * std::exp(-std::pow(omega * w / 2, 2));
