@@ -18,13 +18,6 @@ double ActuatorDrive::force(const LocalState& state) const {
   return state.environment().load_factor * limited(side(u), u);
 }
 
-void ActuatorDrive::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
-  const double Q = force(state);
-  if (Q == 0) return;
-  CoordinateJet& jet = calc(state);
-  r.segment(row(state), jet.w().size()) -= Q * jet.w();
-}
-
 void ActuatorDrive::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   if (released(state) || (!tangent.wants_K && !(tangent.wants_C && reads_state()))) return;
   thread_local Effort effort;
@@ -37,10 +30,6 @@ void ActuatorDrive::add_tangent(const LocalState& state, LocalTangent& tangent) 
   if (!reads_state() || side != 0) return;
   if (tangent.wants_K) tangent.K.dense().middleRows(at, n) -= factor * jet.w() * effort.by_position.transpose();
   if (tangent.wants_C) tangent.C.dense().middleRows(at, n) -= factor * jet.w() * effort.by_rate.transpose();
-}
-
-void ActuatorDrive::add_energy(const LocalState& state, Energy& energy) const {
-  energy.input += force(state) * value(state).rate;
 }
 
 std::unique_ptr<Gatherer> ActuatorDrive::make_gatherer() const { return std::make_unique<StillWatch>(*this); }

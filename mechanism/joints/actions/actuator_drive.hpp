@@ -33,9 +33,7 @@ class ActuatorDrive : public Drive {
  public:
   ActuatorDrive(std::string name, const Joint& joint, std::size_t coordinate, const ForceLimit& limit)
       : Drive(std::move(name), joint, coordinate), limit_(limit) {}
-  void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
-  void add_energy(const LocalState& state, Energy& energy) const final;
   std::unique_ptr<Gatherer> make_gatherer() const final;
   /// Force or torque, and value of the coordinate.
   std::pair<double, double> watched(const LocalState& state) const { return {force(state), value(state).value}; }

@@ -8,6 +8,17 @@
 
 namespace bielle::mechanism {
 
+void Drive::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
+  const double Q = force(state);
+  if (Q == 0) return;
+  CoordinateJet& jet = calc(state);
+  r.segment(row(state), jet.w().size()) -= Q * jet.w();
+}
+
+void Drive::add_energy(const LocalState& state, Energy& energy) const {
+  energy.input += force(state) * value(state).rate;
+}
+
 std::vector<OutputField> Drive::output_fields() const {
   return {
       force_field("drive_force", "force or torque of the drives along the joint's coordinates; zero where none acts")};

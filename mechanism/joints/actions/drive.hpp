@@ -29,6 +29,11 @@ class Drive : public CoordinateAction {
   /// It lets go where the measure crosses a value. Called once the model is read.
   void release_when(const Measure& measure, double value, Crossing::Direction direction);
 
+  /// Adds `force` along the coordinate, and its power. Drives that keep a motion by a constraint have rows in its
+  /// place.
+  void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
+  void add_energy(const LocalState& state, Energy& energy) const override;
+
   std::vector<OutputField> output_fields() const final;
   void write_output(const LocalState& state, double* values) const final { write_force(force(state), values); }
   void describe(const LocalState& state, Description& description) const final;

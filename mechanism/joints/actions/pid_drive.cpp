@@ -135,7 +135,7 @@ double PidDrive::windup_rate(double side, double u) const {
 }
 
 void PidDrive::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
-  ActuatorDrive::add_residual(state, r);
+  Drive::add_residual(state, r);
   if (!integrates() && !filters()) return;
   const Loop now = loop(state);
   if (integrates() && !keeps_integral(state)) {

@@ -48,13 +48,6 @@ void SoughtDrive::declare(Declaration& declaration) const {
   declaration.memory.push_back(0);
 }
 
-void SoughtDrive::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
-  const double u = force(state);
-  if (u == 0) return;
-  CoordinateJet& jet = calc(state);
-  r.segment(row(state), jet.w().size()) -= u * jet.w();
-}
-
 void SoughtDrive::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   const double u = force(state);
   if (!tangent.wants_K || u == 0) return;
@@ -62,10 +55,6 @@ void SoughtDrive::add_tangent(const LocalState& state, LocalTangent& tangent) co
   const int at = row(state);
   const auto n = jet.w().size();
   tangent.K.dense().block(at, at, n, n) -= u * jet.W();
-}
-
-void SoughtDrive::add_energy(const LocalState& state, Energy& energy) const {
-  energy.input += force(state) * value(state).rate;
 }
 
 std::unique_ptr<Gatherer> SoughtDrive::make_gatherer() const { return std::make_unique<LargestEffort>(*this); }

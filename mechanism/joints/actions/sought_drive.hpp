@@ -17,9 +17,7 @@ class SoughtDrive final : public Drive, public SoughtEffort {
   SoughtDrive(std::string name, const Joint& joint, std::size_t coordinate, std::vector<int> moves)
       : Drive(std::move(name), joint, coordinate), moves_(std::move(moves)) {}
   void declare(Declaration& declaration) const override;
-  void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
-  void add_energy(const LocalState& state, Energy& energy) const override;
   std::unique_ptr<Gatherer> make_gatherer() const override;
   Sought sought() const override;
   double force(const LocalState& state) const override { return state.memory()[own_memory()]; }
