@@ -156,6 +156,8 @@ class Session {
   void write(const ResultNames& names);
   void end_analysis();                        ///< writes what components have gathered
   void abandon_analysis() { open_ = false; }  ///< it has failed: nothing more is recorded of it
+  /// Call at each state that an analysis has found: an accepted step, a start, an equilibrium in rotation.
+  void gather(const State& state, const Environment& environment);
   /// What components have gathered over the steps of this analysis, in lines for the user.
   std::string gathered() { return gatherers_.summary(); }
   long rows() const { return rows_; }  ///< recorded in this analysis
@@ -169,8 +171,6 @@ class Session {
   /// What the model asks of a start, until something has started.
   StartConditions start_conditions() const;
   void record(const State& state, const Environment& environment, const StepRecord& step);
-  /// A step was accepted, or something starts here: for what is gathered over all steps.
-  void gather(const State& state, const Environment& environment);
   /// The state with the reactions to report.
   const State& reported(const State& state, const Environment& environment) const;
   void call_back();

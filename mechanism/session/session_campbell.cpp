@@ -14,7 +14,7 @@ namespace {
 /// States of a rotor at values of what is swept.
 class CampbellStates {
  public:
-  CampbellStates(const Session& session, const CampbellOptions& options) : session_(session), options_(options) {}
+  CampbellStates(Session& session, const CampbellOptions& options) : session_(session), options_(options) {}
 
   /// Axes and setting are those of the last value, and its motion steady in them if any is.
   void begin(Campbell& found) {
@@ -62,7 +62,9 @@ class CampbellStates {
     options.energies = false;
     if (options_.parameter.empty()) {
       set_rotation(value, options);
-      use(session_.system(), session_.modes(options));
+      const ModesReport report = session_.modes(options);
+      if (options.rotation) session_.gather(report.about.state, report.about.environment);
+      use(session_.system(), report);
       return;
     }
     Model model = made(value);
@@ -130,7 +132,7 @@ class CampbellStates {
     return most;
   }
 
-  const Session& session_;
+  Session& session_;
   const CampbellOptions& options_;
   std::optional<ModeAxes> axes_;
   Vector3 axis_ = Vector3::Zero();

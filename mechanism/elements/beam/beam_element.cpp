@@ -21,6 +21,7 @@ using Vector12 = Eigen::Matrix<double, 12, 1>;
 using Matrix12 = Eigen::Matrix<double, 12, 12>;
 using Matrix6x12 = Eigen::Matrix<double, 6, 12>;
 using Matrix12x6 = Eigen::Matrix<double, 12, 6>;
+using Matrix3x6 = Eigen::Matrix<double, 3, 6>;
 
 /// Resultants at a section of an element of relative motion d that is in equilibrium, of its f: the nodal wrench at B,
 /// T6^-T(d) f, carried there. @param section  in the axes of the section frame at B
@@ -57,6 +58,16 @@ Matrix6 element_stiffness(const ElementSections& sections, const BeamReference& 
   return symmetric_inverse(sum);
 }
 
+/// Q of the stretch by bending, see the head of beam_element.hpp.
+Matrix6 bowing(const Matrix6& stiffness, const ElementSections& sections, const Vector3& along) {
+  const Matrix3 across = Matrix3::Identity() - along * along.transpose();
+  Matrix3x6 of_sections = Matrix3x6::Zero();
+  for (std::size_t g = 0; g < 3; ++g)
+    of_sections += Gauss3::weight[g] * symmetric_inverse(sections.at[g].stiffness).topRows<3>();
+  const Matrix3x6 bent = across * (Matrix3x6::Identity() - of_sections * stiffness);  // gamma_b of e
+  return bent.transpose() * bent;
+}
+
 }  // namespace
 
 BeamElement::BeamElement(std::string name, BeamPlace place, int node_a, int node_b, const Matrix3& R_A,
@@ -70,6 +81,7 @@ BeamElement::BeamElement(std::string name, BeamPlace place, int node_a, int node
       R_B_(R_B),
       d0_(reference.d0),
       L_(reference.length),
+      along_(d0_.head<3>().normalized()),
       bending_(bending),
       stiffness_(element_stiffness(sections, reference, bending)),
       section_(sections.middle()),
@@ -77,15 +89,9 @@ BeamElement::BeamElement(std::string name, BeamPlace place, int node_a, int node
       mass_(L_ * sections.mean_mass()),
       damping_(damping),
       inertia_(sections, R_A, R_B, reference) {
-  to_middle_.setIdentity();
   if (bending == BeamBending::constant) return;
   to_middle_ = flexibility_ * equilibrium(d0_, exp_se3(-0.5 * d0_)) * stiffness_;
-  const Vector3 along = d0_.head<3>().normalized();
-  const Matrix3 across = Matrix3::Identity() - along * along.transpose();
-  const Matrix3 shear = across * symmetric_inverse(stiffness_).topLeftCorner<3, 3>() * across;
-  // The larger of its two eigenvalues, by their sum and the sum of their squares.
-  const double sum = shear.trace();
-  sideways_ = 0.5 * (sum + std::sqrt(std::max(0.0, 2 * shear.squaredNorm() - sum * sum)));
+  bowing_ = bowing(stiffness_, sections, along_);
 }
 
 void BeamElement::declare(Declaration& declaration) const {
@@ -102,9 +108,17 @@ struct BeamElement::Deformation {
   Matrix3 R_A, R_B;  ///< section axes -> inertial
   Vector6 d;
   Matrix6x12 P;
-  Vector12 v;  ///< body velocities of the section frames
+  Vector12 v;             ///< body velocities of the section frames
+  Vector6 bows;           ///< dq/de
+  Matrix6 bows_gradient;  ///< d2q/de2
+  Matrix6x12 S;           ///< J P
   Vector6 eps, epsdot;
-  Vector6 f;  ///< resultants
+  Vector6 f;  ///< of the strains
+
+  /// J^T times resultants of the strains: those that work on e.
+  Vector6 of_motion(const Vector6& resultants, const Vector3& along) const {
+    return resultants + bows * along.dot(resultants.head<3>());
+  }
 };
 
 Vector6 BeamElement::relative_motion(const LocalState& state, const Matrix3& R_A, const Matrix3& R_B) const {
@@ -144,15 +158,28 @@ BeamElement::Deformation BeamElement::deformation(const LocalState& state) const
   D.P << -inverse.topLeftCorner<3, 3>().transpose(), -inverse.topRightCorner<3, 3>().transpose(), inverse.topRows<3>(),
       Matrix3::Zero(), -inverse.topLeftCorner<3, 3>().transpose(), inverse.bottomRows<3>();
   D.v << D.R_A.transpose() * A.v, R_A_.transpose() * A.Omega, D.R_B.transpose() * B.v, R_B_.transpose() * B.Omega;
-  D.eps = (D.d - d0_) / L_;
-  D.epsdot = D.P * D.v / L_;
+  const Vector6 e = (D.d - d0_) / L_;
+  const double chord = D.d.head<3>().norm() / L_;
+  Vector6 n;
+  n << D.d.head<3>() / (chord * L_), Vector3::Zero();
+  const Vector6 Qe = bowing_ * e;
+  const double ratio = e.dot(Qe) / chord;
+  D.bows = (1.2 * Qe - 0.6 * ratio * n) / chord;
+  D.bows_gradient =
+      1.2 / chord * (bowing_ - (Qe * n.transpose() + n * Qe.transpose() - 1.5 * ratio * n * n.transpose()) / chord);
+  D.bows_gradient.topLeftCorner<3, 3>().diagonal().array() -= 0.6 * ratio / (chord * chord);
+  D.eps = e;
+  D.eps.head<3>() += 0.6 * ratio * along_;
+  D.S = D.P;
+  D.S.topRows<3>() += along_ * (D.bows.transpose() * D.P);
+  D.epsdot = D.S * D.v / L_;
   D.f = stiffness_ * (D.eps + damping_ * D.epsdot);
   return D;
 }
 
 void BeamElement::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
   const Deformation D = deformation(state);
-  const Vector12 F = D.P.transpose() * D.f;
+  const Vector12 F = D.S.transpose() * D.f;
   r.segment<3>(0) += D.R_A * F.segment<3>(0);
   r.segment<3>(3) += R_A_ * F.segment<3>(3);
   r.segment<3>(6) += D.R_B * F.segment<3>(6);
@@ -176,30 +203,36 @@ void add_rotated(const Matrix12& A, const std::array<Matrix3, 4>& U, Eigen::Ref<
 
 }  // namespace
 
-// In body increments of the section frames (12x12, F = P^T f):
-//   K_b = P^T C_e P/L + [G(-d,f); G(d,f)] P + P^T C_d depsdot/dh,     C_b = P^T C_d P/L
-//   L depsdot/dh = [D(d, v_B) + D(-d, v_A)] P + P [0 (R_k^T xdot_k)~; 0 0]_k,   D(d, w) = d(T6^-1(d) w)/dd
+// In body increments of the section frames (12x12, F = P^T J^T f, n = t . f):
+//   K_b = P^T J^T (C_e J P/L + C_d depsdot/dh) + ([G(-d, J^T f); G(d, J^T f)] + P^T (n/L) d2q/de2) P,
+//   C_b = P^T J^T C_d J P/L
+//   L depsdot/dh = J W + (t/L) (P v)^T d2q/de2 P,
+//   W = d(P v)/dh = [D(d, v_B) + D(-d, v_A)] P + P [0 (R_k^T xdot_k)~; 0 0]_k,   D(d, w) = d(T6^-1(d) w)/dd
 // and for the nodes, with dh_k = [R_Sk^T dx; R_k^T dTheta] (R_Sk section axes, R_k their constant place in the node):
 //   K = Q^T K_b Q and in the blocks (x_k, Theta_k) the turning of the force with its node, -R_Sk F_u,k~ R_k^T.
 void BeamElement::add_stiffness(const Deformation& D, Eigen::Ref<MatrixX> K) const {
-  const Vector12 F = D.P.transpose() * D.f;
+  const Vector12 F = D.S.transpose() * D.f;
+  const Vector6 f_of_motion = D.of_motion(D.f, along_);
   Matrix12x6 G;
-  G << inverse_transpose_gradient_se3(-D.d, D.f), inverse_transpose_gradient_se3(D.d, D.f);
-  Matrix6x12 f_gradient = stiffness_ * D.P / L_;
+  G << inverse_transpose_gradient_se3(-D.d, f_of_motion), inverse_transpose_gradient_se3(D.d, f_of_motion);
+  G += D.P.transpose() * (along_.dot(D.f.head<3>()) / L_ * D.bows_gradient);
+  Matrix6x12 f_gradient = stiffness_ * D.S / L_;
   if (damping_ > 0) {
     const Matrix6 along_d =
         tangent_se3_inverse_gradient(D.d, D.v.tail<6>()) + tangent_se3_inverse_gradient(-D.d, D.v.head<6>());
     Matrix6x12 rate_gradient = along_d * D.P;
     for (Eigen::Index k : {0, 6}) rate_gradient.middleCols<3>(k + 3) += D.P.middleCols<3>(k) * skew(D.v.segment<3>(k));
+    const Vector6 bows_rate = D.bows_gradient * (D.P * D.v) / L_;
+    rate_gradient.topRows<3>() += along_ * (D.bows.transpose() * rate_gradient + bows_rate.transpose() * D.P).eval();
     f_gradient += damping_ / L_ * stiffness_ * rate_gradient;
   }
-  const Matrix12 K_b = D.P.transpose() * f_gradient + G * D.P;
+  const Matrix12 K_b = D.S.transpose() * f_gradient + G * D.P;
   add_rotated(K_b, {D.R_A, R_A_, D.R_B, R_B_}, K);
   K.block<3, 3>(0, 3) -= D.R_A * skew(F.segment<3>(0)) * R_A_.transpose();
   K.block<3, 3>(6, 9) -= D.R_B * skew(F.segment<3>(6)) * R_B_.transpose();
 }
 
-// f = C (eps + P h/L), h the step in body increments of the section frames.
+// f = C (eps + J P h/L), h the step in body increments of the section frames.
 Vector6 BeamElement::predicted_resultants(const LocalState& before, const LocalState& state) const {
   const Deformation D = deformation(before);
   Vector12 h;
@@ -208,7 +241,7 @@ Vector6 BeamElement::predicted_resultants(const LocalState& before, const LocalS
     h.segment<3>(6 * k) = R_S.transpose() * (state.node(k).x - before.node(k).x);
     h.segment<3>(6 * k + 3) = R_k.transpose() * log_so3(before.node(k).R.transpose() * state.node(k).R);
   }
-  return stiffness_ * (D.eps + D.P * h / L_);
+  return stiffness_ * (D.eps + D.S * h / L_);
 }
 
 void BeamElement::add_tangent(const LocalState& state, LocalTangent& tangent) const {
@@ -219,8 +252,8 @@ void BeamElement::add_tangent(const LocalState& state, LocalTangent& tangent) co
       D.f = predicted_resultants(LocalState(*before, state.slots(), state.environment()), state);
     if (tangent.wants_K) add_stiffness(D, tangent.K.dense());
     if (wants_damping) {
-      const Matrix6x12 f_gradient = damping_ / L_ * stiffness_ * D.P;
-      const Matrix12 C_b = D.P.transpose() * f_gradient;
+      const Matrix6x12 f_gradient = damping_ / L_ * stiffness_ * D.S;
+      const Matrix12 C_b = D.S.transpose() * f_gradient;
       add_rotated(C_b, {D.R_A, R_A_, D.R_B, R_B_}, tangent.C.dense());
     }
   }
@@ -260,11 +293,12 @@ double BeamElement::largest_strain(const LocalState& state) const {
   return section_.largest_strain(to_middle_ * (d - d0_) / L_);
 }
 
-double BeamElement::tension_share(const LocalState& state) const {
-  if (bending_ == BeamBending::constant) return 0;
-  const Vector6 d = relative_motion(state, state.node(0).R * R_A_, state.node(1).R * R_B_);
-  const Vector3 force = (stiffness_ * (d - d0_)).head<3>() / L_;
-  return std::max(0.0, force.dot(d0_.head<3>().normalized()) * sideways_);
+double BeamElement::bending_layers(const LocalState& state) const {
+  const double tension = along_.dot(deformation(state).f.head<3>());
+  const Matrix3 across = Matrix3::Identity() - along_ * along_.transpose();
+  const Matrix3 bending = across * flexibility_.bottomRightCorner<3, 3>() * across;
+  const double sum = bending.trace(), difference = std::sqrt(std::max(0.0, 2 * bending.squaredNorm() - sum * sum));
+  return L_ * std::sqrt(std::max(0.0, tension) * 0.5 * (sum + difference));  // the larger of two eigenvalues
 }
 
 std::unique_ptr<Gatherer> BeamElement::make_gatherer() const { return std::make_unique<BeamStrainWatch>(*this); }
@@ -287,9 +321,9 @@ void BeamElement::write_output(const LocalState& state, double* values) const {
   // Physical resultants in the middle; constant strain has but one set.
   Matrix6 middle = Matrix6::Identity();
   if (bending_ == BeamBending::residual) middle = equilibrium(D.d, exp_se3(-0.5 * D.d));
-  const Vector6 f = middle * D.f;
+  const Vector6 f = middle * D.of_motion(D.f, along_);
   Eigen::Map<Vector12> out(values);
-  out << flexibility_ * middle * stiffness_ * D.eps, f;
+  out << flexibility_ * middle * D.of_motion(stiffness_ * D.eps, along_), f;
   double* stress = values + 12;
   double* von_mises = stress + 3 * section_.stress.size();
   for (std::size_t p = 0; p < section_.stress.size(); ++p) {

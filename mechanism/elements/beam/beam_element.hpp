@@ -1,11 +1,10 @@
 // One geometrically exact beam element: two nodes, a helix between them.
 //
 // Section frames H_A, H_B ride on nodes A and B. With d = log6(H_A^-1 H_B) = [u; psi], d0 its stress-free value and the
-// length L (|d0_u| of a helix) the interpolation H(s) = H_A exp6(s d/L) has the constant strain eps = [Gamma; Kappa] =
-// (d
-// - d0)/L. Then
+// length L (|d0_u| of a helix) the interpolation H(s) = H_A exp6(s d/L) has the constant strain [Gamma; Kappa] =
+// e = (d - d0)/L; eps = e but for the stretch by bending, see below. Then
 //     dd = P [dh_A; dh_B],   P = [-T6^-1(-d), T6^-1(d)]     (dh body increments of the section frames)
-//     V = (L/2) eps^T C_e eps,   f = C_e eps + C_d epsdot,   epsdot = P v/L,   forces P^T f
+//     deps = J de,   V = (L/2) eps^T C_e eps,   f = C_e eps + C_d epsdot,   epsdot = J P v/L,   forces P^T J^T f
 // Objective, path-independent, free of locking, exact for constant strain. Reference: V. Sonneville, A. Cardona, O.
 // Bruls, CMAME 268 (2014) 451.
 //
@@ -20,14 +19,24 @@
 // linear stiffness is then exact for any 6x6 C, straight, curved, twisted or both; that of a tapered element converges
 // with the sixth power of its length. A uniform straight element has the well-known
 //     C_e^-1 = C^-1 + L^2/12 diag(t~^T S t~, 0),   t = d0_u/L,   S the lower right 3x3 of C^-1
-// (R. MacNeal, Comput. Struct. 8 (1978) 175). f = C_e eps; the physical resultants in the middle are A(1/2) f, now at
-// d, and the physical strain there is C^-1 A(1/2) f: these are what the results hold. (Without all this, `bending:
-// constant`: C_e the mean of C; eps and f themselves are the strain and the resultants.)
+// (R. MacNeal, Comput. Struct. 8 (1978) 175). The physical resultants in the middle are A(1/2) J^T f, now at d, and the
+// physical strain there is C^-1 A(1/2) J^T f: these are what the results hold. (Without all this, `bending: constant`:
+// C_e the mean of C; eps and f themselves are the strain and the resultants.)
 //
-// Limits: tension well below 12 EI/L^2 of an element (tension_share); finer elements bear more, and `bending: constant`
-// has no such limit. The ends of one element turn by less than 180 degrees against each other (`largest_turn` at the
-// end of a step); an error advises to refine. The relative rotation may well grow over several elements. Strains are
-// small enough for a linear law of the resultants.
+// Stretch by bending (bowing). Of the shear across the chord, t = d0_u/L, the part that the sections do not take,
+//     gamma_b = [e - S C_e e]_u - t (t . ..),   S the mean of C^-1,
+// is an S-shaped bending of slope v' = 6 gamma_b (1/12 - z^2) at -1/2 <= z <= 1/2. The helix takes it for shear,
+// -gamma_b^2/2 of stretch, where the bent line has +gamma_b^2/10. The difference
+//     eps = e + t q,   q = (3/5) gamma_b^2/rho,   gamma_b^2 = e^T Q e,   rho = |d_u|/L,   J = I + t dq/de
+// makes the geometric stiffness of a straight slender element the consistent one of the cubic beam (J. Przemieniecki,
+// Theory of Matrix Structural Analysis, 1968, ch. 15); without it, an element under a tension of 12 EI/L^2 yields
+// sideways. The length rho of the chord is one but for the strain; wild iterates of Newton's method, whose chords are
+// long, would be far stiffer without it. Products of gamma_b with shear and stretch of the section are left to the
+// mesh.
+//
+// Limits: the ends of one element turn by less than 180 degrees against each other (`largest_turn` at the end of a
+// step); an error advises to refine. The relative rotation may well grow over several elements. Strains are small
+// enough for a linear law of the resultants.
 #pragma once
 
 #include <memory>
@@ -83,10 +92,9 @@ class BeamElement : public Component {
   bool knows_its_shape() const { return !section_.reach.isZero(); }  ///< else the section is given by constants
   /// In the middle, see beam_strain.hpp; to first order in how far the element itself bends.
   double largest_strain(const LocalState& state) const;
-  /// The resultant along d0 [N] over what the element bears: residual flexibility counts as shear, and under a tension
-  /// of the element's effective shear stiffness, 12 EI/L^2 of a slender one, it yields sideways as no beam does. 0 for
-  /// `bending: constant`.
-  double tension_share(const LocalState& state) const;
+  /// Length of the element over l = sqrt(EI/N), within which bending fades from an end under the tension N; 0 without
+  /// tension. EI is that of the softer direction.
+  double bending_layers(const LocalState& state) const;
   std::unique_ptr<Gatherer> make_gatherer() const override;
 
  private:
@@ -104,13 +112,14 @@ class BeamElement : public Component {
   Matrix3 R_A_, R_B_;
   Vector6 d0_;
   double L_;
+  Vector3 along_;  ///< t
   BeamBending bending_;
-  Matrix6 stiffness_;    ///< C_e
-  BeamSection section_;  ///< in the middle
-  Matrix6 flexibility_;  ///< C^-1 in the middle
-  Matrix6 to_middle_;    ///< eps -> strain in the middle, at the reference
-  double sideways_ = 0;  ///< effective compliance of shear [1/N], see tension_share
-  double mass_;          ///< [kg]
+  Matrix6 stiffness_;                        ///< C_e
+  BeamSection section_;                      ///< in the middle
+  Matrix6 flexibility_;                      ///< C^-1 in the middle
+  Matrix6 to_middle_ = Matrix6::Identity();  ///< e -> strain in the middle, at the reference
+  Matrix6 bowing_ = Matrix6::Zero();         ///< Q
+  double mass_;                              ///< [kg]
   double damping_;
   BeamInertia inertia_;
 };

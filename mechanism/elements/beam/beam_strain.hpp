@@ -9,7 +9,6 @@
 // given by constants are taken as rectangles, b = sqrt(3 EI/EA), of Poisson's ratio 0.3.
 #pragma once
 
-#include <algorithm>
 #include <string>
 
 #include "mechanism/elements/beam/beam_element.hpp"
@@ -17,8 +16,8 @@
 
 namespace bielle::mechanism {
 
-/// The watch keeps the largest strain of a beam element over all steps. The element that is strained most speaks for
-/// its beam.
+/// The watch keeps the largest strain of a beam element over all steps, and whether its length resolves bending under
+/// tension. The element that is farthest beyond a bound speaks for its beam.
 class BeamStrainWatch final : public Gatherer {
  public:
   explicit BeamStrainWatch(const BeamElement& element) : element_(element) {}
@@ -30,12 +29,12 @@ class BeamStrainWatch final : public Gatherer {
   std::string summary() override;
   std::string what() const override;
   std::string voice() const override;
-  double loudness() const override { return std::max(strain_, tension_); }
+  double loudness() const override;
 
  private:
   const BeamElement& element_;
   double strain_ = 0, time_ = 0;
-  double tension_ = 0;    ///< BeamElement::tension_share
+  double layers_ = 0;     ///< BeamElement::bending_layers
   bool statics_ = false;  ///< the time is a load factor
 };
 

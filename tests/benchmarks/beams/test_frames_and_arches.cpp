@@ -191,7 +191,7 @@ TEST_CASE("a shallow arch bifurcates to its side before it snaps through") {
 
 TEST_CASE("the limit load of a shallow arch that is kept symmetric") {
   std::vector<double> upper, upper_with_shear;
-  for (const int elements : {8, 16, 32}) {
+  for (const int elements : {4, 8, 16}) {  // at 32 nothing but a part of second order is left, 2e-6
     for (const double GA : {without_shear, with_shear}) {
       StaticModel arch = shallow_arch(elements, GA);
       REQUIRE(arch.load(10, 1e-6, 60) >= 0);
@@ -201,6 +201,6 @@ TEST_CASE("the limit load of a shallow arch that is kept symmetric") {
   }
   check_order(upper, 85.507018218);
   check_order(upper_with_shear, 85.327464798);
-  CHECK_THAT(upper.back(), Catch::WithinRel(85.507018218, 1e-3));
-  CHECK_THAT(upper_with_shear.back(), Catch::WithinRel(85.327464798, 1e-3));
+  CHECK_THAT(upper.back(), Catch::WithinRel(85.507018218, 1e-5));
+  CHECK_THAT(upper_with_shear.back(), Catch::WithinRel(85.327464798, 1e-4));
 }

@@ -133,14 +133,14 @@ TEST_CASE("Lee's frame: points of the path before, between and past its limit po
                                 {until("y", -90.549538712821), {0.860733595354, 86.652248582013, 90.549538712821}}};
   for (const Case& c : cases) {
     std::vector<double> errors;
-    for (const int elements : {10, 20, 40}) {
+    for (const int elements : {5, 10, 20}) {  // from 40 on nothing but a small part of second order is left, 1e-6
       const Point end = Path(lees_frame(elements, 4320 / 2.6, c.end)).end;
       errors.push_back(std::hypot((end.P - c.exact.P), (end.u - c.exact.u) / 120, (end.v - c.exact.v) / 120));
     }
     CAPTURE(c.end, errors);
     CHECK(std::log2(errors[0] / errors[1]) > 1.9);
     CHECK(std::log2(errors[1] / errors[2]) > 1.9);
-    CHECK(errors[2] < 1e-3);
+    CHECK(errors[2] < 1e-4);
   }
 }
 
@@ -184,7 +184,7 @@ TEST_CASE("a shallow arch: the path passes its bifurcation and both limit points
   for (const auto& [GA, exact] : {std::pair(without_shear, Point{85.507018218, 0, 2.414187377}),
                                   std::pair(with_shear, Point{85.327464798, 0, 2.415148140})}) {
     std::vector<Point> upper, lower;
-    for (const int elements : {8, 16, 32}) {
+    for (const int elements : {4, 8, 16}) {  // at 32 nothing but a part of second order is left, 2e-6
       const std::string section = fmt::format(
           ", elements: {}, orientation: [0, 1, 0], section: {{EA: 1e6, GAy: {}, GAz: {}, GJ: 1e5, EIy: 1e6/12, EIz: "
           "1e6/12}}}}\n",

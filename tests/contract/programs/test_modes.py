@@ -50,6 +50,17 @@ class Modes(CommandTest):
             self.assertNotIn("displacement", file["/eigen"])
             self.assertNotIn("time", file["/analysis_2"])
 
+    def test_elements_too_long_for_the_tension_of_a_rotation_are_told(self):
+        blade = """\
+nodes: {{hub: {{position: [0.1, 0, 0], fixed: true}}, tip: {{position: [1.1, 0, 0]}}}}
+elements: {{blade: {{type: beam, nodes: [hub, tip], elements: {elements}, orientation: [0, 0, 1],
+  section: {{rectangle: [0.03, 0.005], young: 7e10, poisson: 0.3, density: 2700}}}}}}
+analysis: [{{type: eigen, count: 2, rotation: {{rate: 200, axis: [0, 0, 1]}}}}]
+"""
+        self.assertIn("DOUBTFUL: under its tension beam 'blade' bends next to its ends within 0.0",
+                      self.summary(blade.format(elements=2)))
+        self.assertNotIn("DOUBTFUL", self.summary(blade.format(elements=8)))
+
     def test_what_nothing_determines_is_named(self):
         # Forces on a node without mass, stiffness or constraint.
         self.write("model.yaml", """\

@@ -58,23 +58,24 @@ TEST_CASE("of a beam's elements the one that is strained most speaks") {
 }
 
 TEST_CASE("a beam whose elements are too long for its tension says so") {
-  // Under N = 12 EI/L^2 of an element, a strain of 3 (r/L)^2 = 0.48 %, residual flexibility yields sideways; shear adds
-  // N/(G A k), of which 2.9 times the strain is less than a fiftieth here.
+  // N = EA strain; l = sqrt(EI/N) = (r/2)/sqrt(strain) = 5 mm/sqrt(strain) fits seven times into an element of 1/2 m
+  // from a strain of 0.49 % on.
   const auto says = [](double strain, const std::string& more) {
     const ReadyModel model(
-        "nodes: {a: {fixed: true}, b: {position: [1, 0, 0]}}\nelements: {one: {type: beam, nodes: [a, b], elements: 4, "
+        "nodes: {a: {fixed: true}, b: {position: [1, 0, 0]}}\nelements: {one: {type: beam, nodes: [a, b], elements: 2, "
         "section: {circle: 0.01, young: 2e11, poisson: 0.3, density: 7800}" +
         more + "}}\n");
     Gatherers gatherers(model.file.model);
     gatherers.begin();
     State state = model.system.start(0);
-    state.nodes[static_cast<std::size_t>(*model.file.model.find_node("b"))].x.x() += 0.25 * strain;
+    state.nodes[static_cast<std::size_t>(*model.file.model.find_node("b"))].x.x() += 0.5 * strain;
     gatherers.add(state, model.system.slots(), model.environment());
     return gatherers.summary();
   };
-  CHECK_THAT(says(0.003, ""),
-             Contains("DOUBTFUL: beam 'one' is pulled by 63 % of the tension") && Contains("take at least 18 of them"));
-  CHECK(says(0.001, "").empty());
-  CHECK(says(-0.003, "").empty());
-  CHECK(says(0.003, ", bending: constant").empty());
+  CHECK_THAT(says(0.006, ""),
+             Contains("DOUBTFUL: under its tension beam 'one' bends next to its ends within 0.065 m") &&
+                 Contains("are 0.5 m long: take at least 5 of them"));
+  CHECK(says(0.004, "").empty());
+  CHECK(says(-0.006, "").empty());
+  CHECK_THAT(says(0.006, ", bending: constant"), Contains("take at least 5 of them"));
 }

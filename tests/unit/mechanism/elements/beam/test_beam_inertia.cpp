@@ -325,7 +325,7 @@ elements:
       all << energy.kinetic + energy.elastic, P, L;
       return all;
     };
-    const Eigen::Matrix<double, 7, 1> size = invariants(0), rate = bielle::test::derivative(invariants, 0.01);
+    const Eigen::Matrix<double, 7, 1> size = invariants(0), rate = bielle::test::derivative(invariants, 0.005);
     CAPTURE(seed, size.transpose(), rate.transpose());
     CHECK(rate.cwiseAbs().maxCoeff() < 1e-10 * size.cwiseAbs().maxCoeff());
   }
