@@ -108,10 +108,13 @@ struct BeamElement::Deformation {
   Matrix3 R_A, R_B;  ///< section axes -> inertial
   Vector6 d;
   Matrix6x12 P;
-  Vector12 v;             ///< body velocities of the section frames
-  Vector6 bows;           ///< dq/de
-  Matrix6 bows_gradient;  ///< d2q/de2
-  Matrix6x12 S;           ///< J P
+  Vector12 v;    ///< body velocities of the section frames
+  double chord;  ///< rho
+  Vector6 n;     ///< drho/de
+  Vector6 Qe;
+  double ratio;  ///< e^T Q e/rho
+  Vector6 bows;  ///< dq/de
+  Matrix6x12 S;  ///< J P
   Vector6 eps, epsdot;
   Vector6 f;  ///< of the strains
 
@@ -159,22 +162,26 @@ BeamElement::Deformation BeamElement::deformation(const LocalState& state) const
       Matrix3::Zero(), -inverse.topLeftCorner<3, 3>().transpose(), inverse.bottomRows<3>();
   D.v << D.R_A.transpose() * A.v, R_A_.transpose() * A.Omega, D.R_B.transpose() * B.v, R_B_.transpose() * B.Omega;
   const Vector6 e = (D.d - d0_) / L_;
-  const double chord = D.d.head<3>().norm() / L_;
-  Vector6 n;
-  n << D.d.head<3>() / (chord * L_), Vector3::Zero();
-  const Vector6 Qe = bowing_ * e;
-  const double ratio = e.dot(Qe) / chord;
-  D.bows = (1.2 * Qe - 0.6 * ratio * n) / chord;
-  D.bows_gradient =
-      1.2 / chord * (bowing_ - (Qe * n.transpose() + n * Qe.transpose() - 1.5 * ratio * n * n.transpose()) / chord);
-  D.bows_gradient.topLeftCorner<3, 3>().diagonal().array() -= 0.6 * ratio / (chord * chord);
+  D.chord = D.d.head<3>().norm() / L_;
+  D.n << D.d.head<3>() / (D.chord * L_), Vector3::Zero();
+  D.Qe.noalias() = bowing_ * e;
+  D.ratio = e.dot(D.Qe) / D.chord;
+  D.bows = (1.2 * D.Qe - 0.6 * D.ratio * D.n) / D.chord;
   D.eps = e;
-  D.eps.head<3>() += 0.6 * ratio * along_;
+  D.eps.head<3>() += 0.6 * D.ratio * along_;
   D.S = D.P;
   D.S.topRows<3>() += along_ * (D.bows.transpose() * D.P);
   D.epsdot = D.S * D.v / L_;
   D.f = stiffness_ * (D.eps + damping_ * D.epsdot);
   return D;
+}
+
+Matrix6 BeamElement::bows_gradient(const Deformation& D) const {
+  Matrix6 gradient =
+      1.2 / D.chord *
+      (bowing_ - (D.Qe * D.n.transpose() + D.n * D.Qe.transpose() - 1.5 * D.ratio * D.n * D.n.transpose()) / D.chord);
+  gradient.topLeftCorner<3, 3>().diagonal().array() -= 0.6 * D.ratio / (D.chord * D.chord);
+  return gradient;
 }
 
 void BeamElement::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
@@ -213,16 +220,17 @@ void add_rotated(const Matrix12& A, const std::array<Matrix3, 4>& U, Eigen::Ref<
 void BeamElement::add_stiffness(const Deformation& D, Eigen::Ref<MatrixX> K) const {
   const Vector12 F = D.S.transpose() * D.f;
   const Vector6 f_of_motion = D.of_motion(D.f, along_);
+  const Matrix6 bows_gradient = this->bows_gradient(D);
   Matrix12x6 G;
   G << inverse_transpose_gradient_se3(-D.d, f_of_motion), inverse_transpose_gradient_se3(D.d, f_of_motion);
-  G += D.P.transpose() * (along_.dot(D.f.head<3>()) / L_ * D.bows_gradient);
+  G.noalias() += D.P.transpose() * (along_.dot(D.f.head<3>()) / L_ * bows_gradient);
   Matrix6x12 f_gradient = stiffness_ * D.S / L_;
   if (damping_ > 0) {
     const Matrix6 along_d =
         tangent_se3_inverse_gradient(D.d, D.v.tail<6>()) + tangent_se3_inverse_gradient(-D.d, D.v.head<6>());
     Matrix6x12 rate_gradient = along_d * D.P;
     for (Eigen::Index k : {0, 6}) rate_gradient.middleCols<3>(k + 3) += D.P.middleCols<3>(k) * skew(D.v.segment<3>(k));
-    const Vector6 bows_rate = D.bows_gradient * (D.P * D.v) / L_;
+    const Vector6 bows_rate = bows_gradient * (D.P * D.v) / L_;
     rate_gradient.topRows<3>() += along_ * (D.bows.transpose() * rate_gradient + bows_rate.transpose() * D.P).eval();
     f_gradient += damping_ / L_ * stiffness_ * rate_gradient;
   }

@@ -103,6 +103,7 @@ class BeamElement : public Component {
   Vector6 relative_motion(const LocalState& state, const Matrix3& R_A, const Matrix3& R_B) const;
   [[noreturn]] void refuse(const LocalState& state, const std::string& why, const char* or_else) const;
   Deformation deformation(const LocalState& state) const;
+  Matrix6 bows_gradient(const Deformation& D) const;  ///< d2q/de2
   /// Resultants that a linear step from one state to another predicts. See Environment::before.
   Vector6 predicted_resultants(const LocalState& before, const LocalState& state) const;
   void add_stiffness(const Deformation& D, Eigen::Ref<MatrixX> K) const;
