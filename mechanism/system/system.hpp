@@ -27,7 +27,7 @@ class System {
   /// Threads that evaluate costly components and condense their amplitudes; one, unless this is called. Results are the
   /// same for any number.
   void use_threads(int threads) { work_.use_threads(threads); }
-  Workers& workers() const { return work_.workers(); }
+  const Workers& workers() const { return work_.workers(); }
 
   const Model& model() const { return model_; }
   const NodeKinematics& kinematics() const { return kinematics_; }
