@@ -47,15 +47,25 @@ function(bielle_library name)
   set_property(GLOBAL APPEND PROPERTY BIELLE_LIBRARIES bielle_${name})
 endfunction()
 
+# bielle_test_batches(TARGET): six sources of tests are compiled together. A local variable may be called as a constant of another
+# source: the warning about it is left to builds without batches.
+function(bielle_test_batches target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${BIELLE_UNITY} UNITY_BUILD_BATCH_SIZE 6)
+  if(BIELLE_UNITY)
+    target_compile_options(${target} PRIVATE -Wno-shadow)
+  endif()
+endfunction()
+
 # bielle_tests(NAME SOURCES a.cpp ... DEPENDS Bielle::x ... [LABELS long] [SERIAL]): one Catch2 program; each test case is a
 # ctest. SERIAL ones compare times: no other test runs meanwhile.
 function(bielle_tests name)
   cmake_parse_arguments(ARG "SERIAL" "" "SOURCES;DEPENDS;LABELS" ${ARGN})
   add_executable(test_${name} ${ARG_SOURCES})
-  target_link_libraries(test_${name} PRIVATE ${ARG_DEPENDS} Bielle::test_main bielle_warnings)
+  target_link_libraries(test_${name} PRIVATE ${ARG_DEPENDS} Bielle::test_main Bielle::test_eigenvalues bielle_warnings)
   target_compile_definitions(test_${name} PRIVATE BIELLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                                                   BIELLE_BINARY_DIR="${PROJECT_BINARY_DIR}")
   bielle_precompile(test_${name} bielle_test_precompiled)
+  bielle_test_batches(test_${name})
   set(properties "")
   if(ARG_LABELS)
     set(properties PROPERTIES LABELS "${ARG_LABELS}")

@@ -2,7 +2,9 @@
 #include "control_models.hpp"
 #include <catch2/catch.hpp>
 
+#include "tests/support/hinged_rotor.hpp"
 #include "tests/support/messages.hpp"
+#include "tests/support/session_model.hpp"
 
 using bielle::test::rotor;
 using Catch::Contains;

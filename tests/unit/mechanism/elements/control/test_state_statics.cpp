@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "mechanism/session/notes.hpp"
+#include "tests/support/session_model.hpp"
 
 using namespace bielle;
 using namespace bielle::mechanism;

@@ -5,8 +5,10 @@
 #include <catch2/catch.hpp>
 
 #include "mechanism/io/describe_model.hpp"
+#include "tests/support/hinged_rotor.hpp"
 #include "tests/support/runge_kutta.hpp"
 #include "tests/support/second_order.hpp"
+#include "tests/support/session_model.hpp"
 
 using namespace bielle;
 using namespace bielle::mechanism;
