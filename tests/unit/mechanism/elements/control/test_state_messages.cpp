@@ -1,5 +1,4 @@
 // What users read when a state is written wrong.
-#include "control_models.hpp"
 #include <catch2/catch.hpp>
 
 #include "tests/support/hinged_rotor.hpp"

@@ -1,7 +1,6 @@
 // States in motion: closed forms, equivalent ways to write the same thing, where they begin, and going on from a save.
 #include <cmath>
 
-#include "control_models.hpp"
 #include <catch2/catch.hpp>
 
 #include "mechanism/io/describe_model.hpp"
