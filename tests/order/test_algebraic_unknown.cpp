@@ -14,6 +14,7 @@ using namespace bielle::mechanism;
 using bielle::test::OrificesInSeries;
 using bielle::test::SeriesStrut;
 
+namespace test_algebraic_unknown {
 namespace {
 
 constexpr double mass = 2, inertia = 0.05, arm = 0.8, gravity = 9.81;
@@ -185,3 +186,5 @@ elements: {mass: {type: rigid_body, node: mass, mass: 1, inertia: [1, 1, 1]}}
   };
   bielle::test::check_second_order(error, 4e-3, 4);
 }
+
+}  // namespace test_algebraic_unknown

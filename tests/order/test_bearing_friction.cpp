@@ -13,6 +13,7 @@
 using namespace bielle::mechanism;
 using bielle::test::ReadyModel;
 
+namespace test_bearing_friction {
 namespace {
 
 constexpr double m = 2, I = 0.05, l = 0.8, g = 9.81, mu_r = 0.15, w_0 = 2, omega_0 = 2;
@@ -102,3 +103,5 @@ TEST_CASE("the start of a pendulum with bearing friction has the acceleration an
   CHECK_THAT(model.node(integration.state(), "bob").Omegadot.z(), Catch::WithinRel(expected.acceleration, 1e-10));
   CHECK((bearing_force(model, integration.state()) - expected.force).norm() < 1e-9 * expected.force.norm());
 }
+
+}  // namespace test_bearing_friction

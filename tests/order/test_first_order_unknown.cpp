@@ -9,6 +9,7 @@
 using namespace bielle::mechanism;
 using bielle::test::ReadyModel;
 
+namespace test_first_order_unknown {
 namespace {
 
 constexpr double mass = 2, inertia = 0.05, arm = 0.8, gravity = 9.81;
@@ -118,3 +119,5 @@ TEST_CASE("with a first-order unknown all is of order 2 from the first step and 
       }
     }
 }
+
+}  // namespace test_first_order_unknown

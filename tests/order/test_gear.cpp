@@ -16,6 +16,7 @@ using namespace bielle::mechanism;
 using bielle::YamlValue;
 using bielle::test::CoordinateGear;
 
+namespace test_gear {
 namespace {
 
 constexpr double I = 0.3, J = 0.05, m = 2, g = 9.81, rho_0 = 0.6, k = 0.4, omega_0 = 3;
@@ -91,3 +92,5 @@ TEST_CASE("a gear between coordinates of two joints, declared before them, is of
         return errors;
       });
 }
+
+}  // namespace test_gear

@@ -8,6 +8,7 @@
 using namespace bielle::mechanism;
 using bielle::test::ReadyModel;
 
+namespace test_pendulum_errors {
 namespace {
 
 struct Errors {
@@ -71,3 +72,5 @@ TEST_CASE("the pendulum's errors are those of an independent implementation, sch
       CHECK(found.lambda == Approx(expected.lambda).epsilon(&row == rows ? 3e-3 : 2e-4));
     }
 }
+
+}  // namespace test_pendulum_errors

@@ -9,6 +9,7 @@ using bielle::test::EulerPoinsot;
 using bielle::test::integrate;
 using bielle::test::ReadyModel;
 
+namespace test_stabilised {
 namespace {
 
 struct Errors : bielle::test::TopErrors {
@@ -81,3 +82,5 @@ joints: {pin: {type: spherical, nodes: [ground, m], position: [0, 0, 0]}}
   }
   CHECK(unstable > 1);
 }
+
+}  // namespace test_stabilised

@@ -6,10 +6,13 @@
 #include "mechanism/session/memory_sink.hpp"
 #include "mechanism/session/session.hpp"
 #include "tests/support/bounce.hpp"
+#include "tests/support/session_model.hpp"
 
 using namespace bielle::mechanism;
 using bielle::test::Bounce;
+using bielle::test::steps_of;
 
+namespace test_stops {
 namespace {
 
 /// The scheme is exact for it as long as nothing but its weight acts. Weight acts along +q.
@@ -30,14 +33,6 @@ drives: {push: {joint: path, torque: "12.2"}}
 )yaml";
 constexpr double inertia = 0.5 + 2 * 0.36;
 Bounce turn() { return {0.3, 12.2 / inertia, std::sqrt(1100 / inertia), 7.32 / inertia / 2}; }
-
-DynamicsOptions steps_of(double duration, double h, ConstraintForm form = ConstraintForm::corrected) {
-  DynamicsOptions options;
-  options.duration = duration;
-  options.stepping.size = h;
-  options.form = form;
-  return options;
-}
 
 struct Ran {
   Bounce::Point end;
@@ -165,3 +160,5 @@ TEST_CASE("what rests on a stop when the motion begins stays in contact") {
   // (omega h)^2/12 of the phase 15 is 7e-5.
   CHECK(ran.end.q == Approx(size * (1 - std::cos(30 * end))).margin(2e-4 * size));
 }
+
+}  // namespace test_stops

@@ -2,8 +2,11 @@
 
 #include <cmath>
 
-#include <Eigen/Dense>
 #include <Eigen/Geometry>
+
+#include "reduce/common/dense_solves.hpp"
+#include "reduce/common/symmetric_eigenpairs.hpp"
+#include "reduce/dense/dense_products.hpp"
 
 namespace bielle::test {
 namespace {
@@ -93,7 +96,7 @@ struct Full {
       rotary.block(6 * e, 6 * e, 12, 12) += Q.transpose() * j * Q;
     }
     const VectorXd weights = masses.transpose().replicate(3, 1).reshaped();
-    M = F.transpose() * weights.asDiagonal() * F + rotary;
+    M = transposed_product(F, weights.asDiagonal() * F) + rotary;
     rigid.setZero(size, 6);
     for (Eigen::Index n = 0; n <= elements; ++n) {
       const Vector3d X = chain.nodes[static_cast<std::size_t>(n)];
@@ -107,11 +110,11 @@ struct Full {
 
   /// Geometric stiffness under the section forces that `load` raises in the free body, balanced by rigid-body inertia.
   MatrixXd prestress(const BeamChain& chain, const VectorXd& load) const {
-    const MatrixXd MU = M * rigid;
-    const VectorXd balanced = load - MU * (rigid.transpose() * MU).ldlt().solve(rigid.transpose() * load);
+    const MatrixXd MU = product(M, rigid);
+    const VectorXd balanced = load - MU * solve_symmetric(transposed_product(rigid, MU), rigid.transpose() * load);
     const Eigen::Index size = K.rows();
     VectorXd u = VectorXd::Zero(size);
-    u.tail(size - 6) = K.bottomRightCorner(size - 6, size - 6).ldlt().solve(balanced.tail(size - 6));
+    u.tail(size - 6) = solve_symmetric(K.bottomRightCorner(size - 6, size - 6), balanced.tail(size - 6));
     MatrixXd geometric = MatrixXd::Zero(size, size);
     for (std::size_t e = 0; e < turn.size(); ++e) {
       const auto first = static_cast<Eigen::Index>(6 * e);
@@ -183,25 +186,25 @@ BeamSuperelement BeamChain::reduced() const {
     }
   for (Eigen::Index i = 0; i < size; ++i)
     if (!is_boundary[static_cast<std::size_t>(i)]) internal.push_back(i);
-  const MatrixXd K = turn.transpose() * full.K * turn, M = turn.transpose() * full.M * turn;
+  const MatrixXd K = congruent(full.K, turn), M = congruent(full.M, turn);
   const MatrixXd K_ii = K(internal, internal);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(K_ii, MatrixXd(M(internal, internal)));
+  const SymmetricEigenpairs eigen = symmetric_eigenpairs(K_ii, M(internal, internal)).value();
   const auto nb = static_cast<Eigen::Index>(boundary.size()), n = nb + modes;
   MatrixXd basis = MatrixXd::Zero(size, n);
   basis(boundary, Eigen::seqN(0, nb)) = MatrixXd::Identity(nb, nb);
-  basis(internal, Eigen::seqN(0, nb)) = -K_ii.ldlt().solve(MatrixXd(K(internal, boundary)));
-  basis(internal, Eigen::seqN(nb, modes)) = eigen.eigenvectors().leftCols(modes);
+  basis(internal, Eigen::seqN(0, nb)) = -solve_symmetric(K_ii, K(internal, boundary));
+  basis(internal, Eigen::seqN(nb, modes)) = eigen.vectors.leftCols(modes);
 
   BeamSuperelement result;
-  result.basis = turn * basis;
+  result.basis = product(turn, basis);
   const MatrixXd& T = result.basis;
   const auto symmetric = [](const MatrixXd& X) -> MatrixXd { return 0.5 * (X + X.transpose()); };
-  const auto reduce = [&](const MatrixXd& X) { return symmetric(T.transpose() * X * T); };
+  const auto reduce = [&](const MatrixXd& X) { return symmetric(congruent(X, T)); };
   result.full_stiffness = full.K;
   result.full_mass = full.M;
   result.points = full.points;
   result.masses = full.masses;
-  result.field = full.F * T;
+  result.field = product(full.F, T);
   result.rotary = reduce(full.rotary);
 
   Superelement& body = result.body;
@@ -210,11 +213,11 @@ BeamSuperelement BeamChain::reduced() const {
     body.interfaces.push_back({std::string(1, static_cast<char>('a' + i)),
                                nodes[static_cast<std::size_t>(interfaces[i].node)], interfaces[i].rotation,
                                interfaces[i].kept});
-  body.frequencies = eigen.eigenvalues().head(modes).cwiseSqrt() / (2 * M_PI);
+  body.frequencies = eigen.values.head(modes).cwiseSqrt() / (2 * M_PI);
   body.stiffness = reduce(full.K);
   body.stiffness.rightCols(modes).setZero();
   body.stiffness.bottomRows(modes).setZero();
-  body.stiffness.bottomRightCorner(modes, modes).diagonal() = eigen.eigenvalues().head(modes);
+  body.stiffness.bottomRightCorner(modes, modes).diagonal() = eigen.values.head(modes);
   body.mass = reduce(full.M);
   body.damping = damping * body.stiffness;
   for (const BeamLoad& load : loads)
@@ -227,7 +230,7 @@ BeamSuperelement BeamChain::reduced() const {
   for (std::size_t i = 0; i < 6; ++i) {
     const auto [k, l] = pairs[i];
     const auto rows = [&](int c) { return result.field(Eigen::seqN(c, result.masses.size(), 3), Eigen::all); };
-    body.inertia_components[i] = MatrixXd(rows(k)).transpose() * result.masses.asDiagonal() * MatrixXd(rows(l));
+    body.inertia_components[i] = transposed_product(rows(k), result.masses.asDiagonal() * MatrixXd(rows(l)));
     if (k == l) body.inertia_components[i] = symmetric(body.inertia_components[i]);
     if (prestress) body.spin_stiffness[i] = reduce(full.prestress(*this, full.centrifugal(k, l)));
   }

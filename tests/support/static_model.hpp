@@ -9,8 +9,10 @@
 
 #include <Eigen/LU>
 
+#include "reduce/common/dense_solves.hpp"
 #include "reduce/common/error.hpp"
 #include "tests/support/dense_model.hpp"
+#include "tests/support/dense_solution.hpp"
 #include "tests/support/model_text.hpp"
 
 namespace bielle::test {
@@ -44,11 +46,9 @@ struct StaticModel {
 
   /// Sign of the determinant of the stiffness, which changes at a critical load.
   int stiffness_sign() const {
-    const Eigen::PartialPivLU<mechanism::MatrixX> lu(stiffness());
-    int sign = lu.permutationP().determinant() > 0 ? 1 : -1;
-    for (const double pivot : lu.matrixLU().diagonal())
-      if (pivot < 0) sign = -sign;
-    return sign;
+    LUFactors factors;
+    factors.compute(stiffness());
+    return factors.sign();
   }
 
   /// The first load factor above `low` where the stiffness becomes singular: upwards in steps until the sign of its
@@ -94,7 +94,7 @@ struct StaticModel {
         bordered(n, row) = 1;
         mechanism::VectorX right(n + 1), all = mechanism::VectorX::Zero(dense.size());
         right << -r, gap;
-        const mechanism::VectorX step = bordered.partialPivLu().solve(right);
+        const mechanism::VectorX step = solution(bordered, right);
         all(free) = step.head(n);
         dense.move(state, all);
         dense.environment.load_factor += step[n];

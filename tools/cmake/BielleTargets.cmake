@@ -12,6 +12,13 @@ if(BIELLE_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   target_compile_options(bielle_warnings INTERFACE -Wno-subobject-linkage)
 endif()
 
+# Beside bielle_warnings, behind it: in a batch of tests a local variable may be called as a constant of another source. Builds
+# without batches warn of one in the same source.
+add_library(bielle_batched_tests INTERFACE)
+if(BIELLE_UNITY)
+  target_compile_options(bielle_batched_tests INTERFACE -Wno-shadow)
+endif()
+
 add_library(bielle_options INTERFACE)
 target_include_directories(bielle_options INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
                                                     $<INSTALL_INTERFACE:include/bielle>)
@@ -52,10 +59,11 @@ endfunction()
 function(bielle_tests name)
   cmake_parse_arguments(ARG "SERIAL" "" "SOURCES;DEPENDS;LABELS" ${ARGN})
   add_executable(test_${name} ${ARG_SOURCES})
-  target_link_libraries(test_${name} PRIVATE ${ARG_DEPENDS} Bielle::test_main bielle_warnings)
+  target_link_libraries(test_${name} PRIVATE ${ARG_DEPENDS} Bielle::test_main Bielle::test_eigenvalues bielle_warnings bielle_batched_tests)
   target_compile_definitions(test_${name} PRIVATE BIELLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                                                   BIELLE_BINARY_DIR="${PROJECT_BINARY_DIR}")
   bielle_precompile(test_${name} bielle_test_precompiled)
+  set_target_properties(test_${name} PROPERTIES UNITY_BUILD ${BIELLE_UNITY} UNITY_BUILD_BATCH_SIZE 6)
   set(properties "")
   if(ARG_LABELS)
     set(properties PROPERTIES LABELS "${ARG_LABELS}")

@@ -8,6 +8,7 @@
 
 using namespace bielle::mechanism;
 
+namespace test_joined_wing {
 namespace {
 
 std::string beam(const std::string& name, const std::string& nodes, int elements, const std::string& section) {
@@ -64,3 +65,5 @@ TEST_CASE("a joined wing under a lift that follows ends at the same equilibrium 
     }
   }
 }
+
+}  // namespace test_joined_wing

@@ -16,6 +16,7 @@
 using namespace bielle::mechanism;
 using bielle::test::ReadyModel;
 
+namespace test_paths {
 namespace {
 
 struct Point {
@@ -207,3 +208,5 @@ TEST_CASE("a shallow arch: the path passes its bifurcation and both limit points
     if (GA == without_shear) check_order(each(lower, &Point::P), -226.2021, 1e-3);
   }
 }
+
+}  // namespace test_paths

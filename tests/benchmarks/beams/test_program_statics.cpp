@@ -1,20 +1,22 @@
 // Large deformation through the program's own input and static solver: roll-up, load cycles, objectivity.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
 #include "mechanism/math/so3.hpp"
 #include "mechanism/solvers/statics/statics.hpp"
+#include "tests/support/list_of_numbers.hpp"
 #include "tests/support/run_model.hpp"
 
 using namespace bielle::mechanism;
+using bielle::test::list;
 using bielle::test::ReadyModel;
+using std::numbers::pi;
 
 namespace {
-
-const double pi = 3.141592653589793;
 
 /// Brings a state into equilibrium with what the model prescribes, in increments of the load factor, each down to the
 /// rounding of the residual.
@@ -25,8 +27,6 @@ void settle(const ReadyModel& model, State& state, const LoadSteps& steps) {
   to_rounding.tolerance = 1e-16;
   solve_statics(model.system, environment, steps, to_rounding, state);
 }
-
-std::string list(const Vector3& v) { return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", v.x(), v.y(), v.z()); }
 
 }  // namespace
 

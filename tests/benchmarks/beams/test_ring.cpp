@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "reduce/common/symmetric_eigenpairs.hpp"
 #include "tests/support/static_model.hpp"
 
 using namespace bielle::mechanism;
@@ -33,9 +34,9 @@ VectorX frequencies(int elements, bool in_plane, const std::string& bending) {
     for (const auto& [node, direction] : {std::pair{"a", 3}, {"b", 4}}) ring.hold(node, direction);
   }
   const MatrixX K = ring.stiffness(), M = ring.dense.tangent(ring.state, DenseModel::Part::M)(ring.free, ring.free);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixX> eigen(0.5 * (K + K.transpose()), M, Eigen::EigenvaluesOnly);
+  const bielle::SymmetricEigenpairs eigen = bielle::symmetric_eigenpairs(0.5 * (K + K.transpose()), M).value();
   // Out of the plane the ring floats: the first is zero.
-  return eigen.eigenvalues().segment(in_plane ? 0 : 1, 2).cwiseMax(0).cwiseSqrt();
+  return eigen.values.segment(in_plane ? 0 : 1, 2).cwiseMax(0).cwiseSqrt();
 }
 
 }  // namespace

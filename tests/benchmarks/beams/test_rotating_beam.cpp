@@ -16,6 +16,10 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "reduce/common/dense_solves.hpp"
+#include "reduce/dense/dense_products.hpp"
+#include "tests/support/dense_solution.hpp"
+#include "tests/support/eigenvalues.hpp"
 #include "tests/support/static_model.hpp"
 
 using namespace bielle::mechanism;
@@ -38,7 +42,7 @@ struct RotatingBeam : StaticModel {
     for (int iteration = 0; iteration < 8; ++iteration) {
       set_rates();
       VectorX step = VectorX::Zero(dense.size());
-      step(free) = -stiffness().partialPivLu().solve(dense.residual(state)(free));
+      step(free) = -bielle::test::solution(stiffness(), dense.residual(state)(free));
       dense.move(state, step);
     }
     set_rates();
@@ -84,14 +88,13 @@ struct RotatingBeam : StaticModel {
     keep_directions(directions);
     const auto n = static_cast<Eigen::Index>(free.size());
     const MatrixX M = dense.tangent(state, DenseModel::Part::M)(free, free);
-    const Eigen::PartialPivLU<MatrixX> mass(M);
+    const MatrixX inverse_mass = bielle::regular_inverse(M).value();
     MatrixX companion = MatrixX::Zero(2 * n, 2 * n);
     companion.topRightCorner(n, n).setIdentity();
-    companion.bottomLeftCorner(n, n) = -mass.solve(stiffness());
-    companion.bottomRightCorner(n, n) = -mass.solve(damping());
-    const Eigen::EigenSolver<MatrixX> eigen(companion, false);
+    companion.bottomLeftCorner(n, n) = -bielle::product(inverse_mass, stiffness());
+    companion.bottomRightCorner(n, n) = -bielle::product(inverse_mass, damping());
     std::vector<double> list;
-    for (const auto& value : eigen.eigenvalues())
+    for (const std::complex<double>& value : bielle::test::eigenvalues(companion))
       if (value.imag() > 0) list.push_back(value.imag());
     std::sort(list.begin(), list.end());
     return list;

@@ -11,10 +11,12 @@
 
 using namespace bielle::mechanism;
 using bielle::test::check_load;
+using std::numbers::pi;
 
+namespace test_stability {
 namespace {
 
-constexpr double pi = std::numbers::pi, EI = 2.1e11 * 0.01 * 0.02 * 0.02 * 0.02 / 12;  // of the weaker axis
+constexpr double EI = 2.1e11 * 0.01 * 0.02 * 0.02 * 0.02 / 12;  // of the weaker axis
 
 struct Found {
   StaticsReport report;
@@ -198,3 +200,5 @@ TEST_CASE("an inverted pendulum on a spring is unstable where its weight outweig
     if (spring < 2 * 9.81) CHECK(found.report.log.critical.at(0).factor == Approx(spring / (2 * 9.81)).epsilon(1e-6));
   }
 }
+
+}  // namespace test_stability

@@ -16,6 +16,7 @@
 
 using namespace bielle::mechanism;
 
+namespace test_toggle {
 namespace {
 
 constexpr double angle = 0.2, EA = 2e4, GA = 8e3, EI = 1;  // a leg of length 1
@@ -107,3 +108,5 @@ TEST_CASE("a toggle past its limit loads is that of the rod, by shooting") {
     CHECK((std::abs(fine) < 0.3 * std::abs(coarse) || std::abs(coarse) < 1e-4 * size));
   }
 }
+
+}  // namespace test_toggle

@@ -11,6 +11,8 @@
 
 namespace bielle::test {
 
+inline constexpr double g = 9.81;  ///< gravity of all models that have it [m/s^2]
+
 /// One body on node `name`: a node entry and a rigid_body entry of the same name.
 struct Body {
   std::string name, node;  ///< node: what stands in its braces

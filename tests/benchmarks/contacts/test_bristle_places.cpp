@@ -14,6 +14,7 @@
 using namespace bielle::mechanism;
 using namespace bielle::test;
 
+namespace test_bristle_places {
 namespace {
 
 const std::string bristles =
@@ -129,3 +130,5 @@ TEST_CASE("static analyses forget bristles of what has parted, and keep the othe
   model.system.accept(away, environment);
   CHECK(away.memory[count] == 0);
 }
+
+}  // namespace test_bristle_places

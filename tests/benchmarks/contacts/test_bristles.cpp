@@ -16,7 +16,6 @@ using namespace bielle::test;
 
 namespace {
 
-constexpr double g = 9.81;
 const std::string bristles = "friction: {model: lugre, coefficient: 0.5, bristle_stiffness: 1e4, bristle_damping: 30}";
 
 }  // namespace

@@ -13,9 +13,10 @@
 using namespace bielle::mechanism;
 using namespace bielle::test;
 
+namespace test_cylinders {
 namespace {
 
-constexpr double g = 9.81, k = 1e6;
+constexpr double k = 1e6;
 
 /// Depth at which n places bear a weight.
 double depth(double weight, int n) { return std::pow(weight / (n * k), 1 / 1.5); }
@@ -136,3 +137,5 @@ TEST_CASE("cylinders that fly into each other and into boxes keep energy and mom
     CHECK(turned < 1e-5);  // of the steps
   }
 }
+
+}  // namespace test_cylinders

@@ -10,10 +10,11 @@
 using namespace bielle::mechanism;
 using namespace bielle::test;
 
+namespace test_door {
 namespace {
 
 // The leaf, along x from the hinge when closed; the ball; the stop of the hinge; friction of the hinge and of the ball.
-constexpr double m = 12, width = 0.8, half_thickness = 0.02, g = 9.81, J = m * (0.8 * 0.8 + 0.04 * 0.04) / 12;
+constexpr double m = 12, width = 0.8, half_thickness = 0.02, J = m * (0.8 * 0.8 + 0.04 * 0.04) / 12;
 constexpr double ball_x = -0.1, ball_y = 0.7, ball = 0.03, k = 1e6, d = 0.3;
 constexpr double stop_at = 1.5, stop_k = 2e4, stop_d = 60;
 constexpr double hinge_mu = 0.3, hinge_r = 0.01, hinge_v = 1e-3, ball_mu = 0.5, ball_v = 0.05, spin = 1.2;
@@ -106,3 +107,5 @@ TEST_CASE("a door that hits its stop moves as its equation says, with errors of 
     CHECK(coarse / fine > 3);
   }
 }
+
+}  // namespace test_door

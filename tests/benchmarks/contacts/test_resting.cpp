@@ -11,8 +11,6 @@ using namespace bielle::test;
 
 namespace {
 
-constexpr double g = 9.81;
-
 /// Static equilibrium of a model.
 void rest(const std::string& text, const std::function<void(const Session&)>& look) {
   const MechanismFile file = read_mechanism_text(text, "model.yaml");

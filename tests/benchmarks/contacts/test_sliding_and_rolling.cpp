@@ -16,8 +16,6 @@ using namespace bielle::test;
 
 namespace {
 
-constexpr double g = 9.81;
-
 std::string inclined_gravity(double angle) {
   return fmt::format("[{:.17g}, 0, {:.17g}]", g * std::sin(angle), -g * std::cos(angle));
 }

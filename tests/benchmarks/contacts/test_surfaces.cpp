@@ -18,8 +18,6 @@ using Catch::Contains;
 
 namespace {
 
-constexpr double g = 9.81;
-
 /// Positions and rotations of node `b` at the end of a run of it above the ground's shape.
 NodeState end_on(const std::string& ground, const std::string& node, const std::string& shape, const std::string& law,
                  double end, double h = 1e-3) {

@@ -11,6 +11,7 @@ using bielle::test::check_second_order;
 using bielle::test::integrate;
 using bielle::test::ReadyModel;
 
+namespace test_double_pendulum {
 namespace {
 
 const char* const pendulum = R"yaml(
@@ -47,3 +48,5 @@ TEST_CASE("the double pendulum converges with order 2") {
   check_second_order([&](double h) { return error(h, 1, at_1); }, 4e-3, 3);
   check_second_order([&](double h) { return error(h, 2, at_2); }, 2e-3, 2, 0.2, 0.2);
 }
+
+}  // namespace test_double_pendulum

@@ -17,6 +17,7 @@ using namespace bielle::mechanism;
 using bielle::test::message_of;
 using Catch::Contains;
 
+namespace test_sought_efforts {
 namespace {
 
 constexpr double g = 9.81;
@@ -335,3 +336,5 @@ TEST_CASE("efforts that cannot be sought are refused, with the reason") {
   CHECK_THAT(message_of<std::runtime_error>([&] { session.dynamics(options); }),
              Contains("a dynamic analysis cannot seek"));
 }
+
+}  // namespace test_sought_efforts

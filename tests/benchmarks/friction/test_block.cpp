@@ -11,6 +11,7 @@ using bielle::test::move_to;
 using Catch::WithinAbs;
 using Catch::WithinRel;
 
+namespace test_block {
 namespace {
 
 constexpr double m = 2, g = 9.81;
@@ -116,3 +117,5 @@ TEST_CASE("a force that swings moves bristles by the drift of their law, and no 
   const double z_s = mu / 2e4, drift = z_s * (std::log((1 - f_1) / (1 - f_2)) - std::log((1 + f_2) / (1 + f_1)));
   CHECK_THAT((after(4) - after(2)) / 2, WithinRel(drift, 0.01));
 }
+
+}  // namespace test_block

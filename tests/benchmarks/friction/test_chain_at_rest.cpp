@@ -14,6 +14,7 @@
 
 using bielle::mechanism::Session;
 
+namespace test_chain_at_rest {
 namespace {
 
 constexpr int links = 8;
@@ -71,3 +72,5 @@ TEST_CASE("a chain of hinges with bristles hangs still for 1000 s") {
   }
   CHECK(share(0) > 0.2);
 }
+
+}  // namespace test_chain_at_rest

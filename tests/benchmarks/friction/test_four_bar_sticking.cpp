@@ -24,6 +24,7 @@ using bielle::mechanism::Session;
 using bielle::test::FourBar;
 using Catch::WithinAbs;
 
+namespace test_four_bar_sticking {
 namespace {
 
 constexpr double gravity = 9.81, mu = 0.3, radius = 0.05;
@@ -230,3 +231,5 @@ TEST_CASE("a four-bar with friction in all of its hinges comes to rest where its
   CHECK_THAT(at_10, WithinAbs(reference.z[0], 2e-4));
   CHECK(creep < 1e-10);
 }
+
+}  // namespace test_four_bar_sticking

@@ -12,6 +12,7 @@
 
 using namespace bielle::mechanism;
 
+namespace test_long_chain {
 namespace {
 
 constexpr int links = 100;
@@ -75,3 +76,5 @@ TEST_CASE("a hanging chain of a hundred hinges that stick and slip comes to rest
     CHECK(std::abs(moment) <= (1 + 1e-6) * mu * radius * mass * g * (links - k));
   }
 }
+
+}  // namespace test_long_chain

@@ -16,6 +16,7 @@ using bielle::mechanism::Session;
 using Catch::Contains;
 using Catch::WithinRel;
 
+namespace test_painleve {
 namespace {
 
 constexpr double m = 1.3, l = 0.7, g = 9.81, J = m * l * l / 3;
@@ -59,3 +60,5 @@ TEST_CASE("a dragged rod has the normal force of the closed form, and none beyon
   CHECK_THROWS_WITH(force(1.4, -1), Contains("Painleve") && Contains("joint 'tip'"));
   CHECK_THROWS_WITH(force(1.4, 1), Contains("Painleve") && Contains("joint 'tip'"));
 }
+
+}  // namespace test_painleve

@@ -14,6 +14,7 @@ using bielle::test::move_to;
 using Catch::WithinAbs;
 using Catch::WithinRel;
 
+namespace test_path {
 namespace {
 
 /// A bead of 2 kg on a wire. @param more  keys of its node and of the model
@@ -152,3 +153,5 @@ TEST_CASE("a slider on a stiff beam slides and sticks as a block on an incline")
     });
   }
 }
+
+}  // namespace test_path

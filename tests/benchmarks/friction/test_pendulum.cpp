@@ -15,6 +15,7 @@
 using bielle::mechanism::Session;
 using Catch::WithinAbs;
 
+namespace test_pendulum {
 namespace {
 
 constexpr double m = 2, I = 0.05, l = 0.8, g = 9.81, mu = 0.3, mu_s = 0.4, r = 0.15;
@@ -98,3 +99,5 @@ TEST_CASE("a pendulum with a rubbing bearing swings as its equation, to the seco
   CHECK(std::abs(std::cos(rest)) * l <= mu_s * r);
   CHECK_THAT(angle(2e-3, 30), WithinAbs(rest, 1e-4));
 }
+
+}  // namespace test_pendulum

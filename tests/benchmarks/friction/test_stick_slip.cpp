@@ -13,6 +13,7 @@
 using bielle::mechanism::Session;
 using bielle::test::move;
 
+namespace test_stick_slip {
 namespace {
 
 constexpr double m = 1, k = 100, V = 0.1, mu_s = 0.4, mu_k = 0.25, g = 9.81, omega = 10;
@@ -101,3 +102,5 @@ TEST_CASE("with bristles the mass on the belt follows the equations of their law
     CHECK(std::log2(middle[i] / fine[i]) > 1.8);
   }
 }
+
+}  // namespace test_stick_slip

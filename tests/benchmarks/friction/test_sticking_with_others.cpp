@@ -16,6 +16,7 @@ using bielle::test::move_to;
 using Catch::WithinAbs;
 using Catch::WithinRel;
 
+namespace test_sticking_with_others {
 namespace {
 
 constexpr double m = 2, g = 9.81, mu = 0.2;
@@ -186,3 +187,5 @@ TEST_CASE("nothing presses: joints that slide without a normal force are no para
     });
   }
 }
+
+}  // namespace test_sticking_with_others

@@ -13,6 +13,7 @@ using bielle::test::move_to;
 using Catch::WithinAbs;
 using Catch::WithinRel;
 
+namespace test_thread_and_chain {
 namespace {
 
 constexpr double m = 2, J = 1e-3, g = 9.81, r = 0.01;
@@ -100,3 +101,5 @@ TEST_CASE("a chain pulled over guides needs the force of the capstan") {
       true);
   CHECK(!first);
 }
+
+}  // namespace test_thread_and_chain

@@ -12,6 +12,7 @@
 using namespace bielle::mechanism;
 using namespace bielle::test;
 
+namespace test_cylinder {
 namespace {
 
 constexpr double m = 500, g = 9.81;
@@ -148,3 +149,5 @@ TEST_CASE("a rigid volume fills through an orifice and through a laminar line by
   CHECK(found[0] == Approx(7.5e6).epsilon(1e-5));
   CHECK(found[1] == Approx(10e6 * -std::expm1(-full / 2 / tau)).epsilon(1e-5));
 }
+
+}  // namespace test_cylinder

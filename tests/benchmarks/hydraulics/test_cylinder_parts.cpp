@@ -12,6 +12,7 @@
 using namespace bielle::mechanism;
 using namespace bielle::test;
 
+namespace test_cylinder_parts {
 namespace {
 
 constexpr double p_a = 101325, g = 9.81;
@@ -268,3 +269,5 @@ TEST_CASE("adaptive steps follow a valve that opens and closes, and shorten wher
   }
   CHECK(before < 5e-3);
 }
+
+}  // namespace test_cylinder_parts

@@ -9,6 +9,7 @@
 using namespace bielle::mechanism;
 using namespace bielle::test;
 
+namespace test_heads {
 namespace {
 
 constexpr double B = 1.4e9, rho = 850, p_a = 101325;
@@ -94,3 +95,5 @@ TEST_CASE("a fluid without vapour cavitates at no pressure, and one with vapour 
   CHECK(none.pressure_of(2, 1e5) > 0);
   CHECK(none.pressure_of(2, 1e5) < little.pressure_of(2, 1e5));
 }
+
+}  // namespace test_heads

@@ -12,6 +12,7 @@ using namespace bielle::mechanism;
 using namespace bielle::test;
 using Catch::Contains;
 
+namespace test_lines {
 namespace {
 
 std::string hydraulics(const std::string& text, const std::string& rest = "") {
@@ -196,3 +197,5 @@ TEST_CASE("a pump drives a motor: speeds are those of the displacements, and not
   // What the pump takes is what the motor gives, its drag and its leakage.
   CHECK(-found[3] == Approx(found[4] + 0.01 * rate * rate + leak * D).epsilon(1e-3));
 }
+
+}  // namespace test_lines

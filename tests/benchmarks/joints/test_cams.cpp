@@ -15,6 +15,7 @@
 using bielle::mechanism::Session;
 using bielle::test::move;
 
+namespace test_cams {
 namespace {
 
 constexpr double R = 0.03, e = 0.01, r = 0.008, speed = 20, m = 0.5, g = 9.81;
@@ -226,3 +227,5 @@ TEST_CASE("a knife edge rubs on the contour itself") {
     CHECK(session.read("joints/camshaft/drive_force")[0] == Approx(torque).margin(2e-4));
   });
 }
+
+}  // namespace test_cams

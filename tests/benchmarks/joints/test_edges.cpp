@@ -13,6 +13,7 @@ using bielle::mechanism::Session;
 using bielle::test::move_to;
 using Catch::Contains;
 
+namespace test_edges {
 namespace {
 
 void run(const std::string& text, double end = 0.01) {
@@ -199,3 +200,5 @@ TEST_CASE("joints that make no sense are refused in words") {
           lift + "\"}\n"),
       Contains("coupled with itself"));
 }
+
+}  // namespace test_edges

@@ -7,6 +7,7 @@
 using namespace bielle::mechanism;
 using namespace bielle::test;
 
+namespace test_campbell {
 namespace {
 
 constexpr double Jp = 0.01, Jt = 0.02, mass = 5, k_tilt = 800, kx = 1.8e5, ky = 1e5, kz = 3e5;
@@ -152,3 +153,5 @@ TEST_CASE("a sweep that has no speed, or a parameter that is not there, is refus
   CHECK_THROWS_WITH(Ran(failing), Catch::StartsWith("model.yaml:") && Catch::Contains("elements.disc.mass") &&
                                       Catch::EndsWith("(where speed = 1)"));
 }
+
+}  // namespace test_campbell

@@ -6,6 +6,7 @@ using namespace bielle::mechanism;
 using namespace bielle::test;
 using Complex = std::complex<double>;
 
+namespace test_frequency_response {
 namespace {
 
 constexpr double m = 2, k = 200, c = 3;
@@ -163,3 +164,5 @@ TEST_CASE("inputs that act on nothing are refused, and the summary says what the
   CHECK_THAT(file.analyses[0]->run(session).text,
              Catch::Contains("no equilibrium") && Catch::Contains("responses are those of the equations"));
 }
+
+}  // namespace test_frequency_response

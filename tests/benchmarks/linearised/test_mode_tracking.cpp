@@ -10,6 +10,7 @@
 using namespace bielle::mechanism;
 using Complex = std::complex<double>;
 
+namespace test_mode_tracking {
 namespace {
 
 constexpr double two_pi = 2 * std::numbers::pi, at_rest = 100, slope = 0.8;
@@ -147,3 +148,5 @@ TEST_CASE("critical speeds on both sides of rest are found between two values fa
   CHECK(std::abs(speeds[0]) + std::abs(speeds[1]) == Approx(2 * root).epsilon(1e-8));
   CHECK(speeds[0] * speeds[1] == Approx(-at_rest).epsilon(1e-8));
 }
+
+}  // namespace test_mode_tracking

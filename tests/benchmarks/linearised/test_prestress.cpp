@@ -1,8 +1,11 @@
 // Modes of loaded beams: strings, columns, follower forces. EI = m = L = 1.
+#include <numbers>
+
 #include "tests/benchmarks/linearised/modes_of.hpp"
 
 using namespace bielle::mechanism;
 using namespace bielle::test;
+using std::numbers::pi;
 
 namespace {
 

@@ -5,6 +5,7 @@
 using namespace bielle::mechanism;
 using namespace bielle::test;
 
+namespace test_rotors {
 namespace {
 
 constexpr double Jp = 0.035, Jt = 0.02, mass = 5, k_tilt = 800;
@@ -218,3 +219,5 @@ TEST_CASE("a swept blade finds its steady rotation at every speed, whatever its 
     CHECK((fine - middle).norm() < (speed <= 100 ? 0.3 : 1.0) * (middle - coarse).norm());
   }
 }
+
+}  // namespace test_rotors

@@ -11,6 +11,7 @@ using namespace bielle::mechanism;
 using namespace bielle::test;
 using Complex = std::complex<double>;
 
+namespace test_superposition {
 namespace {
 
 /// A beam on two supports with a weight that hangs from it, damped; a moment and a force drive it.
@@ -184,3 +185,5 @@ TEST_CASE("a sum over too few modes is called doubtful, and one at 0 Hz alone is
       read_mechanism_text(text("[0]"), "model.yaml"),
       Catch::StartsWith("model.yaml:") && Catch::Contains("modes: a sum over modes is for frequencies above 0"));
 }
+
+}  // namespace test_superposition

@@ -17,6 +17,7 @@
 using namespace bielle::mechanism;
 using namespace bielle::test;
 
+namespace test_unbalance {
 namespace {
 
 constexpr double m = 10, J = 0.2, Jt = 0.1, k = 1e6, k_tilt = 1e4;
@@ -126,3 +127,5 @@ TEST_CASE("a balanced disk has the inertial whirl frequencies, and a slightly un
     check_rates(rates_of(slightly), seen, 1e-4);
   }
 }
+
+}  // namespace test_unbalance

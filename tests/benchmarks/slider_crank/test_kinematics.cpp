@@ -17,6 +17,7 @@ using bielle::test::check_second_order;
 using bielle::test::message_of;
 using Catch::Contains;
 
+namespace test_kinematics {
 namespace {
 
 /// @param elements  none for a mechanism without mass
@@ -200,3 +201,5 @@ TEST_CASE("kinematics asks for what is not driven") {
   const std::string said = message_of<std::runtime_error>([&] { blocked.kinematics({.duration = 3, .step = 0.1}); });
   CHECK_THAT(said, Contains("t = 0.7 s: ") && Contains("drive 'motor' stays 3.2"));
 }
+
+}  // namespace test_kinematics

@@ -14,6 +14,7 @@ using namespace bielle::mechanism;
 using bielle::test::integrate;
 using bielle::test::ReadyModel;
 
+namespace test_rigid {
 namespace {
 
 /// Planar mechanism in space, closed by hinges: redundant constraints are set aside.
@@ -124,3 +125,5 @@ drives: {{motor: {{joint: main, torque: 0.05}}}}
   };
   bielle::test::check_second_order(error, 4e-3, 3);
 }
+
+}  // namespace test_rigid

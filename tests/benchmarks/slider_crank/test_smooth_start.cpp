@@ -3,6 +3,8 @@
 // from 0 to 1; it is stretched by the slider's inertia and starts to bend.
 #include <Eigen/Cholesky>
 
+#include "reduce/common/dense_solves.hpp"
+#include "reduce/dense/dense_products.hpp"
 #include "tests/benchmarks/slider_crank/flexible.hpp"
 
 using namespace bielle::mechanism;
@@ -108,9 +110,9 @@ Run run_of_superelement(const bielle::test::BeamSuperelement& rod, double h) {
     v.segment<3>(3 * p) = deformation_rate(rod.points(0, p) / 0.3);
   }
   const MatrixX shapes = rod.field.rightCols(modes), of_ends = rod.field.leftCols(12);
-  const Eigen::LDLT<MatrixX> normal(shapes.transpose() * shapes);
-  state.amplitude = normal.solve(shapes.transpose() * (u - of_ends * q));
-  state.amplitude_rate = normal.solve(shapes.transpose() * (v - of_ends * qdot));
+  const MatrixX normal = bielle::transposed_product(shapes, shapes);
+  state.amplitude = bielle::solve_symmetric(normal, shapes.transpose() * (u - of_ends * q));
+  state.amplitude_rate = bielle::solve_symmetric(normal, shapes.transpose() * (v - of_ends * qdot));
   return Run(model, state, h, [&](const State& now) { return crank.deflection(now); });
 }
 

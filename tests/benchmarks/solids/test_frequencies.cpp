@@ -4,21 +4,13 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/benchmarks/solids/orders.hpp"
 #include "tests/support/box_mesh.hpp"
 #include "tests/support/solid_model.hpp"
 
 using namespace bielle;
 using namespace bielle::reduce;
-
-namespace {
-
-/// Exponents p of error ~ h^p between refinements by two.
-Eigen::VectorXd orders(const Eigen::VectorXd& errors) {
-  const Eigen::Index levels = errors.size();
-  return (errors.head(levels - 1).cwiseQuotient(errors.tail(levels - 1)).array().log() / std::log(2.0)).matrix();
-}
-
-}  // namespace
+using bielle::test::orders;
 
 TEST_CASE("A bar that moves along itself: exact frequencies from above with order four") {
   // Fixed at x = 0, free at x = L, no lateral motion: f_k = (2 k - 1) / (4 L) sqrt(C_11 / rho), eigenvalues of order 2

@@ -18,6 +18,7 @@
 using namespace bielle;
 using namespace bielle::reduce;
 
+namespace test_patch {
 namespace {
 
 constexpr double young = 1e6, poisson = 0.25, density = 1000;
@@ -127,3 +128,5 @@ TEST_CASE("The patch has the mass, centre and inertia of the cube") {
     CHECK((found.inertia - density / 6 * Eigen::Matrix3d::Identity()).norm() < 1e-12 * density);
   }
 }
+
+}  // namespace test_patch

@@ -13,6 +13,7 @@
 using namespace bielle;
 using namespace bielle::reduce;
 
+namespace test_plates {
 namespace {
 
 constexpr double young = 200e9, poisson = 0.3, density = 8000, side = 10;
@@ -80,3 +81,5 @@ TEST_CASE("Bending of a free plate and of a cantilever plate: falling with the m
     }
   }
 }
+
+}  // namespace test_plates

@@ -10,14 +10,18 @@
 #include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
 
+#include "reduce/common/symmetric_eigenpairs.hpp"
 #include "reduce/reduction/reduce_body.hpp"
 #include "reduce/reduction/reduced_matrices.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
+#include "tests/benchmarks/solids/orders.hpp"
 #include "tests/support/box_mesh.hpp"
 
 using namespace bielle;
 using namespace bielle::reduce;
+using bielle::test::orders;
 
+namespace test_reduced_bar {
 namespace {
 
 constexpr double length = 1, young = 210e9, density = 7800;
@@ -73,14 +77,8 @@ Eigen::VectorXd reduced_rod(int n, int count) {
     m(0, j + 1) = m(j + 1, 0) = std::sqrt(2.0) / wave;
     m(1, j + 1) = m(j + 1, 1) = (j % 2 ? 1 : -1) * std::sqrt(2.0) / wave;
   }
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(k, m);
-  return eigen.eigenvalues().segment(1, count).cwiseSqrt() * speed / (2 * std::numbers::pi * length);
-}
-
-/// Exponents p of error ~ h^p between refinements by two.
-Eigen::VectorXd orders(const Eigen::VectorXd& errors) {
-  const Eigen::Index levels = errors.size();
-  return (errors.head(levels - 1).cwiseQuotient(errors.tail(levels - 1)).array().log() / std::log(2.0)).matrix();
+  const bielle::SymmetricEigenpairs eigen = bielle::symmetric_eigenpairs(k, m).value();
+  return eigen.values.segment(1, count).cwiseSqrt() * speed / (2 * std::numbers::pi * length);
 }
 
 }  // namespace
@@ -126,3 +124,5 @@ TEST_CASE("The free reduced bar has the frequencies of the rod's reduction, and 
     CHECK(orders(mesh_errors.col(k).cwiseAbs()).tail(1)(0) > 3.8);
   }
 }
+
+}  // namespace test_reduced_bar

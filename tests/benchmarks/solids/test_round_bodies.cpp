@@ -19,6 +19,7 @@
 using namespace bielle;
 using namespace bielle::reduce;
 
+namespace test_round_bodies {
 namespace {
 
 const Material steel = Material::isotropic(210e9, 0.3, 7800);
@@ -192,3 +193,5 @@ TEST_CASE(
   // The free shaft follows from its ends and the torsion modes of the held one (two among 20): a little above.
   CHECK(nearest(free_frequencies(shaft)) < 1e-2);
 }
+
+}  // namespace test_round_bodies

@@ -1,9 +1,9 @@
 // Straight and curved bars of solid elements, reduced, and the geometrically exact beam that is as stiff as they are.
 //
 // Square section 1 x 1, E = 1e7, nu = 0, along x from the origin; curved ones turn to -y on a circle of radius 100.
-// Rigid ties at the ends stiffen a piece against shear and torsion by a few per cent. That is a matter of the mesh and not
-// of large deformation: the beam of comparison gets the section, EA, GA, GJ, EI, whose flexibility is nearest to that of the
-// reduced piece.
+// Rigid ties at the ends stiffen a piece against shear and torsion by a few per cent. That is a matter of the mesh and
+// not of large deformation: the beam of comparison gets the section, EA, GA, GJ, EI, whose flexibility is nearest to
+// that of the reduced piece.
 #pragma once
 
 #include <cmath>
@@ -14,16 +14,15 @@
 #include <fmt/format.h>
 
 #include "mechanism/math/so3.hpp"
-#include "tests/support/box_mesh.hpp"
 #include "reduce/reduction/reduce_body.hpp"
+#include "tests/support/box_mesh.hpp"
+#include "tests/support/list_of_numbers.hpp"
 
 namespace bielle::test {
 
 using mechanism::Matrix3;
 using mechanism::Matrix6;
 using mechanism::Vector3;
-
-inline std::string list(const Vector3& v) { return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", v.x(), v.y(), v.z()); }
 
 /// Point and direction of the axis at a distance s from its start. @param radius  of the circle; 0: straight
 struct BarAxis {
@@ -106,7 +105,8 @@ inline std::string chain_of_pieces(const SolidBar& piece, int pieces, const std:
                          k == 0 ? ", fixed: true" : "");
   for (int k = 0; k < pieces; ++k)
     elements += fmt::format(
-        "  e{}: {{type: superelement, file: {}, position: {}, rotation_vector: [0, 0, {:.17g}], nodes: {{root: n{}, tip: "
+        "  e{}: {{type: superelement, file: {}, position: {}, rotation_vector: [0, 0, {:.17g}], nodes: {{root: n{}, "
+        "tip: "
         "n{}}}}}\n",
         k, file, list(piece.axis.point(k * piece.length)), -piece.axis.angle(k * piece.length), k, k + 1);
   return nodes + elements;
@@ -117,8 +117,8 @@ inline std::string exact_beam(const BarAxis& axis, double length, const std::str
   return fmt::format(
       "nodes: {{n0: {{fixed: true}}, tip: {{position: {}}}}}\n"
       "elements: {{b: {{type: beam, nodes: [n0, tip]{}, orientation: [0, 1, 0], elements: {}, section: {}}}}}\n",
-      list(axis.point(length)), axis.radius > 0 ? fmt::format(", arc_centre: [0, {:.17g}, 0]", -axis.radius) : "", elements,
-      section);
+      list(axis.point(length)), axis.radius > 0 ? fmt::format(", arc_centre: [0, {:.17g}, 0]", -axis.radius) : "",
+      elements, section);
 }
 
 inline std::string tip_load(const std::string& node, const Vector3& force, const Vector3& moment) {

@@ -1,7 +1,8 @@
-// Superelements with three interfaces, and with a corner, against geometrically exact beams and against themselves in parts.
+// Superelements with three interfaces, and with a corner, against geometrically exact beams and against themselves in
+// parts.
 //
-// Section of 1 x 1, E = 1e7, without shear. Bodies are chains of linear beam elements as stiff as the exact beam, so that what
-// is left of their difference, the part linear in the load taken off, is that of large deformation.
+// Section of 1 x 1, E = 1e7, without shear. Bodies are chains of linear beam elements as stiff as the exact beam, so
+// that what is left of their difference, the part linear in the load taken off, is that of large deformation.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -16,16 +17,18 @@ using namespace bielle;
 using namespace bielle::mechanism;
 using namespace bielle::test;
 
+namespace test_more_interfaces {
 namespace {
 
 constexpr double EI = 1e7 / 12, GJ = 7.03e5, EA = 1e7, leg = 10, floor_of_residual = 1e-6;
 constexpr int elements_per_leg = 24;
-const std::string section =
-    fmt::format("{{EA: {0}, GAy: 1e10, GAz: 1e10, GJ: {1}, EIy: {2}, EIz: {2}, mass_per_length: 1000, Jx: 200, Jy: 1e-3, "
-                "Jz: 1e-3}}",
-                EA, GJ, EI);
+const std::string section = fmt::format(
+    "{{EA: {0}, GAy: 1e10, GAz: 1e10, GJ: {1}, EIy: {2}, EIz: {2}, mass_per_length: 1000, Jx: 200, Jy: 1e-3, "
+    "Jz: 1e-3}}",
+    EA, GJ, EI);
 
-/// Two legs of ten metres from the origin, the first along x, with interfaces at both ends and, if wanted, between the legs.
+/// Two legs of ten metres from the origin, the first along x, with interfaces at both ends and, if wanted, between the
+/// legs.
 BeamChain two_legs(const Vector3& second, bool middle, int modes) {
   BeamChain chain;
   for (int k = 0; k <= 2 * elements_per_leg; ++k) {
@@ -43,16 +46,15 @@ BeamChain two_legs(const Vector3& second, bool middle, int modes) {
 /// Names of interfaces of these chains: a, b, c in the order above.
 std::string nodes_of(const Vector3& second, const std::string& held) {
   const Vector3 middle(leg, 0, 0), tip = middle + leg * second;
-  return fmt::format(
-      "nodes:\n  n0: {{{}}}\n  n1: {{position: [{}, {}, {}]}}\n  n2: {{position: [{}, {}, {}]}}\n", held, middle.x(),
-      middle.y(), middle.z(), tip.x(), tip.y(), tip.z());
+  return fmt::format("nodes:\n  n0: {{{}}}\n  n1: {{position: [{}, {}, {}]}}\n  n2: {{position: [{}, {}, {}]}}\n", held,
+                     middle.x(), middle.y(), middle.z(), tip.x(), tip.y(), tip.z());
 }
 
 std::string beams(int elements = elements_per_leg) {
   std::string text = "elements:\n";
   for (int k = 0; k < 2; ++k)
-    text += fmt::format("  b{}: {{type: beam, nodes: [n{}, n{}], orientation: [0, 0, 1], elements: {}, section: {}}}\n", k,
-                        k, k + 1, elements, section);
+    text += fmt::format("  b{}: {{type: beam, nodes: [n{}, n{}], orientation: [0, 0, 1], elements: {}, section: {}}}\n",
+                        k, k, k + 1, elements, section);
   return text;
 }
 
@@ -89,8 +91,8 @@ void check_third_order(const std::string& element, const Vector3& second, double
   const std::string nodes = nodes_of(second, "fixed: true");
   for (const Load& l : loads) {
     const auto answers = [&](double f) {
-      const std::string text =
-          "loads:\n" + load("m", "n1", f * l.middle, f * l.middle_moment) + load("t", "n2", f * l.tip, f * l.tip_moment);
+      const std::string text = "loads:\n" + load("m", "n1", f * l.middle, f * l.middle_moment) +
+                               load("t", "n2", f * l.tip, f * l.tip_moment);
       const VectorX exact = answer(nodes + beams() + text, "n1");
       return std::pair(VectorX(answer(nodes + "elements:\n" + element + text, "n1") - exact), exact);
     };
@@ -110,10 +112,11 @@ void check_third_order(const std::string& element, const Vector3& second, double
 /// Position of the tip as seen from the root, which turns about z by `angle` in 60 s and stays there for 20 s.
 std::vector<Vector3> turned_tip(const std::string& elements, const Vector3& second, double angle) {
   const std::string held = fmt::format(
-      "fixed: [x, y, z, rx, ry], motion: {{rz: \"if(t < 60, {:.17g}*(t/60 - sin(2*pi*t/60)/(2*pi)), {:.17g})\"}}", angle,
-      angle);
+      "fixed: [x, y, z, rx, ry], motion: {{rz: \"if(t < 60, {:.17g}*(t/60 - sin(2*pi*t/60)/(2*pi)), {:.17g})\"}}",
+      angle, angle);
   std::string nodes = nodes_of(second, held);
-  if (elements.find("n1") == std::string::npos) nodes.erase(nodes.find("  n1:"), nodes.find("  n2:") - nodes.find("  n1:"));
+  if (elements.find("n1") == std::string::npos)
+    nodes.erase(nodes.find("  n1:"), nodes.find("  n2:") - nodes.find("  n1:"));
   const ReadyModel model(nodes + elements);
   std::vector<Vector3> tip;
   integrate(model, Scheme::generalized_alpha(0.8), 0.1, 80, [&](const State& state) {
@@ -140,8 +143,9 @@ TEST_CASE("loads on a superelement with three interfaces, in a line and at a cor
   for (const Vector3& second : {Vector3(1, 0, 0), Vector3(0, 1, 0), Vector3(0.6, 0, 0.8)}) {
     CAPTURE(second.transpose());
     write_superelement(two_legs(second, true, 16).reduced().body, folder / "legs.h5");
-    check_third_order("  body: {type: superelement, file: " + folder.path() + "/legs.h5, nodes: {a: n0, c: n1, b: n2}}\n",
-                      second, 1e-3);
+    check_third_order(
+        "  body: {type: superelement, file: " + folder.path() + "/legs.h5, nodes: {a: n0, c: n1, b: n2}}\n", second,
+        1e-3);
   }
 }
 
@@ -158,7 +162,8 @@ TEST_CASE("a frame that is turned quickly, as one superelement, as two joined an
     write_superelement(first_leg.reduced().body, folder / "first.h5");
     write_superelement(second_leg.reduced().body, folder / "second.h5");
     const auto element = [&](const std::string& name, const std::string& nodes) {
-      return fmt::format("  {0}: {{type: superelement, file: {1}/{0}.h5, nodes: {{{2}}}}}\n", name, folder.path(), nodes);
+      return fmt::format("  {0}: {{type: superelement, file: {1}/{0}.h5, nodes: {{{2}}}}}\n", name, folder.path(),
+                         nodes);
     };
     struct Errors {
       double frame, corner, joined, parts;
@@ -181,10 +186,12 @@ TEST_CASE("a frame that is turned quickly, as one superelement, as two joined an
     CHECK(far.frame < 1e-3);
     // One body or two joined: the same linear theory.
     CHECK(near.parts < 1e-5);
-    // In the straight bar errors are of third order in the load. In a frame that turns they are of second order: small, and
-    // none of that of loads on its interfaces, but not less.
+    // In the straight bar errors are of third order in the load. In a frame that turns they are of second order: small,
+    // and none of that of loads on its interfaces, but not less.
     const double order = second.x() == 1 ? 0.3 : 0.65;
     CHECK(half.frame < order * far.frame);
     CHECK(half.corner < order * far.corner);
   }
 }
+
+}  // namespace test_more_interfaces

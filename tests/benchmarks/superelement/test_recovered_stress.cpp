@@ -16,6 +16,7 @@
 using namespace bielle;
 using namespace bielle::reduce;
 
+namespace test_recovered_stress {
 namespace {
 
 constexpr double young = 210e9, poisson = 0.3;
@@ -117,3 +118,5 @@ TEST_CASE("stress and strain recovered in a mechanism are those of the solid in 
     CHECK(results.read_number("/peaks/bar/solid/largest_principal/value") == largest);
   }
 }
+
+}  // namespace test_recovered_stress

@@ -1,7 +1,8 @@
 // Superelements of beams against the same beam, geometrically exact: the error that their linear elasticity leaves.
 //
 // Section of 1 x 1, E = 1e7, without shear; length 5 pi, straight or an arc of 9 degrees. Both models have the same
-// flexibility, so that what is left of their difference, the part linear in the load taken off, is that of large deformation.
+// flexibility, so that what is left of their difference, the part linear in the load taken off, is that of large
+// deformation.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -15,13 +16,15 @@ using namespace bielle;
 using namespace bielle::mechanism;
 using namespace bielle::test;
 
+namespace test_third_order {
 namespace {
 
 constexpr double EI = 1e7 / 12, GJ = 7.03e5, floor_of_residual = 1e-6;
 
 BeamChain chain_of(const BarAxis& axis, double length, double EA, int modes) {
   BeamChain chain;
-  constexpr int elements = 48;  // the stress of the free body is constant in each: what that costs falls with their square
+  constexpr int elements =
+      48;  // the stress of the free body is constant in each: what that costs falls with their square
   for (int k = 0; k <= elements; ++k) chain.nodes.push_back(axis.point(length * k / elements));
   chain.properties = {1, EA, EI, EI, GJ, 0.1};
   chain.interfaces = {{0}, {elements}};
@@ -72,10 +75,10 @@ TEST_CASE("loads on one superelement: its error is of third order") {
     const SolidBar bar{{radius}, length};
     write_bar(chain_of(bar.axis, length, EA, 16).reduced().body, folder / "piece.h5");
     const std::string element = chain_of_pieces(bar, 1, folder.path() + "/piece.h5"),
-                      beam = exact_beam(bar.axis, length,
-                                        fmt::format("{{EA: {0}, GAy: 1e10, GAz: 1e10, GJ: {1}, EIy: {2}, EIz: {2}}}", EA,
-                                                    GJ, EI),
-                                        48);
+                      beam = exact_beam(
+                          bar.axis, length,
+                          fmt::format("{{EA: {0}, GAy: 1e10, GAz: 1e10, GJ: {1}, EIy: {2}, EIz: {2}}}", EA, GJ, EI),
+                          48);
     for (const Load& load : loads) {
       CAPTURE(radius, load.name);
       const auto answers = [&](double factor) {
@@ -113,3 +116,5 @@ TEST_CASE("Euler's load of a pinned bar of one, two and four superelements") {
     CHECK(model.critical_load(0.8, 0.05, 1e-4, 1e-6) == Approx(1).epsilon(1e-3));
   }
 }
+
+}  // namespace test_third_order

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/elements/superelement/superelement_body.hpp"
+#include "reduce/common/symmetric_eigenpairs.hpp"
 #include "tests/support/beam_superelement.hpp"
 #include "tests/support/run_model.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -34,9 +35,10 @@ std::string node_text(const std::string& name, const Vector3& x, const Vector3& 
 
 /// Start velocities of the first bending mode with the displacement `amplitude` at the ends: reduced coordinates.
 VectorX mode_velocity(const BeamSuperelement& reduced, double amplitude) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixX> eigen(reduced.body.stiffness, reduced.body.mass);
-  const VectorX shape = eigen.eigenvectors().col(6);
-  return (amplitude * std::sqrt(eigen.eigenvalues()[6]) / std::abs(shape[1])) * (shape[1] < 0 ? -shape : shape);
+  const bielle::SymmetricEigenpairs eigen =
+      bielle::symmetric_eigenpairs(reduced.body.stiffness, reduced.body.mass).value();
+  const VectorX shape = eigen.vectors.col(6);
+  return (amplitude * std::sqrt(eigen.values[6]) / std::abs(shape[1])) * (shape[1] < 0 ? -shape : shape);
 }
 
 struct Flight {

@@ -15,6 +15,7 @@ using namespace bielle;
 using namespace bielle::mechanism;
 using namespace bielle::test;
 
+namespace test_validity {
 namespace {
 
 constexpr double EI = 1e7 / 12, GJ = 7.03e5, EA = 1e8, length = 16;
@@ -72,7 +73,8 @@ TEST_CASE("a superelement says how wrong it is where interfaces have no rotation
   };
   const std::string slides = ", fixed: [y, z, rx, ry, rz]";
   const double unit = EI / (length * length);
-  const std::string heavy = section.substr(0, section.size() - 1) + ", mass_per_length: 1, Jx: 0.1, Jy: 0.05, Jz: 0.05}";
+  const std::string heavy =
+      section.substr(0, section.size() - 1) + ", mass_per_length: 1, Jx: 0.1, Jy: 0.05, Jz: 0.05}";
   for (const Case& c : {Case{"force on a tip without rotations", {{0}, {elements, forces}}, "fixed: true", "", "b", 0},
                         Case{"force on a hinged tip", {{0}, {elements, hinge}}, "fixed: true", "", "b", 0},
                         Case{"held at the root alone", {{0}}, "fixed: true", "", "e", 2.7},
@@ -180,3 +182,5 @@ TEST_CASE("a run that bends a superelement too far says so, and fails where it m
       summary_of(1, ", largest_error: 2e-3"),
       Contains("load factor 0.6: superelement 'rod' bends by 0.6") && Contains("more than its `largest_error`, 0.002"));
 }
+
+}  // namespace test_validity

@@ -9,6 +9,7 @@
 #include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
 
+#include "reduce/common/symmetric_eigenpairs.hpp"
 #include "reduce/reduction/reduce_body.hpp"
 #include "tests/support/box_mesh.hpp"
 #include "tests/support/solid_model.hpp"
@@ -55,8 +56,8 @@ Eigen::VectorXd restricted(const Superelement& body, const std::vector<int>& coo
       scale.asDiagonal() * Eigen::MatrixXd(body.stiffness(coordinates, coordinates)) * scale.asDiagonal();
   const Eigen::MatrixXd m =
       scale.asDiagonal() * Eigen::MatrixXd(body.mass(coordinates, coordinates)) * scale.asDiagonal();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(k, m);
-  return eigen.eigenvalues().tail(eigen.eigenvalues().size() - rigid).cwiseSqrt() / (2 * std::numbers::pi);
+  const bielle::SymmetricEigenpairs eigen = bielle::symmetric_eigenpairs(k, m).value();
+  return eigen.values.tail(eigen.values.size() - rigid).cwiseSqrt() / (2 * std::numbers::pi);
 }
 
 /// The frequencies of a full model that bend along z are those near b^2 times the first of Euler and Bernoulli.

@@ -14,6 +14,7 @@ using bielle::test::check_second_order;
 using bielle::test::integrate;
 using bielle::test::ReadyModel;
 
+namespace test_torque_free_body {
 namespace {
 
 const char* const body = R"yaml(
@@ -67,3 +68,5 @@ TEST_CASE("the angular momentum of a free body keeps its direction and length in
   };
   check_second_order(drift, 8e-3, 3, 0.2, 0.2);
 }
+
+}  // namespace test_torque_free_body

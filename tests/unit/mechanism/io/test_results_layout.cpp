@@ -18,6 +18,7 @@ using namespace bielle::mechanism;
 using bielle::test::message_of;
 using Catch::Contains;
 
+namespace test_results_layout {
 namespace {
 
 /// Two hinges alike and one that is driven; bodies, two beams of one element and one of two; a door that hangs on two
@@ -246,3 +247,5 @@ TEST_CASE("where there would be too many datasets they are stacked, unless the n
   CHECK(layout_of(100, ResultsLayout::stacked) == "stacked");
   CHECK(layout_of(10'000, ResultsLayout::named) == "named");
 }
+
+}  // namespace test_results_layout

@@ -4,11 +4,14 @@
 #include <catch2/catch.hpp>
 
 #include "mechanism/math/negative_directions.hpp"
+#include "reduce/common/orthogonal_factors.hpp"
+#include "reduce/common/symmetric_eigenpairs.hpp"
 #include "tests/support/random.hpp"
 
 using namespace bielle::mechanism;
 using bielle::test::Random;
 
+namespace test_negative_directions {
 namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
@@ -36,10 +39,9 @@ TEST_CASE("negative directions are those of K on the null space of B, in any uni
     const int m = trial % 6;
     const MatrixX A = random.matrix(n, n), B = random.matrix(m, n);
     const MatrixX K = A + A.transpose();
-    const MatrixX Q = Eigen::HouseholderQR<MatrixX>(B.transpose()).householderQ() * MatrixX::Identity(n, n);
+    const MatrixX Q = bielle::orthogonal_basis(B.transpose());
     const MatrixX allowed = Q.rightCols(n - m);
-    const VectorX exact =
-        Eigen::SelfAdjointEigenSolver<MatrixX>(MatrixX(allowed.transpose() * K * allowed)).eigenvalues();
+    const VectorX exact = bielle::symmetric_eigenpairs(allowed.transpose() * K * allowed).values;
     const int negative = static_cast<int>((exact.array() < 0).count());
     CHECK(count(K, B) == negative);
     for (const double unit : {1e-6, 1e6}) {
@@ -90,3 +92,5 @@ TEST_CASE("what resists nothing is not negative, and small pivots do not decide"
     CHECK(count(saddle, MatrixX(0, 3), {0, 0, 0}) == 1);
   }
 }
+
+}  // namespace test_negative_directions

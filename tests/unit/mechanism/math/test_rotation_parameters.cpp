@@ -11,18 +11,19 @@
 #include "mechanism/math/rotation_parameters.hpp"
 #include "reduce/common/error.hpp"
 #include "tests/support/finite_difference.hpp"
+#include "tests/support/matrix_error.hpp"
 #include "tests/support/random.hpp"
 
 using namespace bielle::mechanism;
 using bielle::ComputationError;
 using bielle::test::derivative;
+using bielle::test::error;
 using bielle::test::Random;
 
 #define ALL_PARAMETRISATIONS RotationVector, UnitQuaternion, RodriguesVector, ConformalVector, EulerAngles, BryantAngles
 
+namespace test_rotation_parameters {
 namespace {
-
-double error(const MatrixX& A, const MatrixX& B) { return (A - B).cwiseAbs().maxCoeff(); }
 
 constexpr double rounding = 3e-15;    // products of a few 3x3 matrices with entries up to 1
 constexpr double difference = 2e-11;  // see finite_difference.hpp
@@ -252,3 +253,5 @@ TEST_CASE("all parametrisations describe one motion") {
     check(BryantAngles{});
   }
 }
+
+}  // namespace test_rotation_parameters

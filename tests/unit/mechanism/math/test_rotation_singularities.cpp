@@ -6,16 +6,16 @@
 
 #include "mechanism/math/rotation_parameters.hpp"
 #include "reduce/common/error.hpp"
+#include "tests/support/matrix_error.hpp"
 #include "tests/support/random.hpp"
 
 using namespace bielle::mechanism;
 using bielle::ComputationError;
+using bielle::test::error;
 using bielle::test::Random;
 using Catch::Matchers::Contains;
 
 namespace {
-
-double error(const MatrixX& A, const MatrixX& B) { return (A - B).cwiseAbs().maxCoeff(); }
 
 Matrix3 about(int axis, double angle) {
   Matrix3 R = Matrix3::Identity();

@@ -9,12 +9,14 @@
 
 #include "mechanism/math/se3.hpp"
 #include "tests/support/finite_difference.hpp"
+#include "tests/support/matrix_error.hpp"
 #include "tests/support/random.hpp"
 
 using namespace bielle::mechanism;
 using bielle::test::derivative;
 using bielle::test::Random;
 
+namespace test_se3 {
 namespace {
 
 const double angles[] = {
@@ -24,7 +26,7 @@ const double angles[] = {
 constexpr double rounding = 1e-14;    // products of 6x6 matrices with entries up to ~3
 constexpr double difference = 2e-11;  // see finite_difference.hpp
 
-double error(const MatrixX& A, const MatrixX& B) { return (A - B).cwiseAbs().maxCoeff(); }
+using bielle::test::error;
 double error(const Frame& A, const Frame& B) { return std::max(error(A.x, B.x), error(A.R, B.R)); }
 
 Vector6 motion(Random& random, double angle) {
@@ -176,3 +178,5 @@ TEST_CASE("ad is the rate of Ad, antisymmetric, and obeys Jacobi's identity") {
   CHECK(error(little_adjoint(a) * (B * c) + B * (little_adjoint(c) * a) + little_adjoint(c) * (A * b),
               VectorX::Zero(6)) < rounding);
 }
+
+}  // namespace test_se3

@@ -8,19 +8,20 @@
 #include "mechanism/math/so3.hpp"
 #include "reduce/common/error.hpp"
 #include "tests/support/finite_difference.hpp"
+#include "tests/support/matrix_error.hpp"
 #include "tests/support/random.hpp"
 
 using namespace bielle::mechanism;
 using bielle::test::derivative;
+using bielle::test::error;
 using bielle::test::Random;
 
+namespace test_so3 {
 namespace {
 
 const double angles[] = {
     0,   1e-12, 1e-8,        1e-5,        1e-4, 1e-3, 0.1, 1, 1.4999, 1.5, series_angle - 1e-9, series_angle,
     2.5, 3.1,   M_PI - 1e-6, M_PI - 1e-9, M_PI};
-
-double error(const MatrixX& A, const MatrixX& B) { return (A - B).cwiseAbs().maxCoeff(); }
 
 // Products of a few 3x3 matrices with entries up to ~1: some ten roundings of 1.1e-16.
 constexpr double rounding = 3e-15;
@@ -148,3 +149,5 @@ TEST_CASE("derivatives of the tangent operators are those of finite differences"
     }
   }
 }
+
+}  // namespace test_so3

@@ -8,21 +8,15 @@
 #include "mechanism/session/session.hpp"
 #include "tests/support/messages.hpp"
 #include "tests/support/second_order.hpp"
+#include "tests/support/session_model.hpp"
 
 using namespace bielle;
 using namespace bielle::mechanism;
 using bielle::test::check_second_order;
+using bielle::test::model_of;
+using bielle::test::steps_of;
 
 namespace {
-
-Model model_of(const std::string& text) { return read_mechanism_text(text, "model.yaml").model; }
-
-DynamicsOptions steps_of(double duration, double h) {
-  DynamicsOptions options;
-  options.duration = duration;
-  options.stepping.size = h;
-  return options;
-}
 
 /// Replaces each of the marks by its text.
 std::string with(std::string text, const std::vector<std::pair<std::string, std::string>>& marks) {

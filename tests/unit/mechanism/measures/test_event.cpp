@@ -11,22 +11,16 @@
 #include "mechanism/session/memory_sink.hpp"
 #include "mechanism/session/session.hpp"
 #include "tests/support/messages.hpp"
+#include "tests/support/session_model.hpp"
 
 using namespace bielle;
 using namespace bielle::mechanism;
 using bielle::test::message_of;
+using bielle::test::model_of;
+using bielle::test::steps_of;
 using Catch::Contains;
 
 namespace {
-
-Model model_of(const std::string& text) { return read_mechanism_text(text, "model.yaml").model; }
-
-DynamicsOptions steps_of(double duration, double h) {
-  DynamicsOptions options;
-  options.duration = duration;
-  options.stepping.size = h;
-  return options;
-}
 
 /// A stone that falls from 2 m: z = 2 - 5 t^2, exactly so for the scheme.
 std::string stone(const std::string& events) {

@@ -7,11 +7,13 @@
 
 #include "mechanism/math/rotation_parameters.hpp"
 #include "mechanism/reading/read_frame.hpp"
+#include "tests/support/matrix_error.hpp"
 #include "tests/support/messages.hpp"
 
 using namespace bielle::mechanism;
 using bielle::InputError;
 using bielle::YamlValue;
+using bielle::test::error;
 using bielle::test::message_of;
 using Catch::Contains;
 
@@ -22,8 +24,6 @@ Frame frame(const std::string& text) { return read_frame(YamlValue::parse(text, 
 std::string refusal(const std::string& text) {
   return message_of<InputError>([&] { frame(text); });
 }
-
-double error(const MatrixX& A, const MatrixX& B) { return (A - B).cwiseAbs().maxCoeff(); }
 
 std::string list(const VectorX& v) {
   std::string text = "[";

@@ -6,15 +6,15 @@
 #include "mechanism/elements/rigid_body/rigid_body.hpp"
 #include "mechanism/system/system.hpp"
 #include "tests/support/finite_difference.hpp"
+#include "tests/support/matrix_error.hpp"
 #include "tests/support/random.hpp"
 
 using namespace bielle::mechanism;
 using bielle::test::derivative;
+using bielle::test::error;
 using bielle::test::Random;
 
 namespace {
-
-double error(const MatrixX& A, const MatrixX& B) { return (A - B).cwiseAbs().maxCoeff(); }
 
 enum class Hold { free, partly, moved };
 

@@ -10,6 +10,7 @@
 using namespace bielle::mechanism;
 using Catch::Matchers::Contains;
 
+namespace test_unknowns {
 namespace {
 
 const char* const model_text = R"yaml(
@@ -151,3 +152,5 @@ TEST_CASE("a pattern gathered by columns is that of its entries") {
   CHECK(gathered.column_start() == sorted.column_start());
   CHECK(gathered.row() == sorted.row());
 }
+
+}  // namespace test_unknowns

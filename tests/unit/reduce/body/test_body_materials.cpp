@@ -16,6 +16,7 @@ using namespace bielle::test;
 using Catch::Contains;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
+namespace test_body_materials {
 namespace {
 
 Material material(const std::string& text) { return read_material(YamlValue::parse(text, "rod.yaml")); }
@@ -149,3 +150,5 @@ TEST_CASE("values that no solid has are doubted, with key and range") {
                "density: 1000}")
             .size() == 1);
 }
+
+}  // namespace test_body_materials

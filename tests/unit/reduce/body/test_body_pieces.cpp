@@ -12,6 +12,7 @@ using namespace bielle::reduce;
 using bielle::test::message_of;
 using Catch::Contains;
 
+namespace test_body_pieces {
 namespace {
 
 BodyFile read(const std::string& pieces) {
@@ -91,3 +92,5 @@ TEST_CASE("what cannot be a cut is refused with its place") {
              Contains("expected an angle [rad] up to 2 pi"));
   CHECK_THAT(message("{planes: {axis: x, at: 1}, tie: rigd}"), Contains("did you mean 'rigid'?"));
 }
+
+}  // namespace test_body_pieces

@@ -15,6 +15,7 @@ using bielle::InputError;
 using bielle::test::message_of;
 using Catch::Matchers::Contains;
 
+namespace test_command_line {
 namespace {
 
 struct Parsed {
@@ -72,3 +73,5 @@ TEST_CASE("Wrong command lines are explained in one line") {
   for (const char* wrong : {"-x", "--threads", "other"})
     CHECK(why_wrong({"body.yaml", wrong}).find('\n') == std::string::npos);
 }
+
+}  // namespace test_command_line

@@ -20,10 +20,11 @@ using bielle::test::message_of;
 using Catch::Matchers::Contains;
 using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;
+using std::numbers::pi;
 
+namespace test_expression {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 // A formula of a few operations may be wrong by a few roundings.
 constexpr double rounding = 1e-15;
 
@@ -321,3 +322,5 @@ TEST_CASE("Decimal points do not depend on the locale") {
   CHECK(constant("1.5+1") == 2.5);
   if (set != nullptr) std::setlocale(LC_ALL, "C");
 }
+
+}  // namespace test_expression

@@ -13,6 +13,7 @@ using bielle::YamlValue;
 using bielle::test::message_of;
 using Catch::Matchers::Contains;
 
+namespace test_yaml_file {
 namespace {
 
 YamlValue parsed(const std::string& text) { return YamlValue::parse(text, "crank.yaml"); }
@@ -221,3 +222,5 @@ TEST_CASE("A digest tells values by what they count, not by how they are written
   CHECK(before[0].second != after[0].second);
   CHECK(before[1].second != after[1].second);
 }
+
+}  // namespace test_yaml_file

@@ -6,21 +6,15 @@
 #include "reduce/fe/elasticity.hpp"
 #include "reduce/fe/geometric_stiffness.hpp"
 #include "tests/support/box_mesh.hpp"
+#include "tests/unit/reduce/fe/field.hpp"
 
 using namespace bielle;
 using namespace bielle::reduce;
+using bielle::test::field;
 
 namespace {
 
 using Map = std::function<Eigen::Vector3d(const Eigen::Vector3d&)>;
-
-RowMatrix field(const Mesh& mesh, const Map& u) {
-  RowMatrix result(3 * mesh.point_count(), 1);
-  for (Eigen::Index a = 0; a < mesh.point_count(); ++a) {
-    result.middleRows<3>(3 * a) = u(mesh.points.col(a));
-  }
-  return result;
-}
 
 /// Columns: three translations, three rotations about the origin.
 RowMatrix rigid_motions(const Mesh& mesh) {

@@ -8,20 +8,16 @@
 #include "reduce/fe/shape_functions.hpp"
 #include "tests/support/box_mesh.hpp"
 #include "tests/support/solid_model.hpp"
+#include "tests/unit/reduce/fe/field.hpp"
 
 using namespace bielle;
 using namespace bielle::reduce;
+using bielle::test::field;
 
 namespace {
 
 constexpr double young = 2e5, nu = 0.3;
 const Material material = Material::isotropic(young, nu, 1);
-
-RowMatrix field(const Mesh& mesh, const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& u) {
-  RowMatrix result(3 * mesh.point_count(), 1);
-  for (Eigen::Index a = 0; a < mesh.point_count(); ++a) result.block<3, 1>(3 * a, 0) = u(mesh.points.col(a));
-  return result;
-}
 
 /// Saint-Venant bending about z with unit curvature: sigma_xx = -E y alone.
 Eigen::Vector3d bending(const Eigen::Vector3d& x) {

@@ -9,6 +9,11 @@ namespace bielle::test {
 
 inline reduce::Material steel() { return reduce::Material::isotropic(210e9, 0.3, 7800); }
 
+/// A mesh all of steel.
+inline reduce::Solid steel_solid(const reduce::Mesh& mesh) {
+  return make_solid(mesh, {{"steel", steel()}}, {{"all", "steel"}});
+}
+
 inline reduce::InterfaceRequest interface(const std::string& name, const std::string& group, reduce::Tie tie) {
   reduce::InterfaceRequest request;
   request.name = name;

@@ -13,6 +13,7 @@
 using namespace bielle;
 using namespace bielle::reduce;
 
+namespace test_inertia_relief {
 namespace {
 
 constexpr double young = 210e9, density = 7800;  // of test::steel()
@@ -177,3 +178,5 @@ TEST_CASE("Each piece of a body gets its own inertia relief") {
     CHECK(piece.inertia_answer.missing.norm() < 1e-8 * piece.inertia_answer.whole.norm());
   }
 }
+
+}  // namespace test_inertia_relief

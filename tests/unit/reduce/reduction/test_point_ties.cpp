@@ -12,15 +12,9 @@ using namespace bielle::reduce;
 using bielle::test::message_of;
 using Catch::Contains;
 
-namespace {
-
-Solid solid_of(const Mesh& mesh) { return make_solid(mesh, {{"steel", test::steel()}}, {{"all", "steel"}}); }
-
-}  // namespace
-
 TEST_CASE("A point on a surface moves as the node of an average tie does") {
   const Mesh mesh = test::twisted_block();
-  const Solid solid = solid_of(mesh);
+  const Solid solid = test::steel_solid(mesh);
   const Eigen::Vector3d place(0.7, -0.2, 0.3);
   for (const bool off_centre : {false, true}) {
     InterfaceRequest tie = test::interface("a", "y1", Tie::average);
@@ -35,7 +29,7 @@ TEST_CASE("A point on a surface moves as the node of an average tie does") {
 
 TEST_CASE("Points follow rigid motions exactly and pass loads on without loss") {
   const Mesh mesh = test::twisted_block();
-  const Solid solid = solid_of(mesh);
+  const Solid solid = test::steel_solid(mesh);
   // At a node, between nodes, and a little off the surface.
   std::vector<PointRequest> requests = {test::point_at("node", mesh.points.col(40)),
                                         test::point_at("inside", mass_properties(solid).centre),
@@ -54,7 +48,7 @@ TEST_CASE("The point of a surface has the mean of a field over its area") {
   const Mesh mesh = test::distorted_box_mesh({{1, 1, 1}, {2, 3, 2}}, 0.2);
   RowMatrix field = RowMatrix::Zero(3 * mesh.point_count(), 1);
   for (Eigen::Index a = 0; a < mesh.point_count(); ++a) field(3 * a, 0) = mesh.points(1, a) * mesh.points(1, a);
-  const auto points = named_points(tie_points(solid_of(mesh), {test::point_on("pad", "x1")}, "box"), field);
+  const auto points = named_points(tie_points(test::steel_solid(mesh), {test::point_on("pad", "x1")}, "box"), field);
   Eigen::VectorXd expected(6);
   expected << 1.0 / 3, 0, 0, 0, 0, -1;
   CHECK((points.at("pad").shapes - expected).norm() < 1e-13);
@@ -68,7 +62,7 @@ TEST_CASE("A point in the mesh is in a field that is linear in space as the fiel
   gradient << 1, 2, 3, -4, 5, 6, 7, -8, 9;
   RowMatrix field(3 * mesh.point_count(), 1);
   for (Eigen::Index a = 0; a < mesh.point_count(); ++a) field.middleRows<3>(3 * a) = gradient * mesh.points.col(a);
-  const auto points = named_points(tie_points(solid_of(mesh), {test::point_at("p", place)}, "box"), field);
+  const auto points = named_points(tie_points(test::steel_solid(mesh), {test::point_at("p", place)}, "box"), field);
   Eigen::VectorXd expected(6);
   expected << gradient * place, Eigen::Vector3d(-8 - 6, 3 - 7, -4 - 2) / 2;  // half the curl
   CHECK((points.at("p").shapes - expected).norm() < 1e-11 * expected.norm());
@@ -77,7 +71,7 @@ TEST_CASE("A point in the mesh is in a field that is linear in space as the fiel
 TEST_CASE("Points that cannot be are refused with the place in the input file") {
   const Mesh mesh = test::box_mesh({{1, 1, 1}, {2, 2, 2}});
   const auto refusal = [&](const std::vector<PointRequest>& requests) {
-    return message_of<InputError>([&] { tie_points(solid_of(mesh), requests, "box"); });
+    return message_of<InputError>([&] { tie_points(test::steel_solid(mesh), requests, "box"); });
   };
   CHECK_THAT(refusal({test::point_on("p", "y3")}),
              Contains("body.yaml:9: points.p: the mesh has no surface group 'y3'"));

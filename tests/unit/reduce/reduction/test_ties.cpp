@@ -10,18 +10,12 @@ using namespace bielle;
 using namespace bielle::reduce;
 using Catch::Contains;
 
-namespace {
-
-Solid solid_of(const Mesh& mesh) { return make_solid(mesh, {{"steel", test::steel()}}, {{"all", "steel"}}); }
-
-}  // namespace
-
 TEST_CASE("An average interface follows rigid motions of its surface exactly, wherever its node is") {
   const Mesh mesh = test::twisted_block();
   InterfaceRequest request = test::interface("a", "x1", Tie::average);
   request.position = Eigen::Vector3d(0.7, -0.2, 0.3);
   request.rotation = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
-  const Ties ties = make_ties(solid_of(mesh), {request});
+  const Ties ties = make_ties(test::steel_solid(mesh), {request});
   const RowMatrix u = rigid_motions(mesh.points, Eigen::Vector3d(0.1, 0.2, 0.3));
   const Eigen::MatrixXd q = interface_rigid_motions(ties.interfaces, Eigen::Vector3d(0.1, 0.2, 0.3));
   CHECK((ties.spread.transpose() * u - q).norm() < 1e-12);  // terms of the order arm / width of the surface = 10
@@ -31,7 +25,7 @@ TEST_CASE("A load on an average interface is spread without loss of force or mom
   const Mesh mesh = test::twisted_block();
   InterfaceRequest request = test::interface("a", "x1", Tie::average);
   request.position = Eigen::Vector3d(0.7, -0.2, 0.3);
-  const Ties ties = make_ties(solid_of(mesh), {request});
+  const Ties ties = make_ties(test::steel_solid(mesh), {request});
   // Resultants about the interface's node are the work on rigid motions about it.
   const Eigen::MatrixXd resultants = rigid_motions(mesh.points, *request.position).transpose() * ties.spread;
   CHECK((resultants - Eigen::MatrixXd::Identity(6, 6)).norm() < 1e-12);  // terms of the order arm / width = 10
@@ -41,7 +35,7 @@ TEST_CASE("The mean of a surface's displacement is area-weighted, whatever the m
   // u = (y^2, 0, 0) on the side x = 1 of a unit box: mean 1/3, and no mean rotation about y; about z it is
   // -int (y - 1/2) y^2 / int ((y - 1/2)^2) with the side's polar moment about z: -(1/4 - 1/6) / (1/12) = -1.
   const Mesh mesh = test::distorted_box_mesh({{1, 1, 1}, {2, 3, 2}}, 0.2);
-  const Ties ties = make_ties(solid_of(mesh), {test::interface("a", "x1", Tie::average)});
+  const Ties ties = make_ties(test::steel_solid(mesh), {test::interface("a", "x1", Tie::average)});
   Eigen::VectorXd u = Eigen::VectorXd::Zero(3 * mesh.point_count());
   for (Eigen::Index a = 0; a < mesh.point_count(); ++a) {
     u(3 * a) = mesh.points(1, a) * mesh.points(1, a);
@@ -56,7 +50,7 @@ TEST_CASE("A rigid interface carries its surface, in its own axes, and by defaul
   InterfaceRequest request = test::interface("a", "x0", Tie::rigid);
   request.rotation = Eigen::AngleAxisd(1.1, Eigen::Vector3d(0, 2, 1).normalized()).toRotationMatrix();
   request.kept = {true, true, false, true, true, true};
-  const Ties ties = make_ties(solid_of(mesh), {request});
+  const Ties ties = make_ties(test::steel_solid(mesh), {request});
   CHECK(ties.interfaces[0].position == integrate_surface(mesh, "x0").centroid);
   REQUIRE(ties.kept.size() == 5);
   REQUIRE(ties.released.size() == 1);
@@ -73,7 +67,7 @@ TEST_CASE("A rigid interface carries its surface, in its own axes, and by defaul
 
 TEST_CASE("A free interface makes a node of every node") {
   const Mesh mesh = test::box_mesh({{1, 1, 1}, {2, 1, 1}});
-  const Ties ties = make_ties(solid_of(mesh), {test::interface("foot", "x0", Tie::free)});
+  const Ties ties = make_ties(test::steel_solid(mesh), {test::interface("foot", "x0", Tie::free)});
   REQUIRE(ties.interfaces.size() == 9);
   CHECK(ties.kept.size() == 27);
   const int node = ties.surfaces[3].nodes[0];
@@ -84,7 +78,7 @@ TEST_CASE("A free interface makes a node of every node") {
 
 TEST_CASE("Interfaces that cannot be are refused with the place in the input file") {
   const Mesh mesh = test::box_mesh({{1, 1, 1}, {2, 2, 2}});
-  const Solid solid = solid_of(mesh);
+  const Solid solid = test::steel_solid(mesh);
   const auto a = test::interface("a", "x0", Tie::rigid);
   CHECK_THROWS_WITH(make_ties(solid, {}), Contains("interfaces: there is none"));
   CHECK_THROWS_WITH(make_ties(solid, {a, test::interface("b", "y0", Tie::average)}),
@@ -102,5 +96,5 @@ TEST_CASE("Interfaces that cannot be are refused with the place in the input fil
   loose.points.conservativeResize(Eigen::NoChange, loose.points.cols() + 1);
   loose.points.rightCols<1>() << -1, 0, 0;
   loose.blocks[1].nodes(0, loose.groups.at("x0").parts[0].cells[0]) = static_cast<int>(loose.points.cols()) - 1;
-  CHECK_THROWS_WITH(make_ties(solid_of(loose), {a}), Contains("is no point of the solid"));
+  CHECK_THROWS_WITH(make_ties(test::steel_solid(loose), {a}), Contains("is no point of the solid"));
 }

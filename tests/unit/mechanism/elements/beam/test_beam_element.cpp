@@ -5,17 +5,17 @@
 
 #include "mechanism/elements/beam/beam_element.hpp"
 #include "tests/support/dense_model.hpp"
+#include "tests/support/matrix_error.hpp"
 #include "tests/support/random.hpp"
 
 using namespace bielle::mechanism;
 using bielle::test::DenseModel;
+using bielle::test::error;
 using bielle::test::Random;
 
 namespace {
 
 using Vector12 = Eigen::Matrix<double, 12, 1>;
-
-double error(const MatrixX& A, const MatrixX& B) { return (A - B).cwiseAbs().maxCoeff(); }
 
 int add_node(Model& model, const std::string& name, const Frame& frame) {
   Node node;

@@ -1,5 +1,6 @@
 // Inertia of beams: frequencies against Timoshenko's theory, mass properties, conservation.
 #include <cmath>
+#include <numbers>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -7,6 +8,8 @@
 #include <catch2/catch.hpp>
 
 #include "mechanism/elements/rigid_body/mass_properties.hpp"
+#include "reduce/common/dense_solves.hpp"
+#include "reduce/common/symmetric_eigenpairs.hpp"
 #include "tests/support/dense_model.hpp"
 #include "tests/support/finite_difference.hpp"
 #include "tests/support/model_text.hpp"
@@ -16,19 +19,18 @@ using namespace bielle::mechanism;
 using bielle::test::DenseModel;
 using bielle::test::model_from_text;
 using bielle::test::Random;
+using std::numbers::pi;
 using Part = bielle::test::DenseModel::Part;
 
 namespace {
-
-const double pi = 3.141592653589793;
 
 /// Natural frequencies [rad/s] of a model about its start in the given unknowns, ascending.
 VectorX frequencies(const Model& model, const std::vector<int>& free) {
   const DenseModel dense(model);
   const State state = dense.start();
   const MatrixX K = dense.tangent(state, Part::K)(free, free), M = dense.tangent(state, Part::M)(free, free);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixX> eigen(0.5 * (K + K.transpose()), M);
-  return eigen.eigenvalues().cwiseMax(0).cwiseSqrt();
+  const bielle::SymmetricEigenpairs eigen = bielle::symmetric_eigenpairs(0.5 * (K + K.transpose()), M).value();
+  return eigen.values.cwiseMax(0).cwiseSqrt();
 }
 
 /// A beam of unit length along x; nodes: 1 and 2 the ends, then the inner ones.
@@ -306,7 +308,7 @@ elements:
     // Accelerations of free flight: M a = -(the rest).
     const MatrixX M = dense.tangent(state, Part::M).bottomRightCorner(n, n);
     VectorX a = VectorX::Zero(dense.size());
-    a.tail(n) = -M.llt().solve(dense.residual(state).tail(n));
+    a.tail(n) = -bielle::solve_symmetric(M, dense.residual(state).tail(n));
     dense.move_accelerations(state, a);
     REQUIRE(dense.residual(state).tail(n).norm() < 1e-11);
 

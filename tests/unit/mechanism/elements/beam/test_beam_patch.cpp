@@ -1,23 +1,25 @@
 // What a beam must represent exactly: constant strains on curved and twisted elements, rolling up, rigid rotation of a
 // bent beam, and the way back.
 #include <cmath>
+#include <numbers>
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
 #include "mechanism/elements/beam/beam_element.hpp"
+#include "tests/support/list_of_numbers.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/static_model.hpp"
 
 using namespace bielle::mechanism;
 using bielle::test::DenseModel;
+using bielle::test::list;
 using bielle::test::Random;
 using bielle::test::solve_static;
 using bielle::test::StaticModel;
+using std::numbers::pi;
 
 namespace {
-
-const double pi = 3.141592653589793;
 
 /// Four elements of unequal length, free of stress on the helix of tangent e_x and curvature `K0`, brought to the
 /// strain eps. @returns the largest force left at their inner nodes, and how far the force in the first is from `f`
@@ -52,8 +54,6 @@ Matrix6 fitted(const Matrix6& C0, const Vector6& eps, const Vector6& f) {
   const Vector6 g = C0 * eps;
   return C0 - g * g.transpose() / eps.dot(g) + f * f.transpose() / eps.dot(f);
 }
-
-std::string list(const Vector3& v) { return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", v.x(), v.y(), v.z()); }
 
 }  // namespace
 

@@ -1,20 +1,24 @@
 // Beams as input: geometry, attachment to nodes, messages.
 #include <cmath>
+#include <numbers>
 
 #include <catch2/catch.hpp>
 
 #include "mechanism/elements/beam/beam_geometry.hpp"
 #include "tests/support/dense_model.hpp"
+#include "tests/support/matrix_error.hpp"
 #include "tests/support/model_text.hpp"
 
 using namespace bielle::mechanism;
 using bielle::test::DenseModel;
+using bielle::test::error;
 using bielle::test::model_from_text;
 using Catch::Contains;
+using std::numbers::pi;
 
+namespace test_beam_reader {
 namespace {
 
-const double pi = 3.141592653589793;
 const std::string section = "section: {EA: 1, GAy: 2, GAz: 3, GJ: 4, EIy: 5, EIz: 6}";
 
 std::unique_ptr<Model> beam(const std::string& keys, const std::string& a = "{position: [0, 0, 0]}",
@@ -22,8 +26,6 @@ std::unique_ptr<Model> beam(const std::string& keys, const std::string& a = "{po
   return model_from_text("nodes: {a: " + a + ", b: " + b + "}\nelements:\n  shaft: {type: beam, nodes: [a, b], " +
                          keys + "}\n");
 }
-
-double error(const MatrixX& A, const MatrixX& B) { return (A - B).cwiseAbs().maxCoeff(); }
 
 }  // namespace
 
@@ -151,3 +153,5 @@ TEST_CASE("a beam that cannot be built says why") {
       Contains("model.yaml:2") && Contains("already a node 'shaft.1'"));
   CHECK_THROWS_WITH(beam(section + ", lenght: 2"), Contains("'lenght' is not a key of a beam"));
 }
+
+}  // namespace test_beam_reader

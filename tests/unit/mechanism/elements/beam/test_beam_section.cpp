@@ -1,5 +1,6 @@
 // Cross sections: closed forms and published constants.
 #include <cmath>
+#include <numbers>
 #include <sstream>
 
 #include <catch2/catch.hpp>
@@ -10,10 +11,9 @@
 using namespace bielle::mechanism;
 using Catch::Contains;
 using Catch::WithinRel;
+using std::numbers::pi;
 
 namespace {
-
-const double pi = 3.141592653589793;
 
 SectionLaw section(const std::string& text) { return SectionLaw(bielle::YamlValue::parse(text, "section.yaml")); }
 

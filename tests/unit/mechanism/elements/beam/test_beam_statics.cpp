@@ -1,5 +1,6 @@
 // Linear statics of beams: cantilevers, a quarter ring, the twisted beam. (Large deformation: tests/benchmarks/beams.)
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include <Eigen/LU>
@@ -7,16 +8,16 @@
 
 #include "mechanism/math/se3.hpp"
 #include "tests/support/dense_model.hpp"
+#include "tests/support/dense_solution.hpp"
 #include "tests/support/model_text.hpp"
 
 using namespace bielle::mechanism;
 using bielle::test::DenseModel;
 using bielle::test::model_from_text;
 using bielle::test::solve_static;
+using std::numbers::pi;
 
 namespace {
-
-const double pi = 3.141592653589793;
 
 /// All unknowns of the nodes after `first`.
 std::vector<int> free_from(const DenseModel& dense, int first) {
@@ -81,7 +82,7 @@ Vector3 unit_deflection(const std::string& yaml, const Vector3& force) {
   const std::vector<int> free = free_from(beam.dense, 2);
   VectorX f = VectorX::Zero(static_cast<Eigen::Index>(free.size()));
   f.head<3>() = force;
-  return beam.dense.tangent(beam.state, DenseModel::Part::K)(free, free).partialPivLu().solve(f).head<3>();
+  return bielle::test::solution(beam.dense.tangent(beam.state, DenseModel::Part::K)(free, free), f).head<3>();
 }
 
 /// Errors of a deflection: of second order with constant strain, none with the residual flexibility.

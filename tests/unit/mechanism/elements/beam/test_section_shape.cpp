@@ -1,6 +1,7 @@
 // Shapes of cross sections: constants and stresses against closed forms, finer grids, and equilibrium.
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
@@ -11,10 +12,9 @@
 using namespace bielle::mechanism;
 using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;
+using std::numbers::pi;
 
 namespace {
-
-const double pi = 3.141592653589793;
 
 std::unique_ptr<SectionShape> shape(const std::string& name, const std::string& dimensions) {
   return make_section_shape(name, read_shape_dimensions(name, bielle::YamlValue::parse(dimensions, "shape.yaml")));

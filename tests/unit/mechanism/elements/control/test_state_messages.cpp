@@ -1,8 +1,9 @@
 // What users read when a state is written wrong.
-#include "control_models.hpp"
 #include <catch2/catch.hpp>
 
+#include "tests/support/hinged_rotor.hpp"
 #include "tests/support/messages.hpp"
+#include "tests/support/session_model.hpp"
 
 using bielle::test::rotor;
 using Catch::Contains;

@@ -1,10 +1,10 @@
 // States in static analyses: rates are zero where that determines states, and those that it does not stay.
 #include <cmath>
 
-#include "control_models.hpp"
 #include <catch2/catch.hpp>
 
 #include "mechanism/session/notes.hpp"
+#include "tests/support/session_model.hpp"
 
 using namespace bielle;
 using namespace bielle::mechanism;

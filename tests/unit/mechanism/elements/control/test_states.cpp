@@ -1,12 +1,13 @@
 // States in motion: closed forms, equivalent ways to write the same thing, where they begin, and going on from a save.
 #include <cmath>
 
-#include "control_models.hpp"
 #include <catch2/catch.hpp>
 
 #include "mechanism/io/describe_model.hpp"
+#include "tests/support/hinged_rotor.hpp"
 #include "tests/support/runge_kutta.hpp"
 #include "tests/support/second_order.hpp"
+#include "tests/support/session_model.hpp"
 
 using namespace bielle;
 using namespace bielle::mechanism;

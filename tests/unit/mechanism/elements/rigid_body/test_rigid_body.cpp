@@ -8,18 +8,18 @@
 #include "mechanism/elements/rigid_body/rigid_body.hpp"
 #include "mechanism/elements/rigid_body/solid_reader.hpp"
 #include "tests/support/dense_model.hpp"
+#include "tests/support/matrix_error.hpp"
 #include "tests/support/model_text.hpp"
 #include "tests/support/random.hpp"
 
 using namespace bielle::mechanism;
 using bielle::test::DenseModel;
+using bielle::test::error;
 using bielle::test::model_from_text;
 using bielle::test::Random;
 using Catch::Contains;
 
 namespace {
-
-double error(const MatrixX& A, const MatrixX& B) { return (A - B).cwiseAbs().maxCoeff(); }
 
 std::unique_ptr<Model> body(const std::string& keys) {
   return model_from_text(

@@ -7,6 +7,7 @@
 #include "reduce/common/error.hpp"
 #include "tests/support/beam_superelement.hpp"
 #include "tests/support/cut_chain.hpp"
+#include "tests/support/matrix_error.hpp"
 #include "tests/support/messages.hpp"
 #include "tests/support/static_model.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -17,8 +18,6 @@ using namespace bielle::test;
 using Catch::Contains;
 
 namespace {
-
-double error(const MatrixX& A, const MatrixX& B) { return (A - B).cwiseAbs().maxCoeff(); }
 
 BeamSuperelement body_with_mesh(const BeamChain& chain) {
   BeamSuperelement reduced = chain.reduced();
@@ -34,8 +33,9 @@ void name_point(Superelement& body, const std::string& name, const Vector3& plac
 
 /// The straight beam of length 1 with its middle as a third interface, or with a point there.
 std::string cantilever(const std::string& folder, const std::string& middle, const std::string& points) {
-  return "nodes: {root: {fixed: true}" + middle + "}\n" + points + "elements:\n  it: {type: superelement, file: " + folder +
-         "/beam.h5, nodes: {a: root" + (middle.empty() ? "" : ", c: middle") + "}}\n";
+  return "nodes: {root: {fixed: true}" + middle + "}\n" + points +
+         "elements:\n  it: {type: superelement, file: " + folder + "/beam.h5, nodes: {a: root" +
+         (middle.empty() ? "" : ", c: middle") + "}}\n";
 }
 
 }  // namespace
@@ -65,15 +65,16 @@ TEST_CASE("points of a rigidly moved body move rigidly, on its mesh and between 
 }
 
 TEST_CASE("a load on a point does what it does on an interface there, but for the compliance that the basis lacks") {
-  // Small loads at the middle of a cantilever of length 1, EIz = 1: deflection 1/24, slope 1/8 at the middle under a force,
-  // 5/48 at the tip. The basis has the modes of the beam clamped at both ends, which give the rest of the middle's compliance
-  // 1/192 and a part of 1/16 of its turning under a moment.
+  // Small loads at the middle of a cantilever of length 1, EIz = 1: deflection 1/24, slope 1/8 at the middle under a
+  // force, 5/48 at the tip. The basis has the modes of the beam clamped at both ends, which give the rest of the
+  // middle's compliance 1/192 and a part of 1/16 of its turning under a moment.
   TemporaryFolder folder;
   BeamChain chain = straight_beam({}, 12);
   write_superelement(body_with_mesh(chain).body, folder / "beam.h5");
   const std::string points = "points: {middle: {element: it, at: [0.5, 0, 0]}}\n";
   constexpr double force = 1e-3;
-  StaticModel model(cantilever(folder.path(), "", points) + fmt::format("loads: {{p: {{node: middle, force: [0, {}, 0]}}}}\n", force));
+  StaticModel model(cantilever(folder.path(), "", points) +
+                    fmt::format("loads: {{p: {{node: middle, force: [0, {}, 0]}}}}\n", force));
   for (int k = model.dense.multiplier_begin(); k < model.dense.size(); ++k) model.free.push_back(k);
   REQUIRE(model.load(1, 1e-10) >= 0);  // rounding of EA = 1e5
   // The point stands between the mesh's nodes, of which those a twentieth of the length away count as well: some 1e-3.
@@ -136,8 +137,10 @@ TEST_CASE("wrong points are refused with what to do") {
   const auto refusal = [&](const std::string& points) {
     return message_of<InputError>([&] { model_from_text(cantilever(folder.path(), "", points)); });
   };
-  CHECK_THAT(refusal("points: {p: {element: it, at: [0.5, 0.3, 0]}}\n"), Contains("points.p.at") && Contains("away from the nearest node"));
-  CHECK_THAT(refusal("points: {p: {element: bit, at: [0.5, 0, 0]}}\n"), Contains("no superelement 'bit'; did you mean 'it'"));
+  CHECK_THAT(refusal("points: {p: {element: it, at: [0.5, 0.3, 0]}}\n"),
+             Contains("points.p.at") && Contains("away from the nearest node"));
+  CHECK_THAT(refusal("points: {p: {element: bit, at: [0.5, 0, 0]}}\n"),
+             Contains("no superelement 'bit'; did you mean 'it'"));
   CHECK_THAT(refusal("points: {root: {element: it, at: [0.5, 0, 0]}}\n"), Contains("points.root") && Contains("root"));
   CHECK_THAT(refusal("points: {p: {element: it}}\n"),
              Contains("points.p: expected either `at`") && Contains("or `point`"));

@@ -5,14 +5,13 @@
 #include "mechanism/elements/superelement/frame_conditions.hpp"
 #include "reduce/common/error.hpp"
 #include "tests/support/finite_difference.hpp"
+#include "tests/support/matrix_error.hpp"
 #include "tests/support/superelement_alone.hpp"
 
 using namespace bielle::mechanism;
 using namespace bielle::test;
 
 namespace {
-
-double error(const MatrixX& A, const MatrixX& B) { return (A - B).cwiseAbs().maxCoeff(); }
 
 std::vector<Matrix3> turned_nodes(Random& random) {
   return {exp_so3(random.vector3(2)), exp_so3(random.vector3(2)), exp_so3(random.vector3(2))};

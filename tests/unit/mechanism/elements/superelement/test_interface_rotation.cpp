@@ -5,17 +5,17 @@
 #include "mechanism/elements/superelement/interface_rotation.hpp"
 #include "mechanism/math/so3.hpp"
 #include "tests/support/finite_difference.hpp"
+#include "tests/support/matrix_error.hpp"
 #include "tests/support/random.hpp"
 
 using namespace bielle::mechanism;
 using bielle::test::derivative;
+using bielle::test::error;
 using bielle::test::jacobian;
 using bielle::test::Random;
 using Kind = InterfaceRotation::Kind;
 
 namespace {
-
-double error(const MatrixX& A, const MatrixX& B) { return (A - B).cwiseAbs().maxCoeff(); }
 
 constexpr std::array<std::array<bool, 3>, 8> all_kept = {{{true, true, true},
                                                           {true, true, false},

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/support/finite_difference.hpp"
+#include "tests/support/matrix_error.hpp"
 #include "tests/support/superelement_alone.hpp"
 
 using namespace bielle::mechanism;
@@ -18,8 +19,6 @@ std::vector<BeamChain> bodies() {
   for (BeamChain& chain : chains) chain.damping = 0;
   return chains;
 }
-
-double error(const MatrixX& A, const MatrixX& B) { return (A - B).cwiseAbs().maxCoeff(); }
 
 /// A motion through a state: z(t) = v t + a t^2 / 2 in the chart x + dx, R exp(dTheta), amplitudes. In this chart rates
 /// and accelerations at t = 0 are v and a.

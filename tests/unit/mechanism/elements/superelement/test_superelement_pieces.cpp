@@ -12,6 +12,7 @@ using namespace bielle::mechanism;
 using namespace bielle::test;
 using Catch::Contains;
 
+namespace test_superelement_pieces {
 namespace {
 
 struct Files {
@@ -122,11 +123,12 @@ TEST_CASE("what does not fit a body in pieces is refused with its place") {
   CHECK_THAT(files.message("", ", frame: {interface: root}"), Contains("no interface is that of all pieces"));
   CHECK_THAT(files.message("", ", frame: men"), Contains("'men' is no frame of a superelement; did you mean 'mean'"));
   CHECK_THAT(files.message("", ", frame: {interface: root}"), Contains("no interface is that of all pieces"));
-  CHECK_THAT(files.message("", ", frame: men"),
-             Contains("'men' is no frame of a superelement; did you mean 'mean'"));
+  CHECK_THAT(files.message("", ", frame: men"), Contains("'men' is no frame of a superelement; did you mean 'mean'"));
   CHECK_THAT(files.message("", ", damping: {}"), Contains("expected either `ratio` or `rayleigh`"));
   CHECK_THAT(files.message("a: {position: [5, 0, 0]}", "", "  blade.2: {type: point_mass, node: a, mass: 1}\n"),
              Contains("a piece of this body is called 'blade.2', as another element is"));
   CHECK_THAT(files.message("blade.cut_1: {position: [5, 0, 0]}", ""),
              Contains("there is already a node 'blade.cut_1'"));
 }
+
+}  // namespace test_superelement_pieces

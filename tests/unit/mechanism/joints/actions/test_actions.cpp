@@ -6,9 +6,12 @@
 
 #include "mechanism/io/mechanism_file.hpp"
 #include "mechanism/session/session.hpp"
+#include "tests/support/session_model.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace bielle::mechanism;
+using bielle::test::model_of;
+using bielle::test::steps_of;
 
 namespace {
 
@@ -52,15 +55,6 @@ std::string model(const Sample& sample, const std::string& stiffness, const std:
 
 std::string key(const Sample& sample, const std::string& name, const std::string& value) {
   return fmt::format(", {}: {{{}: {}}}", name, sample.coordinate, value);
-}
-
-Model model_of(const std::string& text) { return read_mechanism_text(text, "model.yaml").model; }
-
-DynamicsOptions steps_of(double duration, double h) {
-  DynamicsOptions options;
-  options.duration = duration;
-  options.stepping.size = h;
-  return options;
 }
 
 }  // namespace

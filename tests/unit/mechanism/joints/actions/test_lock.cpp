@@ -5,20 +5,13 @@
 
 #include "mechanism/io/mechanism_file.hpp"
 #include "mechanism/session/session.hpp"
+#include "tests/support/session_model.hpp"
 
 using namespace bielle::mechanism;
+using bielle::test::model_of;
+using bielle::test::steps_of;
 
 namespace {
-
-DynamicsOptions steps_of(double duration, double h, ConstraintForm form = ConstraintForm::corrected) {
-  DynamicsOptions options;
-  options.duration = duration;
-  options.stepping.size = h;
-  options.form = form;
-  return options;
-}
-
-Model model_of(const std::string& text) { return read_mechanism_text(text, "model.yaml").model; }
 
 int redundant_in(const Session& session) {
   int count = 0;

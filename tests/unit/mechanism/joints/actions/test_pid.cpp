@@ -8,6 +8,7 @@
 #include "mechanism/session/session.hpp"
 #include "tests/support/dense_model.hpp"
 #include "tests/support/finite_difference.hpp"
+#include "tests/support/hinged_rotor.hpp"
 #include "tests/support/messages.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/runge_kutta.hpp"
@@ -17,21 +18,13 @@ using namespace bielle;
 using namespace bielle::mechanism;
 using bielle::test::advance_by_runge_kutta;
 using bielle::test::check_second_order;
+using bielle::test::rotor;
 using Catch::Contains;
 using Vector5 = Eigen::Matrix<double, 5, 1>;
 
 namespace {
 
 constexpr double inertia = 0.5;
-
-/// A rotor of 0.5 kg m^2 on a fixed axle.
-std::string rotor(const std::string& more) {
-  return R"yaml(
-nodes: {rotor: {position: [0, 0, 0]}}
-elements: {rotor: {type: rigid_body, node: rotor, mass: 1, inertia: [0.3, 0.3, 0.5]}}
-joints: {main: {type: hinge, nodes: [ground, rotor], axis: [0, 0, 1]}}
-)yaml" + more;
-}
 
 struct End {
   double angle, rate, torque;

@@ -6,33 +6,21 @@
 #include "mechanism/io/describe_model.hpp"
 #include "mechanism/io/mechanism_file.hpp"
 #include "mechanism/session/session.hpp"
+#include "tests/support/hinged_rotor.hpp"
 #include "tests/support/second_order.hpp"
+#include "tests/support/session_model.hpp"
 
 using namespace bielle;
 using namespace bielle::mechanism;
+using bielle::test::rotor;
+using bielle::test::session_of;
+using bielle::test::steps_of;
 using Catch::Contains;
 
+namespace test_release {
 namespace {
 
 constexpr double inertia = 0.5;
-
-std::string rotor(const std::string& more) {
-  return R"yaml(
-nodes: {rotor: {position: [0, 0, 0]}}
-elements: {rotor: {type: rigid_body, node: rotor, mass: 1, inertia: [0.3, 0.3, 0.5]}}
-joints: {main: {type: hinge, nodes: [ground, rotor], axis: [0, 0, 1]}}
-)yaml" + more;
-}
-
-Session session_of(const std::string& text) { return Session(read_mechanism_text(text, "model.yaml").model); }
-
-DynamicsOptions steps_of(double duration, double h, double tolerance = 0) {
-  DynamicsOptions options;
-  options.duration = duration;
-  options.stepping.size = h;
-  options.stepping.tolerance = tolerance;
-  return options;
-}
 
 double angle(const Session& session) { return session.read("joints/main/coordinate")[0]; }
 double rate(const Session& session) { return session.read("joints/main/rate")[0]; }
@@ -160,3 +148,5 @@ TEST_CASE("a check says when drives let go, and their limits") {
   CHECK_THAT(said("pid: {target: t, kp: 2, ki: 1, limit: 4}"),
              Contains("PID of t - angle: kp 2, ki 1, kd 0, tracking time 2 s, from -4 to 4"));
 }
+
+}  // namespace test_release

@@ -10,6 +10,7 @@
 
 using namespace bielle::mechanism;
 
+namespace test_sought_drive {
 namespace {
 
 std::string model(const std::string& type, const std::string& law) {
@@ -58,3 +59,5 @@ TEST_CASE("a sought effort adds what a constant one adds: forces, derivatives, p
     CHECK(one.energy(state, {}).input != 0);
   }
 }
+
+}  // namespace test_sought_drive

@@ -7,12 +7,14 @@
 #include "mechanism/joints/joint.hpp"
 #include "mechanism/solvers/constraints/reaction_norm.hpp"
 #include "mechanism/solvers/statics/statics.hpp"
+#include "reduce/common/orthogonal_factors.hpp"
 #include "tests/support/run_model.hpp"
 
 using namespace bielle::mechanism;
 using bielle::test::integrate;
 using bielle::test::ReadyModel;
 
+namespace test_reaction_norm {
 namespace {
 
 /// A model's text in units of other sizes, at another place, with its joints in another order and other second axes.
@@ -205,10 +207,11 @@ Eigen::Index check_smallest(const ReadyModel& model, const State& state) {
   for (int i = 0; i < model.system.dofs(); ++i)
     if (model.system.kind(i) == Kind::rotation) Bt.row(i) /= L;
   const VectorX column_size = Bt.colwise().norm();
-  const Eigen::JacobiSVD<MatrixX> svd(Bt * column_size.cwiseInverse().asDiagonal(), Eigen::ComputeFullV);
-  const Eigen::Index rank = (svd.singularValues().array() > 1e-9 * svd.singularValues()[0]).count();
-  const MatrixX N = column_size.cwiseInverse().asDiagonal() * svd.matrixV().rightCols(Bt.cols() - rank);
-  const VectorX z = (W * N).completeOrthogonalDecomposition().solve(-W * state.multiplier);
+  const bielle::RightSingularVectors singular =
+      bielle::right_singular_vectors(Bt * column_size.cwiseInverse().asDiagonal());
+  const Eigen::Index rank = (singular.values.array() > 1e-9 * singular.values[0]).count();
+  const MatrixX N = column_size.cwiseInverse().asDiagonal() * singular.vectors.rightCols(Bt.cols() - rank);
+  const VectorX z = bielle::least_squares(W * N, -W * state.multiplier);
   const VectorX expected = W * (state.multiplier + N * z);
   INFO("largest reaction " << expected.cwiseAbs().maxCoeff() << ", as written first "
                            << (W * state.multiplier).cwiseAbs().maxCoeff());
@@ -358,3 +361,5 @@ joints: {pivot: {type: hinge, nodes: [ground, bob], axis: [0, 0, 1], position: [
   CHECK(same.reaction.size() == 0);
   CHECK(norm.not_unique(model.environment(), state).empty());
 }
+
+}  // namespace test_reaction_norm

@@ -11,6 +11,7 @@
 using namespace bielle::mechanism;
 using bielle::test::ReadyModel;
 
+namespace test_redundancy {
 namespace {
 
 /// A parallelogram of three links and four hinges: 3 * 6 - 4 * 5 = -2 by counting, one degree of freedom in fact.
@@ -161,3 +162,5 @@ joints: {main: {type: hinge, nodes: [ground, m], position: [0, 0, 0], axis: [0, 
   // A node that is held in part is not turned.
   CHECK_THROWS_WITH(assembled("[z]"), Catch::Contains("joint 'main': its axes point in opposite directions"));
 }
+
+}  // namespace test_redundancy

@@ -9,6 +9,7 @@
 using namespace bielle::mechanism;
 using bielle::test::ReadyModel;
 
+namespace test_extrapolation {
 namespace {
 
 const char* const double_pendulum = R"yaml(
@@ -223,3 +224,5 @@ loads: {push: {node: m, force: ["if(t < 0.01, 30000*t, 300)", 0, 0]}}
   CHECK(replaced == 1);
   CHECK(model.node(integration.state(), "m").v.x() == Approx(1.5 + 300 * 0.01).epsilon(1e-3));
 }
+
+}  // namespace test_extrapolation

@@ -7,6 +7,7 @@
 using namespace bielle::mechanism;
 using bielle::test::ReadyModel;
 
+namespace test_newton {
 namespace {
 
 const char* const chain = R"yaml(
@@ -112,3 +113,5 @@ elements: {rotor: {type: rigid_body, node: rotor, mass: 1, inertia: [0.1, 0.1, 0
   CHECK_THAT(report.refusal, Catch::Contains("node 'rotor' turns by 6 rad in one step"));
   CHECK(integration.attempt(0.05).converged());
 }
+
+}  // namespace test_newton

@@ -14,6 +14,7 @@ using bielle::test::ScalarAmplitude;
 using bielle::test::ScalarEquation;
 using Catch::Contains;
 
+namespace test_own_scales {
 namespace {
 
 constexpr double bristle_size = 1e-6, pressure_size = 1e7;
@@ -238,3 +239,5 @@ drives:
   CHECK(units_of("massless of element") == "N");
   CHECK(units_of("turning of element") == "N m");
 }
+
+}  // namespace test_own_scales

@@ -10,6 +10,7 @@
 using namespace bielle::mechanism;
 using namespace bielle::test;
 
+namespace test_short_span {
 namespace {
 
 constexpr double h = 0.01, load = 100, stiffness = 1e9, omega = 1e6;
@@ -103,3 +104,5 @@ TEST_CASE("an event changes a stiff guide whose load grows over many steps by le
     }
   }
 }
+
+}  // namespace test_short_span

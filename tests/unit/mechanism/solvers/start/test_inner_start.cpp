@@ -11,14 +11,14 @@
 #include "mechanism/session/session.hpp"
 #include "tests/support/beam_superelement.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/unit/mechanism/solvers/start/blade_section.hpp"
 
 using namespace bielle::mechanism;
+using bielle::test::blade_section;
 
 namespace {
 
 constexpr double omega = 1.3, r_0 = 0.4, r_1 = 3, m = 5, Jx = 0.02;
-const char* const section =
-    "{EA: 2e6, GAy: 1e6, GAz: 1e6, GJ: 2e3, EIy: 2e3, EIz: 3e3, mass_per_length: 5, Jx: 0.02, Jy: 0.01, Jz: 0.01}";
 
 /// Kinetic energy where the motion begins.
 double kinetic(const std::string& text) {
@@ -48,7 +48,8 @@ elements:
                      root_and_hub_nodes, r_1, -omega * r_1, omega, elements);
 }
 
-const std::string blade = fmt::format("blade: {{type: beam, nodes: [root, tip], elements: 16, section: {}}}", section);
+const std::string blade =
+    fmt::format("blade: {{type: beam, nodes: [root, tip], elements: 16, section: {}}}", blade_section);
 const std::string hub = "hub: {type: rigid_body, node: hub, mass: 80, inertia: [4, 3, 3], also: [root]}";
 const std::string carried_root =
     fmt::format("hub: {{angular_velocity: [{}, 0, 0]}}\n  root: {{position: [0, 0, {}]}}", omega, r_0);
@@ -77,9 +78,11 @@ TEST_CASE("inner nodes of a beam follow a node that is driven") {
 }
 
 TEST_CASE("a beam of one element has no inner nodes, and one between nodes at rest rests") {
-  const std::string one = fmt::format("blade: {{type: beam, nodes: [hub, tip], elements: 1, section: {}}}", section);
+  const std::string one =
+      fmt::format("blade: {{type: beam, nodes: [hub, tip], elements: 1, section: {}}}", blade_section);
   CHECK(kinetic(fmt::format("nodes: {{hub: {{}}, tip: {{position: [1, 0, 0]}}}}\nelements:\n  {}\n", one)) == 0);
-  const std::string more = fmt::format("blade: {{type: beam, nodes: [hub, tip], elements: 3, section: {}}}", section);
+  const std::string more =
+      fmt::format("blade: {{type: beam, nodes: [hub, tip], elements: 3, section: {}}}", blade_section);
   CHECK(kinetic(fmt::format("nodes: {{hub: {{}}, tip: {{position: [1, 0, 0]}}}}\nelements:\n  {}\n", more)) == 0);
 }
 

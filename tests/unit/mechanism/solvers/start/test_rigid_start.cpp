@@ -15,8 +15,10 @@
 #include "tests/support/beam_superelement.hpp"
 #include "tests/support/messages.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/unit/mechanism/solvers/start/blade_section.hpp"
 
 using namespace bielle::mechanism;
+using bielle::test::blade_section;
 using bielle::test::message_of;
 using Catch::Contains;
 
@@ -45,9 +47,6 @@ std::string refusal(const std::string& model) {
   return text == "(nothing thrown)" ? "" : text;
 }
 
-const char* const section =
-    "{EA: 2e6, GAy: 1e6, GAz: 1e6, GJ: 2e3, EIy: 2e3, EIz: 3e3, mass_per_length: 5, Jx: 0.02, Jy: 0.01, Jz: 0.01}";
-
 /// A hub on a shaft along x in two bearings, with two beams as blades along +-z from r = 0.2 to 2.2 m.
 std::string rotor(const std::string& joints, const std::string& more_nodes = "",
                   const std::string& more_elements = "") {
@@ -68,7 +67,7 @@ elements:
 joints:
 {3}
 )yaml",
-                     section, more_nodes, more_elements, joints);
+                     blade_section, more_nodes, more_elements, joints);
 }
 
 /// About x, hub and blades (Jy of their sections).
@@ -225,9 +224,9 @@ TEST_CASE("what cannot be carried is refused with a reason") {
       "  main: {type: hinge, nodes: [ground, hub], axis: [1, 0, 0], start_rate: 7, carries: all}\n";
   CHECK_THAT(refusal(rotor(line + "  other: {type: hinge, nodes: [ground, up_tip], axis: [0, 0, 1]}")),
              Contains("joint 'main' cannot carry") && Contains("joint 'other'"));
-  CHECK_THAT(
-      refusal(rotor(line, "", fmt::format("stay: {{type: beam, nodes: [up_tip, ground], section: {}}}", section))),
-      Contains("joint 'main' cannot carry") && Contains("element 'stay'"));
+  CHECK_THAT(refusal(rotor(line, "",
+                           fmt::format("stay: {{type: beam, nodes: [up_tip, ground], section: {}}}", blade_section))),
+             Contains("joint 'main' cannot carry") && Contains("element 'stay'"));
   const auto with_tip = [&](const std::string& given) {
     std::string text = rotor(line);
     const std::string tip = "up_tip: {position: [0, 0, 2.2]";

@@ -14,6 +14,7 @@ using bielle::test::FourBar;
 using bielle::test::list;
 using bielle::test::message_of;
 
+namespace test_start_rates {
 namespace {
 
 /// The four-bar as it fits; nodes at the ends of the links.
@@ -166,3 +167,5 @@ joints: {pivot: {type: hinge, nodes: [ground, arm], position: [0, 0, 0], axis: [
   motion.finish();
   CHECK(session.read("joints/pivot/coordinate")[0] == Approx(0.4).epsilon(1e-12));
 }
+
+}  // namespace test_start_rates

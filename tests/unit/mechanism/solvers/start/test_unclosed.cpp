@@ -12,6 +12,7 @@ using namespace bielle::mechanism;
 using bielle::test::message_of;
 using Catch::Contains;
 
+namespace test_unclosed {
 namespace {
 
 /// Links of 0.3, `coupler` and 0.7 m between posts `ground` m apart, drawn roughly.
@@ -148,3 +149,5 @@ joints: {{main: {{type: hinge, nodes: [ground, m], at: [[0, 0, 0], [-1, 0, 0]], 
     CHECK((session.node("m").R.col(2) - Vector3::UnitZ()).norm() < 1e-12);
   }
 }
+
+}  // namespace test_unclosed

@@ -13,6 +13,7 @@
 using namespace bielle;
 using namespace bielle::mechanism;
 
+namespace test_jumps {
 namespace {
 
 constexpr double a = 1, h = 0.3, k = 1e5;
@@ -149,3 +150,5 @@ TEST_CASE("rows of statics stand at the load factors that the output asks for") 
   CHECK_THAT(factor, Catch::Approx(std::vector<double>{0.1, 0.45, 0.5, 0.45, 0.1, -0.2, -0.5, -0.2, 0.1, 0.45, 0.9}));
   check_balance(load, factor, position);
 }
+
+}  // namespace test_jumps

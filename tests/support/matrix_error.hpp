@@ -1,0 +1,11 @@
+// How far two matrices are from each other.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace bielle::test {
+
+/// The largest difference of two entries.
+inline double error(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) { return (A - B).cwiseAbs().maxCoeff(); }
+
+}  // namespace bielle::test
