@@ -7,8 +7,8 @@
 #include "mechanism/elements/beam/beam_section.hpp"
 #include "mechanism/math/gauss.hpp"
 #include "mechanism/math/so3.hpp"
-#include "reduce/common/dense_solves.hpp"
 #include "reduce/common/plausible.hpp"
+#include "reduce/dense/dense_solves.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -64,9 +64,8 @@ void check_positive_definite(const YamlValue& value, const MatrixX& A, const std
   if (!(A - A.transpose()).isZero(1e-9 * largest)) value.fail(fmt::format("{} must be symmetric", what));
   // Scaled to a unit diagonal: translations and rotations have different units.
   const VectorX scale = A.diagonal().cwiseMax(0).cwiseSqrt();
-  const bool positive =
-      scale.minCoeff() > 0 &&
-      is_positive_definite(scale.cwiseInverse().asDiagonal() * A * scale.cwiseInverse().asDiagonal());
+  const bool positive = scale.minCoeff() > 0 &&
+                        is_positive_definite(scale.cwiseInverse().asDiagonal() * A * scale.cwiseInverse().asDiagonal());
   if (!positive) value.fail(fmt::format("{} must be positive definite", what));
 }
 
@@ -133,8 +132,7 @@ SectionLaw::Definition SectionLaw::read_shape(const std::string& kind, const Yam
   const double young = value.at("young").positive_number();
   const auto density = value.find("density");
   doubt_outside(value.at("young"), young, plausible_modulus);
-  if (density && density->non_negative_number() > 0)
-    doubt_outside(*density, density->number(), plausible_density);
+  if (density && density->non_negative_number() > 0) doubt_outside(*density, density->number(), plausible_density);
   d.material = Vector3(young, shear_modulus(value, young), density ? density->non_negative_number() : 0);
   d.offset = read_offset(value, "the centroid");
   d.has_density = density.has_value();
