@@ -1,10 +1,8 @@
 // bielle-mechanism: a model file in, motion out.
-#include <cstdio>
 #include <filesystem>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "mechanism/io/describe_model.hpp"
 #include "mechanism/io/mechanism_file.hpp"
@@ -80,8 +78,4 @@ int body(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  const int status = bielle::run_program("bielle-mechanism", body, argc, argv);
-  std::fflush(nullptr);
-  _exit(status);  // libraries that clean up at exit hang there when memory has run out
-}
+int main(int argc, char** argv) { return bielle::run_program("bielle-mechanism", body, argc, argv); }

@@ -1,7 +1,6 @@
 // bielle-reduce: a body file in, a superelement out.
 #include <algorithm>
 #include <csignal>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -11,7 +10,6 @@
 #include <fmt/format.h>
 #include <malloc.h>
 #include <sys/prctl.h>
-#include <unistd.h>
 
 #include "reduce/body_file.hpp"
 #include "reduce/common/command_line.hpp"
@@ -231,7 +229,5 @@ int body(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   bielle::let_waiting_threads_sleep(argv);
-  const int status = bielle::run_program("bielle-reduce", body, argc, argv);
-  std::fflush(nullptr);
-  _exit(status);  // libraries that clean up at exit hang there when memory has run out
+  return bielle::run_program("bielle-reduce", body, argc, argv);
 }

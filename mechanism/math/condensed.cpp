@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reduce/common/dense_solves.hpp"
+#include "reduce/dense/dense_solves.hpp"
 
 namespace bielle::mechanism {
 namespace {

@@ -7,8 +7,8 @@
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCholesky>
 
-#include "reduce/common/orthogonal_factors.hpp"
-#include "reduce/common/symmetric_eigenpairs.hpp"
+#include "reduce/dense/orthogonal_factors.hpp"
+#include "reduce/dense/symmetric_eigenpairs.hpp"
 
 namespace bielle::mechanism {
 namespace {

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "mechanism/reading/read_file.hpp"
-#include "reduce/common/symmetric_eigenpairs.hpp"
 #include "reduce/common/table_file.hpp"
+#include "reduce/dense/symmetric_eigenpairs.hpp"
 
 namespace bielle::mechanism {
 namespace {

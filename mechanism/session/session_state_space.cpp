@@ -8,8 +8,8 @@
 #include "mechanism/session/session.hpp"
 #include "mechanism/solvers/linearised/finite_states.hpp"
 #include "mechanism/solvers/linearised/modes.hpp"
-#include "reduce/common/dense_solves.hpp"
 #include "reduce/common/error.hpp"
+#include "reduce/dense/dense_solves.hpp"
 
 namespace bielle::mechanism {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "reduce/common/matrix_refs.hpp"
+#include "reduce/dense/matrix_refs.hpp"
 
 namespace bielle {
 

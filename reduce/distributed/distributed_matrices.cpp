@@ -9,15 +9,13 @@
 #include "reduce/common/error.hpp"
 #include "reduce/distributed/distributed_modes.hpp"
 #include "reduce/distributed/partition.hpp"
+#include "reduce/distributed/regularity.hpp"
 
 namespace bielle::reduce {
 
 namespace {
 
 constexpr Eigen::Index columns_at_a_time = 16;  // of fields on their way: what is in flight stays small
-
-/// The inside's relative stiffness against some motion below which nothing but rounding holds it.
-constexpr double singular = 1e-15;
 
 void order(Channel& channel, Command command, std::int64_t a = 0, std::int64_t b = 0) {
   channel.send_number(command);
@@ -221,8 +219,7 @@ std::unique_ptr<Factor> DistributedMatrices::factorise(const InsideUnknowns& ins
   return factor;
 }
 
-/// MUMPS goes on where a pivot is tiny or negative. Inverse iteration on D^-1/2 A D^-1/2, D the diagonal, finds the
-/// motion that the inside resists least.
+/// MUMPS goes on where a pivot is tiny or negative.
 void DistributedMatrices::check_regular(const Factor& factor, const std::vector<std::int64_t>& kept,
                                         const SparseRows& carried, bool suspected) const {
   const Eigen::VectorXd of_points = stiffness_diagonal();
@@ -230,17 +227,9 @@ void DistributedMatrices::check_regular(const Factor& factor, const std::vector<
   Eigen::VectorXd scale(count + carried.cols());
   for (Eigen::Index k = 0; k < count; ++k) scale(k) = std::sqrt(of_points(kept[static_cast<std::size_t>(k)]));
   for (Eigen::Index c = 0; c < carried.cols(); ++c) scale(count + c) = 1;
-  Eigen::VectorXd motion(scale.size());
-  for (Eigen::Index k = 0; k < motion.size(); ++k) motion(k) = (k * 7919 + 13) % 101 < 50 ? 1 : -1;
-  double growth = 0;
-  for (int step = 0; step < 2; ++step) {
-    motion.normalize();
-    motion = Eigen::VectorXd(scale.cwiseProduct(Eigen::VectorXd(factor.solve(scale.cwiseProduct(motion)))));
-    growth = motion.norm();
-  }
-  if (!suspected && std::isfinite(growth) && growth < 1 / singular) return;
-  Eigen::Index unknown = 0;
-  motion.cwiseAbs().maxCoeff(&unknown);
+  const std::optional<Eigen::Index> unresisted = unresisted_unknown(factor, scale, suspected);
+  if (!unresisted) return;
+  const Eigen::Index unknown = *unresisted;
   if (unknown >= count)
     throw ComputationError("the stiffness of the body is singular in a released direction of an interface");
   const Eigen::Vector3d x = solid_.mesh.points.col(kept[static_cast<std::size_t>(unknown)] / 3);

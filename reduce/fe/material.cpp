@@ -3,8 +3,8 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
-#include "reduce/common/dense_solves.hpp"
 #include "reduce/common/error.hpp"
+#include "reduce/dense/dense_solves.hpp"
 
 namespace bielle::reduce {
 

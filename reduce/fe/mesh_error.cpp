@@ -7,9 +7,9 @@
 
 #include <Eigen/LU>
 
-#include "reduce/common/dense_solves.hpp"
-#include "reduce/common/symmetric_eigenpairs.hpp"
 #include "reduce/dense/blas.hpp"
+#include "reduce/dense/dense_solves.hpp"
+#include "reduce/dense/symmetric_eigenpairs.hpp"
 #include "reduce/fe/cell_fields.hpp"
 #include "reduce/fe/cell_geometry.hpp"
 #include "reduce/fe/vertex_patches.hpp"

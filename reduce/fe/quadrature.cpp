@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "reduce/common/symmetric_eigenpairs.hpp"
+#include "reduce/dense/symmetric_eigenpairs.hpp"
 
 namespace bielle::reduce {
 

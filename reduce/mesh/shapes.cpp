@@ -9,9 +9,9 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "reduce/common/dense_solves.hpp"
-#include "reduce/common/orthogonal_factors.hpp"
-#include "reduce/common/symmetric_eigenpairs.hpp"
+#include "reduce/dense/dense_solves.hpp"
+#include "reduce/dense/orthogonal_factors.hpp"
+#include "reduce/dense/symmetric_eigenpairs.hpp"
 #include "reduce/mesh/place.hpp"
 
 namespace bielle::reduce {

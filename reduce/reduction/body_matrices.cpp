@@ -9,16 +9,21 @@
 #include "reduce/fe/assembly.hpp"
 #include "reduce/fe/geometric_stiffness.hpp"
 #include "reduce/fe/node_graph.hpp"
+#include "reduce/sparse/dense_factor.hpp"
 #include "reduce/sparse/symmetric_factor.hpp"
 
 namespace bielle::reduce {
 
 namespace {
 
-/// Nothing where no unknown is left.
+std::int64_t unknowns_of(const InsideUnknowns& inside) {
+  return static_cast<std::int64_t>(inside.kept.size()) + inside.carried.cols();
+}
+
+/// Nothing where the factor is dense and needs none.
 std::shared_ptr<const FactorStructure> structure_of(const BlockGraph& points, const InsideUnknowns& inside) {
-  const BlockGraph graph = inside_graph(points, inside);
-  return graph.unknowns() == 0 ? nullptr : std::make_shared<const FactorStructure>(graph);
+  if (unknowns_of(inside) <= most_dense_unknowns) return nullptr;
+  return std::make_shared<const FactorStructure>(inside_graph(points, inside));
 }
 
 /// K_ii - sigma M_ii. @param kept  unknowns x y z of points, ascending
@@ -71,14 +76,15 @@ class MatricesHere : public BodyMatrices {
     return reduced_geometric_stiffness(solid_, graph_, fields, shapes, threads_);
   }
   std::unique_ptr<Factor> factorise(const InsideUnknowns& inside) const override {
+    if (unknowns_of(inside) == 0) return nullptr;
     const std::shared_ptr<const FactorStructure> structure =
         inside.is_like(prepared_for_) ? structure_ : structure_of(point_graph(graph_), inside);
-    if (!structure) return nullptr;
     SymmetricMatrix matrix = principal_submatrix(stiffness_, inside.kept);
     if (inside.carried.cols() > 0) {
       const RowMatrix forces = stiffness_.multiply(RowMatrix(inside.carried), threads_);
       matrix = bordered(matrix, forces(inside.kept, Eigen::all), inside.carried.transpose() * forces);
     }
+    if (!structure) return std::make_unique<DenseFactor>(matrix);
     return std::make_unique<SymmetricFactor>(structure, std::move(matrix), threads_);
   }
   bool can_count_signs() const override { return true; }

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "reduce/common/error.hpp"
-#include "reduce/common/symmetric_eigenpairs.hpp"
 #include "reduce/dense/dense_products.hpp"
+#include "reduce/dense/symmetric_eigenpairs.hpp"
 #include "reduce/reduction/basis.hpp"
 #include "reduce/reduction/geometric_checks.hpp"
 #include "reduce/reduction/reduced_matrices.hpp"

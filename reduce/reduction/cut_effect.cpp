@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <map>
 
-#include "reduce/common/dense_solves.hpp"
 #include "reduce/common/error.hpp"
-#include "reduce/common/orthogonal_factors.hpp"
-#include "reduce/common/symmetric_eigenpairs.hpp"
 #include "reduce/dense/dense_products.hpp"
+#include "reduce/dense/dense_solves.hpp"
+#include "reduce/dense/orthogonal_factors.hpp"
+#include "reduce/dense/symmetric_eigenpairs.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
 
 namespace bielle::reduce {

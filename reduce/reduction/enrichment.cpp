@@ -1,8 +1,8 @@
 #include "reduce/reduction/enrichment.hpp"
 
-#include "reduce/common/dense_solves.hpp"
-#include "reduce/common/symmetric_eigenpairs.hpp"
 #include "reduce/dense/dense_products.hpp"
+#include "reduce/dense/dense_solves.hpp"
+#include "reduce/dense/symmetric_eigenpairs.hpp"
 #include "reduce/reduction/checks.hpp"
 
 namespace bielle::reduce {

@@ -5,8 +5,8 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-#include "reduce/common/symmetric_eigenpairs.hpp"
 #include "reduce/dense/dense_products.hpp"
+#include "reduce/dense/symmetric_eigenpairs.hpp"
 #include "reduce/reduction/reduced_matrices.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
 #include "reduce/reduction/tie_second_order.hpp"

@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "reduce/common/dense_solves.hpp"
 #include "reduce/common/error.hpp"
 #include "reduce/dense/dense_products.hpp"
+#include "reduce/dense/dense_solves.hpp"
 #include "reduce/dense/tall_products.hpp"
 
 namespace bielle::reduce {

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "reduce/common/error.hpp"
-#include "reduce/common/orthogonal_factors.hpp"
 #include "reduce/dense/dense_products.hpp"
+#include "reduce/dense/orthogonal_factors.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
 
 namespace bielle::reduce {

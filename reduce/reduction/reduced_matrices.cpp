@@ -4,10 +4,10 @@
 
 #include "reduce/common/counted.hpp"
 #include "reduce/common/error.hpp"
-#include "reduce/common/orthogonal_factors.hpp"
-#include "reduce/common/symmetric_eigenpairs.hpp"
 #include "reduce/dense/blas.hpp"
 #include "reduce/dense/dense_products.hpp"
+#include "reduce/dense/orthogonal_factors.hpp"
+#include "reduce/dense/symmetric_eigenpairs.hpp"
 
 namespace bielle::reduce {
 

@@ -6,7 +6,7 @@
 
 #include "reduce/common/error.hpp"
 #include "reduce/common/leading_component.hpp"
-#include "reduce/common/symmetric_eigenpairs.hpp"
+#include "reduce/dense/symmetric_eigenpairs.hpp"
 #include "reduce/reduction/load_patterns.hpp"
 #include "reduce/reduction/reduced_matrices.hpp"
 

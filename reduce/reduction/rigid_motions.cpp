@@ -1,6 +1,6 @@
 #include "reduce/reduction/rigid_motions.hpp"
 
-#include "reduce/common/orthogonal_factors.hpp"
+#include "reduce/dense/orthogonal_factors.hpp"
 
 namespace bielle::reduce {
 

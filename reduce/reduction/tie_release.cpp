@@ -1,7 +1,7 @@
 #include "reduce/reduction/tie_release.hpp"
 
-#include "reduce/common/dense_solves.hpp"
 #include "reduce/dense/dense_products.hpp"
+#include "reduce/dense/dense_solves.hpp"
 
 namespace bielle::reduce {
 

@@ -1,4 +1,5 @@
-// The factor of a sparse symmetric positive definite matrix, whoever made it and wherever it is kept.
+// The factor of a symmetric positive definite matrix, whoever made it and wherever it is kept: CHOLMOD
+// (symmetric_factor.hpp), LAPACK for the small (dense_factor.hpp), MUMPS on ranks (reduce/distributed).
 #pragma once
 
 #include <cstdint>
@@ -12,6 +13,9 @@
 #include "reduce/sparse/symmetric_matrix.hpp"
 
 namespace bielle {
+
+/// A pivot that is so much smaller than its diagonal entry: the matrix is singular to working precision.
+constexpr double singular_pivot = 1e-14;
 
 /// Cost of a factorisation.
 struct FactorStatistics {

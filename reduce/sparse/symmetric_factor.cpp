@@ -20,7 +20,6 @@ namespace bielle {
 
 namespace {
 
-constexpr double singular_pivot = 1e-14;
 /// Products of smaller factors are short, and CHOLMOD makes them one after the other: a second thread of BLAS mostly
 /// waits for its next one. On a busy machine two took 3.5 times as long as one at 1.8e10.
 constexpr double worth_threads = 1e11;  // operations

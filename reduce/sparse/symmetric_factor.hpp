@@ -21,7 +21,7 @@ class SymmetricFactor : public Factor {
   /// @param a             positive definite
   /// @param block_starts  first unknown of each block, then `a.size`; empty: every unknown is its own block
   /// @param threads       >= 1, for the factorisation and for solutions
-  /// @throws NotPositiveDefinite also when a pivot is so small (1e-14 of its diagonal entry) that A is singular to
+  /// @throws NotPositiveDefinite also when a pivot is so small (`singular_pivot`) that A is singular to
   ///         working precision; ComputationError when memory does not suffice, as far as the
   ///         symbolic factorisation tells before the numerical one starts
   explicit SymmetricFactor(const SymmetricMatrix& a, std::span<const std::int64_t> block_starts = {}, int threads = 1);

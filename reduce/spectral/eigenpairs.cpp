@@ -9,7 +9,7 @@
 
 #include "reduce/common/error.hpp"
 #include "reduce/common/leading_component.hpp"
-#include "reduce/common/symmetric_eigenpairs.hpp"
+#include "reduce/dense/symmetric_eigenpairs.hpp"
 #include "reduce/dense/tall_products.hpp"
 #include "reduce/spectral/arpack_eigenpairs.hpp"
 #include "reduce/spectral/block_lanczos.hpp"

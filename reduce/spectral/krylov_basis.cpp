@@ -5,7 +5,7 @@
 #include <numeric>
 #include <vector>
 
-#include "reduce/common/symmetric_eigenpairs.hpp"
+#include "reduce/dense/symmetric_eigenpairs.hpp"
 #include "reduce/dense/tall_products.hpp"
 
 namespace bielle {

@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include "reduce/common/error.hpp"
-#include "reduce/common/orthogonal_factors.hpp"
-#include "reduce/common/symmetric_eigenpairs.hpp"
 #include "reduce/dense/dense_products.hpp"
+#include "reduce/dense/orthogonal_factors.hpp"
+#include "reduce/dense/symmetric_eigenpairs.hpp"
 #include "reduce/superelement/superelement.hpp"
 
 namespace bielle {

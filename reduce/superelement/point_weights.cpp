@@ -8,9 +8,9 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
-#include "reduce/common/dense_solves.hpp"
 #include "reduce/common/error.hpp"
 #include "reduce/dense/dense_products.hpp"
+#include "reduce/dense/dense_solves.hpp"
 
 namespace bielle {
 

@@ -7,8 +7,8 @@
 #include "mechanism/elements/beam/beam_section.hpp"
 #include "mechanism/math/gauss.hpp"
 #include "mechanism/math/so3.hpp"
-#include "reduce/common/dense_solves.hpp"
 #include "reduce/common/plausible.hpp"
+#include "reduce/dense/dense_solves.hpp"
 
 namespace bielle::mechanism {
 namespace {

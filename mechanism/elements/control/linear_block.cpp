@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "reduce/common/dense_solves.hpp"
+#include "reduce/dense/dense_solves.hpp"
 
 namespace bielle::mechanism {
 namespace {

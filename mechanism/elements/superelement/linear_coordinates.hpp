@@ -6,15 +6,15 @@
 //     q = eps - g(eps),   g_r = eps^T K_r eps / 2 for each interface row r,   0 for the modes,
 // with K_r the geometric stiffness of the free body under a unit load along row r. The elastic energy
 //     V = eps^T K~ eps / 2
-// is a function of the present positions alone, complete to third order in the deformation: its forces phi = dV/dq fulfil
-// K~ eps + phi_r K_r eps = phi, the theory of second order under the present forces, and nothing needs to be remembered.
-// With G(x): rows r (K_r x)^T, zero for the modes,
+// is a function of the present positions alone, complete to third order in the deformation: its forces phi = dV/dq
+// fulfil K~ eps + phi_r K_r eps = phi, the theory of second order under the present forces, and nothing needs to be
+// remembered. With G(x): rows r (K_r x)^T, zero for the modes,
 //     deps = J dq,   J = (I - G(eps))^-1,   phi = J^T K~ eps,   dphi = J^T (K~ + phi_r K_r) J dq,
 //     epsdot = J qdot,   eps'' = J (qddot + G(epsdot) epsdot).
 #pragma once
 
 #include "mechanism/elements/superelement/superelement_body_matrices.hpp"
-#include "reduce/common/dense_solves.hpp"
+#include "reduce/dense/dense_solves.hpp"
 
 namespace bielle::mechanism {
 

@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "reduce/common/counted.hpp"
-#include "reduce/common/dense_solves.hpp"
 #include "reduce/common/error.hpp"
 #include "reduce/dense/dense_products.hpp"
+#include "reduce/dense/dense_solves.hpp"
 
 namespace bielle::mechanism {
 namespace {

@@ -9,8 +9,8 @@
 #include "mechanism/reading/names.hpp"
 #include "mechanism/reading/read_frame.hpp"
 #include "mechanism/reading/start_motion.hpp"
-#include "reduce/common/dense_solves.hpp"
 #include "reduce/common/plausible.hpp"
+#include "reduce/dense/dense_solves.hpp"
 #include "reduce/superelement/modal_damping.hpp"
 
 namespace bielle::mechanism {

@@ -10,7 +10,7 @@
 #include "mechanism/math/so3.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
 #include "reduce/common/counted.hpp"
-#include "reduce/common/dense_solves.hpp"
+#include "reduce/dense/dense_solves.hpp"
 
 namespace bielle::mechanism {
 

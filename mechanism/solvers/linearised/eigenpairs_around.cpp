@@ -5,8 +5,8 @@
 #include "mechanism/solvers/linearised/finite_states.hpp"
 #include "mechanism/solvers/linearised/modes.hpp"
 #include "mechanism/solvers/linearised/orthonormal.hpp"
-#include "reduce/common/dense_solves.hpp"
-#include "reduce/common/orthogonal_factors.hpp"
+#include "reduce/dense/dense_solves.hpp"
+#include "reduce/dense/orthogonal_factors.hpp"
 #include "reduce/spectral/operator_eigenpairs.hpp"
 
 namespace bielle::mechanism {

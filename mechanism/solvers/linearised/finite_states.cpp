@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "mechanism/solvers/linearised/modes.hpp"
-#include "reduce/common/dense_solves.hpp"
-#include "reduce/common/orthogonal_factors.hpp"
+#include "reduce/dense/dense_solves.hpp"
+#include "reduce/dense/orthogonal_factors.hpp"
 
 namespace bielle::mechanism {
 

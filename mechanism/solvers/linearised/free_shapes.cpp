@@ -5,7 +5,7 @@
 
 #include "mechanism/solvers/linearised/equation_products.hpp"
 #include "mechanism/solvers/linearised/orthonormal.hpp"
-#include "reduce/common/symmetric_eigenpairs.hpp"
+#include "reduce/dense/symmetric_eigenpairs.hpp"
 
 namespace bielle::mechanism {
 namespace {

@@ -9,9 +9,9 @@
 #include "mechanism/solvers/linearised/modes.hpp"
 #include "mechanism/solvers/linearised/orthonormal.hpp"
 #include "mechanism/solvers/linearised/shifted_operator.hpp"
-#include "reduce/common/dense_solves.hpp"
-#include "reduce/common/orthogonal_factors.hpp"
-#include "reduce/common/symmetric_eigenpairs.hpp"
+#include "reduce/dense/dense_solves.hpp"
+#include "reduce/dense/orthogonal_factors.hpp"
+#include "reduce/dense/symmetric_eigenpairs.hpp"
 #include "reduce/spectral/operator_eigenpairs.hpp"
 
 namespace bielle::mechanism {

@@ -7,7 +7,7 @@
 
 #include "mechanism/solvers/linearised/equation_products.hpp"
 #include "mechanism/solvers/linearised/shifted_operator.hpp"
-#include "reduce/common/dense_solves.hpp"
+#include "reduce/dense/dense_solves.hpp"
 
 namespace bielle::mechanism {
 namespace {

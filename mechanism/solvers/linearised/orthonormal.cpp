@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "reduce/common/symmetric_eigenpairs.hpp"
+#include "reduce/dense/symmetric_eigenpairs.hpp"
 
 namespace bielle::mechanism {
 

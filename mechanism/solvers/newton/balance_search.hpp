@@ -15,7 +15,7 @@
 
 #include "mechanism/model/flow_balance.hpp"
 #include "mechanism/system/system.hpp"
-#include "reduce/common/dense_solves.hpp"
+#include "reduce/dense/dense_solves.hpp"
 
 namespace bielle::mechanism {
 

@@ -8,7 +8,7 @@
 
 #include "mechanism/math/rank.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
-#include "reduce/common/dense_solves.hpp"
+#include "reduce/dense/dense_solves.hpp"
 
 namespace bielle::mechanism {
 namespace {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/solvers/constraints/mass_saddle.hpp"
-#include "reduce/common/symmetric_eigenpairs.hpp"
+#include "reduce/dense/symmetric_eigenpairs.hpp"
 
 namespace bielle::mechanism {
 

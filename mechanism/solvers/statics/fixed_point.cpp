@@ -1,6 +1,6 @@
 #include "mechanism/solvers/statics/fixed_point.hpp"
 
-#include "reduce/common/dense_solves.hpp"
+#include "reduce/dense/dense_solves.hpp"
 
 namespace bielle::mechanism {
 

@@ -4,7 +4,7 @@
 
 #include "mechanism/solvers/newton/model_length.hpp"
 #include "mechanism/solvers/start/start_rates.hpp"
-#include "reduce/common/dense_solves.hpp"
+#include "reduce/dense/dense_solves.hpp"
 
 namespace bielle::mechanism {
 

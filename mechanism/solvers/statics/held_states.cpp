@@ -9,7 +9,7 @@
 
 #include "mechanism/solvers/newton/linear_step.hpp"
 #include "mechanism/solvers/start/begin_first_order.hpp"
-#include "reduce/common/dense_solves.hpp"
+#include "reduce/dense/dense_solves.hpp"
 
 namespace bielle::mechanism {
 namespace {

@@ -1,9 +1,7 @@
 #include "reduce/distributed/ranks/service.hpp"
 
-#include <cstdio>
+#include <cstdlib>
 #include <utility>
-
-#include <unistd.h>
 
 #include "reduce/dense/blas.hpp"
 #include "reduce/distributed/ranks/driver.hpp"
@@ -148,8 +146,7 @@ void Service::find(int size, int count) {
 
 void leave(int status) {
   MPI_Finalize();
-  std::fflush(nullptr);
-  _exit(status);
+  std::exit(status);
 }
 
 }  // namespace bielle::reduce

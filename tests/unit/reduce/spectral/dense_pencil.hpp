@@ -3,7 +3,7 @@
 
 #include <Eigen/Cholesky>
 
-#include "reduce/common/symmetric_eigenpairs.hpp"
+#include "reduce/dense/symmetric_eigenpairs.hpp"
 #include "reduce/spectral/eigenpairs.hpp"
 #include "reduce/spectral/start_vectors.hpp"
 

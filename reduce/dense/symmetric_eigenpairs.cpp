@@ -1,4 +1,4 @@
-#include "reduce/common/symmetric_eigenpairs.hpp"
+#include "reduce/dense/symmetric_eigenpairs.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>

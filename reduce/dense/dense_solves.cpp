@@ -1,4 +1,4 @@
-#include "reduce/common/dense_solves.hpp"
+#include "reduce/dense/dense_solves.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>

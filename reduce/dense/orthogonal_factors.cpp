@@ -1,4 +1,4 @@
-#include "reduce/common/orthogonal_factors.hpp"
+#include "reduce/dense/orthogonal_factors.hpp"
 
 #include <Eigen/QR>
 #include <Eigen/SVD>

@@ -6,11 +6,12 @@
 
 #include <Eigen/Core>
 
-#include "reduce/common/matrix_refs.hpp"
+#include "reduce/dense/matrix_refs.hpp"
 
 namespace bielle {
 
-/// Whether a symmetric matrix has a Cholesky factorisation, which one with NaN has not; its lower triangle alone is read.
+/// Whether a symmetric matrix has a Cholesky factorisation, which one with NaN has not; its lower triangle alone is
+/// read.
 bool is_positive_definite(const ConstMatrixRef& A);
 
 /// A^-1 B of a symmetric A that is positive semidefinite, by L D L^T with pivoting.

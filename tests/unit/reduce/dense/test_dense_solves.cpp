@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "reduce/common/dense_solves.hpp"
+#include "reduce/dense/dense_solves.hpp"
 
 using namespace bielle;
 using Eigen::MatrixXd;
