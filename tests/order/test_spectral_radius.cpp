@@ -3,7 +3,7 @@
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
 
-#include "reduce/common/dense_solves.hpp"
+#include "reduce/dense/dense_solves.hpp"
 #include "tests/support/eigenvalues.hpp"
 #include "tests/support/run_model.hpp"
 

@@ -4,9 +4,9 @@
 
 #include <Eigen/Geometry>
 
-#include "reduce/common/dense_solves.hpp"
-#include "reduce/common/symmetric_eigenpairs.hpp"
 #include "reduce/dense/dense_products.hpp"
+#include "reduce/dense/dense_solves.hpp"
+#include "reduce/dense/symmetric_eigenpairs.hpp"
 
 namespace bielle::test {
 namespace {

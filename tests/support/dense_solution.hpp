@@ -1,7 +1,7 @@
 // Solutions of dense systems of equations, for tests that solve one of a kind.
 #pragma once
 
-#include "reduce/common/dense_solves.hpp"
+#include "reduce/dense/dense_solves.hpp"
 
 namespace bielle::test {
 

@@ -9,8 +9,8 @@
 
 #include <Eigen/LU>
 
-#include "reduce/common/dense_solves.hpp"
 #include "reduce/common/error.hpp"
+#include "reduce/dense/dense_solves.hpp"
 #include "tests/support/dense_model.hpp"
 #include "tests/support/dense_solution.hpp"
 #include "tests/support/model_text.hpp"

@@ -16,8 +16,8 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
-#include "reduce/common/dense_solves.hpp"
 #include "reduce/dense/dense_products.hpp"
+#include "reduce/dense/dense_solves.hpp"
 #include "tests/support/dense_solution.hpp"
 #include "tests/support/eigenvalues.hpp"
 #include "tests/support/static_model.hpp"

@@ -3,8 +3,8 @@
 // from 0 to 1; it is stretched by the slider's inertia and starts to bend.
 #include <Eigen/Cholesky>
 
-#include "reduce/common/dense_solves.hpp"
 #include "reduce/dense/dense_products.hpp"
+#include "reduce/dense/dense_solves.hpp"
 #include "tests/benchmarks/slider_crank/flexible.hpp"
 
 using namespace bielle::mechanism;

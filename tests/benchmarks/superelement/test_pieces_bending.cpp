@@ -12,7 +12,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
-#include "reduce/common/dense_solves.hpp"
+#include "reduce/dense/dense_solves.hpp"
 #include "reduce/reduction/reduce_pieces.hpp"
 #include "reduce/superelement/assembled_pieces.hpp"
 #include "tests/support/box_mesh.hpp"

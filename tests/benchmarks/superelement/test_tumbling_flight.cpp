@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/elements/superelement/superelement_body.hpp"
-#include "reduce/common/symmetric_eigenpairs.hpp"
+#include "reduce/dense/symmetric_eigenpairs.hpp"
 #include "tests/support/beam_superelement.hpp"
 #include "tests/support/run_model.hpp"
 #include "tests/support/temporary_folder.hpp"

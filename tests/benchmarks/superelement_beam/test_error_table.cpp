@@ -9,7 +9,7 @@
 #include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
 
-#include "reduce/common/symmetric_eigenpairs.hpp"
+#include "reduce/dense/symmetric_eigenpairs.hpp"
 #include "reduce/reduction/reduce_body.hpp"
 #include "tests/support/box_mesh.hpp"
 #include "tests/support/solid_model.hpp"

@@ -4,7 +4,7 @@
 #include "mechanism/io/mechanism_file.hpp"
 #include "mechanism/joints/joint.hpp"
 #include "mechanism/system/system.hpp"
-#include "reduce/common/orthogonal_factors.hpp"
+#include "reduce/dense/orthogonal_factors.hpp"
 #include "tests/support/finite_difference.hpp"
 #include "tests/support/random.hpp"
 

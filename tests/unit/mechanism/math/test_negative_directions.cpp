@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 
 #include "mechanism/math/negative_directions.hpp"
-#include "reduce/common/orthogonal_factors.hpp"
-#include "reduce/common/symmetric_eigenpairs.hpp"
+#include "reduce/dense/orthogonal_factors.hpp"
+#include "reduce/dense/symmetric_eigenpairs.hpp"
 #include "tests/support/random.hpp"
 
 using namespace bielle::mechanism;

@@ -6,9 +6,9 @@
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
 
-#include "reduce/common/dense_solves.hpp"
 #include "reduce/common/error.hpp"
-#include "reduce/common/symmetric_eigenpairs.hpp"
+#include "reduce/dense/dense_solves.hpp"
+#include "reduce/dense/symmetric_eigenpairs.hpp"
 #include "reduce/fe/assembly.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
 #include "tests/support/eigenvalues.hpp"

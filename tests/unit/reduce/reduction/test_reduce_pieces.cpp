@@ -5,8 +5,8 @@
 #include "bodies.hpp"
 #include <catch2/catch.hpp>
 
-#include "reduce/common/dense_solves.hpp"
 #include "reduce/common/error.hpp"
+#include "reduce/dense/dense_solves.hpp"
 #include "reduce/reduction/cut_effect.hpp"
 #include "reduce/reduction/reduce_pieces.hpp"
 #include "reduce/reduction/reduced_matrices.hpp"

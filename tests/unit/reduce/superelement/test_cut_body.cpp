@@ -1,9 +1,9 @@
 // Bodies in pieces: one file for all, and the pieces joined again.
 #include <catch2/catch.hpp>
 
-#include "reduce/common/dense_solves.hpp"
 #include "reduce/common/error.hpp"
 #include "reduce/common/hdf5_file.hpp"
+#include "reduce/dense/dense_solves.hpp"
 #include "reduce/superelement/modal_damping.hpp"
 #include "reduce/superelement/named_points.hpp"
 #include "tests/support/cut_chain.hpp"

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/elements/beam/beam_geometry.hpp"
-#include "reduce/common/symmetric_eigenpairs.hpp"
+#include "reduce/dense/symmetric_eigenpairs.hpp"
 #include "tests/support/list_of_numbers.hpp"
 #include "tests/support/static_model.hpp"
 

@@ -8,8 +8,8 @@
 #include <catch2/catch.hpp>
 
 #include "mechanism/elements/rigid_body/mass_properties.hpp"
-#include "reduce/common/dense_solves.hpp"
-#include "reduce/common/symmetric_eigenpairs.hpp"
+#include "reduce/dense/dense_solves.hpp"
+#include "reduce/dense/symmetric_eigenpairs.hpp"
 #include "tests/support/dense_model.hpp"
 #include "tests/support/finite_difference.hpp"
 #include "tests/support/model_text.hpp"

@@ -8,7 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include "mechanism/elements/beam/beam_element.hpp"
-#include "reduce/common/symmetric_eigenpairs.hpp"
+#include "reduce/dense/symmetric_eigenpairs.hpp"
 #include "tests/support/dense_solution.hpp"
 #include "tests/support/static_model.hpp"
 

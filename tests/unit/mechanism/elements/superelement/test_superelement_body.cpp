@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "reduce/common/error.hpp"
-#include "reduce/common/symmetric_eigenpairs.hpp"
+#include "reduce/dense/symmetric_eigenpairs.hpp"
 #include "tests/support/finite_difference.hpp"
 #include "tests/support/matrix_error.hpp"
 #include "tests/support/superelement_alone.hpp"

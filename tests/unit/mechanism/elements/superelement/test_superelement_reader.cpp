@@ -5,7 +5,7 @@
 
 #include "mechanism/elements/superelement/superelement_body.hpp"
 #include "mechanism/model/description.hpp"
-#include "reduce/common/symmetric_eigenpairs.hpp"
+#include "reduce/dense/symmetric_eigenpairs.hpp"
 #include "reduce/superelement/modal_damping.hpp"
 #include "tests/support/beam_superelement.hpp"
 #include "tests/support/dense_model.hpp"

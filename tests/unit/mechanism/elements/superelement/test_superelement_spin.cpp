@@ -11,10 +11,10 @@
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
 
-#include "reduce/common/dense_solves.hpp"
-#include "reduce/common/orthogonal_factors.hpp"
-#include "reduce/common/symmetric_eigenpairs.hpp"
 #include "reduce/dense/dense_products.hpp"
+#include "reduce/dense/dense_solves.hpp"
+#include "reduce/dense/orthogonal_factors.hpp"
+#include "reduce/dense/symmetric_eigenpairs.hpp"
 #include "tests/support/eigenvalues.hpp"
 #include "tests/support/superelement_alone.hpp"
 

@@ -7,7 +7,7 @@
 #include "mechanism/joints/joint.hpp"
 #include "mechanism/solvers/constraints/reaction_norm.hpp"
 #include "mechanism/solvers/statics/statics.hpp"
-#include "reduce/common/orthogonal_factors.hpp"
+#include "reduce/dense/orthogonal_factors.hpp"
 #include "tests/support/run_model.hpp"
 
 using namespace bielle::mechanism;

@@ -6,7 +6,7 @@
 
 #include "mechanism/solvers/newton/linear_step.hpp"
 #include "mechanism/solvers/statics/statics.hpp"
-#include "reduce/common/orthogonal_factors.hpp"
+#include "reduce/dense/orthogonal_factors.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/run_model.hpp"
 
