@@ -15,8 +15,6 @@ using bielle::test::DenseModel;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 /// A straight beam of equal elements along x from 0 to 1 m, stretched or pressed by a force [N] at its end.
 class Column {
  public:
@@ -95,7 +93,7 @@ TEST_CASE("a column buckles at the cubic beam's load as one element, and converg
   // J. Haringx, Philips Res. Rep. 3 (1948) 401: P = GA/2 (sqrt(1 + 4 P_E/GA) - 1), of a force across the sections.
   // Shear that varies along a pressed element is taken as constant, so that the fourth order is that of slender
   // columns.
-  const double euler = pi * pi / 4;
+  const double euler = std::numbers::pi * std::numbers::pi / 4;
   const auto order = [&](double shear) {
     const double haringx = 2 * euler / (std::sqrt(1 + 4 * euler / shear) + 1);
     const double coarse = buckling_force(2, shear) / haringx - 1, fine = buckling_force(4, shear) / haringx - 1;
