@@ -108,13 +108,12 @@ struct BeamElement::Deformation {
   Matrix3 R_A, R_B;  ///< section axes -> inertial
   Vector6 d;
   Matrix6x12 P;
-  Vector12 v;    ///< body velocities of the section frames
-  double chord;  ///< rho
-  Vector6 n;     ///< drho/de
-  Vector6 Qe;
-  double ratio;  ///< e^T Q e/rho
-  Vector6 bows;  ///< dq/de
-  Matrix6x12 S;  ///< J P
+  Vector12 v;           ///< body velocities of the section frames
+  double G = 0, r = 1;  ///< gamma_b^2; length of the chord that has bent
+  Vector6 Qe = Vector6::Zero();
+  Vector6 stretches = Vector6::Zero();  ///< r dr/de
+  Vector6 bows = Vector6::Zero();       ///< dq/de
+  Matrix6x12 S;                         ///< J P
   Vector6 eps, epsdot;
   Vector6 f;  ///< of the strains
 
@@ -162,25 +161,37 @@ BeamElement::Deformation BeamElement::deformation(const LocalState& state) const
       Matrix3::Zero(), -inverse.topLeftCorner<3, 3>().transpose(), inverse.bottomRows<3>();
   D.v << D.R_A.transpose() * A.v, R_A_.transpose() * A.Omega, D.R_B.transpose() * B.v, R_B_.transpose() * B.Omega;
   const Vector6 e = (D.d - d0_) / L_;
-  D.chord = D.d.head<3>().norm() / L_;
-  D.n << D.d.head<3>() / (D.chord * L_), Vector3::Zero();
-  D.Qe.noalias() = bowing_ * e;
-  D.ratio = e.dot(D.Qe) / D.chord;
-  D.bows = (1.2 * D.Qe - 0.6 * D.ratio * D.n) / D.chord;
   D.eps = e;
-  D.eps.head<3>() += 0.6 * D.ratio * along_;
   D.S = D.P;
-  D.S.topRows<3>() += along_ * (D.bows.transpose() * D.P);
+  if (bending_ == BeamBending::residual) add_bowing(e, D);
   D.epsdot = D.S * D.v / L_;
   D.f = stiffness_ * (D.eps + damping_ * D.epsdot);
   return D;
 }
 
+void BeamElement::add_bowing(const Vector6& e, Deformation& D) const {
+  constexpr double nothing = 1e-20;  // ends that coincide have no chord
+  const double c = 1 + along_.dot(e.head<3>());
+  D.Qe.noalias() = bowing_ * e;
+  D.G = e.dot(D.Qe);
+  D.r = std::sqrt(c * c + D.G + nothing);
+  D.stretches = D.Qe;
+  D.stretches.head<3>() += c * along_;
+  D.bows = (1 - 0.1 * D.G / (D.r * D.r)) / D.r * D.stretches + 0.2 / D.r * D.Qe;
+  D.bows.head<3>() -= along_;
+  D.eps.head<3>() += (D.r + 0.1 * D.G / D.r - c) * along_;
+  D.S.topRows<3>() += along_ * (D.bows.transpose() * D.P);
+}
+
+// With m = r dr/de:  d2r/de2 = (t t^T + Q - m m^T/r^2)/r, and of q = r + G/(10 r) - c the second derivatives by r and
+// G.
 Matrix6 BeamElement::bows_gradient(const Deformation& D) const {
-  Matrix6 gradient =
-      1.2 / D.chord *
-      (bowing_ - (D.Qe * D.n.transpose() + D.n * D.Qe.transpose() - 1.5 * D.ratio * D.n * D.n.transpose()) / D.chord);
-  gradient.topLeftCorner<3, 3>().diagonal().array() -= 0.6 * D.ratio / (D.chord * D.chord);
+  if (bending_ == BeamBending::constant) return Matrix6::Zero();
+  const double r = D.r, by_r = 1 - 0.1 * D.G / (r * r);
+  const Vector6& m = D.stretches;
+  Matrix6 gradient = (by_r + 0.2) / r * bowing_ + (0.2 * D.G / (r * r) - by_r) / (r * r * r) * m * m.transpose() -
+                     0.2 / (r * r * r) * (m * D.Qe.transpose() + D.Qe * m.transpose());
+  gradient.topLeftCorner<3, 3>() += by_r / r * along_ * along_.transpose();
   return gradient;
 }
 

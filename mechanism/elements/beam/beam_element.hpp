@@ -25,14 +25,14 @@
 //
 // Stretch by bending (bowing). Of the shear across the chord, t = d0_u/L, the part that the sections do not take,
 //     gamma_b = [e - S C_e e]_u - t (t . ..),   S the mean of C^-1,
-// is an S-shaped bending of slope v' = 6 gamma_b (1/12 - z^2) at -1/2 <= z <= 1/2. The helix takes it for shear,
-// -gamma_b^2/2 of stretch, where the bent line has +gamma_b^2/10. The difference
-//     eps = e + t q,   q = (3/5) gamma_b^2/rho,   gamma_b^2 = e^T Q e,   rho = |d_u|/L,   J = I + t dq/de
-// makes the geometric stiffness of a straight slender element the consistent one of the cubic beam (J. Przemieniecki,
-// Theory of Matrix Structural Analysis, 1968, ch. 15); without it, an element under a tension of 12 EI/L^2 yields
-// sideways. The length rho of the chord is one but for the strain; wild iterates of Newton's method, whose chords are
-// long, would be far stiffer without it. Products of gamma_b with shear and stretch of the section are left to the
-// mesh.
+// is an S-shaped bending of slope v' = 6 gamma_b (1/12 - z^2) at -1/2 <= z <= 1/2. The helix takes it for shear. The
+// chord that has bent is r = (c^2 + gamma_b^2)^1/2 long, c = 1 + t . e_u, and the line longer by gamma_b^2/(10 r):
+//     eps = e + t q,   q = r + gamma_b^2/(10 r) - c,   gamma_b^2 = e^T Q e,   J = I + t dq/de
+// This makes the geometric stiffness of a straight slender element the consistent one of the cubic beam (J.
+// Przemieniecki, Theory of Matrix Structural Analysis, 1968, ch. 15); without it, an element under a tension of 12
+// EI/L^2 yields sideways. An element that does not stretch keeps r below one, however far it bends: with q = (3/5)
+// gamma_b^2, the same for small angles, it would grow longer than itself from a side load of 18 EI/L^2 on. Products of
+// gamma_b with shear and stretch of the section are left to the mesh.
 //
 // Limits: the ends of one element turn by less than 180 degrees against each other (`largest_turn` at the end of a
 // step); an error advises to refine. The relative rotation may well grow over several elements. Strains are small
@@ -103,7 +103,8 @@ class BeamElement : public Component {
   Vector6 relative_motion(const LocalState& state, const Matrix3& R_A, const Matrix3& R_B) const;
   [[noreturn]] void refuse(const LocalState& state, const std::string& why, const char* or_else) const;
   Deformation deformation(const LocalState& state) const;
-  Matrix6 bows_gradient(const Deformation& D) const;  ///< d2q/de2
+  void add_bowing(const Vector6& e, Deformation& D) const;  ///< to eps = e and S = P
+  Matrix6 bows_gradient(const Deformation& D) const;        ///< d2q/de2
   /// Resultants that a linear step from one state to another predicts. See Environment::before.
   Vector6 predicted_resultants(const LocalState& before, const LocalState& state) const;
   void add_stiffness(const Deformation& D, Eigen::Ref<MatrixX> K) const;
