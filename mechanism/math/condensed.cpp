@@ -213,13 +213,13 @@ CondensedLU::CondensedLU(const CondensedPattern& pattern)
 CondensedLU::CondensedLU(CondensedLU&&) noexcept = default;
 CondensedLU::~CondensedLU() = default;
 
-FactorStatus CondensedLU::factor(const std::vector<double>& values, const VectorX& scale, const Workers& workers) {
+FactorStatus CondensedLU::factor(const std::vector<double>& values, const VectorX& scale, Workers& workers) {
   condensed_ = !blocks_.empty() && condense(values, scale, workers);
   // The whole finds pivots elsewhere, or says which unknown has none.
   return condensed_ ? FactorStatus::good : whole_.factor(values, scale);
 }
 
-bool CondensedLU::condense(const std::vector<double>& values, const VectorX& scale, const Workers& workers) {
+bool CondensedLU::condense(const std::vector<double>& values, const VectorX& scale, Workers& workers) {
   for (std::size_t k = 0; k < rest_values_.size(); ++k) {
     const int place = pattern_.rest_from()[k];
     rest_values_[k] = place >= 0 ? values[static_cast<std::size_t>(place)] : 0.0;

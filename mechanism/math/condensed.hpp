@@ -66,7 +66,7 @@ class CondensedLU {
   /// Factorises D A D with a diagonal D, which is 1 for the unknowns of blocks.
   /// @param values  of A, in the order of the whole pattern
   /// @param workers  condense blocks at the same time; results do not depend on them
-  FactorStatus factor(const std::vector<double>& values, const VectorX& scale, const Workers& workers);
+  FactorStatus factor(const std::vector<double>& values, const VectorX& scale, Workers& workers);
   void forget();
   /// b <- A^-1 b. Only after a good factorisation; by one thread at a time.
   void solve(Eigen::Ref<VectorX> b) const;
@@ -79,7 +79,7 @@ class CondensedLU {
 
  private:
   struct Block;
-  bool condense(const std::vector<double>& values, const VectorX& scale, const Workers& workers);
+  bool condense(const std::vector<double>& values, const VectorX& scale, Workers& workers);
 
   const CondensedPattern& pattern_;
   SparseLU whole_, rest_;

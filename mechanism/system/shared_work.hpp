@@ -28,8 +28,8 @@ class SharedWork {
   void add(const Declaration& declaration) { acting_.push_back({!declaration.passive, declaration.in_blocks}); }
   /// To be called when all members are numbered.
   void complete();
-  void use_threads(int threads) { workers_ = Workers(threads); }
-  const Workers& workers() const { return workers_; }
+  void use_threads(int threads) { workers_ = std::make_unique<Workers>(threads); }
+  Workers& workers() const { return *workers_; }
 
   /// Members that are pieces of work, the most costly first; of equal ones the first of the model.
   const std::vector<std::size_t>& costly() const { return costly_; }
@@ -54,7 +54,7 @@ class SharedWork {
       }
     };
     if (worthwhile_) {
-      workers_.for_each(costly_.size(), guarded, small);
+      workers_->for_each(costly_.size(), guarded, small);
     } else {
       small();
       for (std::size_t k = 0; k < costly_.size(); ++k) guarded(k);
@@ -84,7 +84,7 @@ class SharedWork {
   std::vector<std::size_t> costly_;
   std::vector<int> row_begin_;
   bool worthwhile_ = false;  ///< waking the others takes less than they save
-  Workers workers_;
+  std::unique_ptr<Workers> workers_ = std::make_unique<Workers>();
 };
 
 }  // namespace bielle::mechanism

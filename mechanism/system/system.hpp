@@ -27,7 +27,7 @@ class System {
   /// Threads that evaluate costly components and condense their amplitudes; one, unless this is called. Results are the
   /// same for any number.
   void use_threads(int threads) { work_.use_threads(threads); }
-  const Workers& workers() const { return work_.workers(); }
+  Workers& workers() const { return work_.workers(); }
 
   const Model& model() const { return model_; }
   const NodeKinematics& kinematics() const { return kinematics_; }
