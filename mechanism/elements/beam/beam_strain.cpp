@@ -10,8 +10,8 @@ namespace {
 
 constexpr double worth_a_doubt = 0.02;
 // Bending under tension fades from a clamp like exp(-x/l), which one cubic follows over some lengths l only: with seven
-// in each of four elements a strip is right to 1 %, the first frequency of a blade of two elements with ten in each is
-// 10 % high.
+// in each of four elements the deflection of a strip is right to 1 %, the first frequency of a blade of two elements
+// with ten in each is 10 % high. Moments next to the clamp need elements of one or two lengths.
 constexpr double too_long = 7;
 constexpr double advised = 3.5;
 
@@ -43,8 +43,9 @@ std::string BeamStrainWatch::summary() {
   std::string text;
   if (layers_ > too_long)
     text = fmt::format(
-        "  DOUBTFUL: under its tension beam '{}' bends next to its ends within {:.2g} m, and its elements are {:.2g} m "
-        "long: take at least {:.0f} of them\n",
+        "  DOUBTFUL: under its tension beam '{}' bends within {:.2g} m of clamps and side loads alone, and its "
+        "elements "
+        "are {:.2g} m long: take at least {:.0f} of them\n",
         element_.name(), element_.length() / layers_, element_.length(), std::ceil(elements * layers_ / advised));
   if (strain_ < worth_a_doubt) return text;
   return text +
