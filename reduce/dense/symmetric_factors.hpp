@@ -20,11 +20,11 @@ struct EigenvalueSigns {
   Eigen::Index unknown = 0;  ///< zero to rounding, so that nothing is known of their sign; all where A is not finite
 };
 
-/// Of a symmetric matrix, by L D L^T with interchanges (Bunch and Kaufman), whose D has the signs of A (Sylvester).
+/// Counts the eigenvalues of a symmetric matrix by L D L^T with interchanges (Bunch and Kaufman): D has the signs of A
+/// (Sylvester).
 /// @param A      (n,n) its lower triangle is read, and overwritten
-/// @param scale  (n) positive: an eigenvalue of S A S with S = diag(scale)^-1/2 counts as zero where rounding in
-/// numbers
-///               of the size of its largest entry hides it
+/// @param scale  (n) positive: an eigenvalue of S A S with S = diag(scale)^-1/2 counts as zero where rounding hides it,
+///               in numbers of the size of its largest entry
 EigenvalueSigns eigenvalue_signs(Eigen::MatrixXd A, const Eigen::VectorXd& scale);
 
 }  // namespace bielle

@@ -20,7 +20,7 @@ namespace {
 
 using namespace bielle;
 
-/// Of a grid of n x n x length points; its diagonal dominates.
+/// The matrix of a grid of n x n x length points; its diagonal dominates.
 SymmetricMatrix solid(int n, int length, std::vector<std::int64_t>& blocks) {
   SymmetricMatrix a;
   const int points = n * n * length;

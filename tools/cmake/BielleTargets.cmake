@@ -12,7 +12,7 @@ if(BIELLE_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   target_compile_options(bielle_warnings INTERFACE -Wno-subobject-linkage)
 endif()
 
-# Beside bielle_warnings, behind it: in a batch of tests a local variable may be called as a constant of another source. Builds
+# Linked after bielle_warnings: in a batch of tests a local variable may be called as a constant of another source. Builds
 # without batches warn of one in the same source.
 add_library(bielle_batched_tests INTERFACE)
 if(BIELLE_UNITY)

@@ -1,4 +1,4 @@
-// What every implementation of `Factor` must do. CHOLMOD's and the dense one run these checks in test_factors.cpp,
+// Every implementation of `Factor` must pass these checks. CHOLMOD's and the dense one run them in test_factors.cpp,
 // MUMPS's in distributed/ranks/test_mumps_factor.cpp, a program of its own.
 #pragma once
 
@@ -31,7 +31,7 @@ inline SymmetricMatrix shifted(SymmetricMatrix a, double shift) {
   return a;
 }
 
-/// Springs in a row with nothing at either end, and masses on ground beside them: the row can move as a whole.
+/// Springs in a row with nothing at either end, and masses on ground next to them: the row can move as a whole.
 inline SymmetricMatrix floating_row(int springs, int held) {
   Eigen::MatrixXd a = Eigen::MatrixXd::Identity(springs + 1 + held, springs + 1 + held);
   a.topLeftCorner(springs + 1, springs + 1).setZero();

@@ -32,7 +32,7 @@ reduce::Entries entries_of(const SymmetricMatrix& a) {
   return entries;
 }
 
-/// What bielle-reduce makes of MUMPS's factor over its channel, without the channel.
+/// MUMPS's factor as a `Factor`, as bielle-reduce sees it over its channel, here without the channel.
 class FactorOfRanks : public Factor {
  public:
   explicit FactorOfRanks(const SymmetricMatrix& a) {
