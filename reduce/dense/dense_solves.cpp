@@ -21,12 +21,6 @@ void solve_triangles(const Eigen::MatrixXd& LU, MatrixRef x) {
 
 }  // namespace
 
-bool is_positive_definite(const ConstMatrixRef& A) {
-  const Eigen::LLT<Eigen::MatrixXd> factors(A);
-  // Eigen takes pivots that are no numbers for good ones.
-  return factors.info() == Eigen::Success && factors.matrixLLT().diagonal().allFinite();
-}
-
 Eigen::MatrixXd solve_symmetric(const ConstMatrixRef& A, const ConstMatrixRef& B) {
   return Eigen::LDLT<Eigen::MatrixXd>(A).solve(B);
 }

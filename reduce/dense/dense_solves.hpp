@@ -10,10 +10,6 @@
 
 namespace bielle {
 
-/// Whether a symmetric matrix has a Cholesky factorisation, which one with NaN has not; its lower triangle alone is
-/// read.
-bool is_positive_definite(const ConstMatrixRef& A);
-
 /// A^-1 B of a symmetric A that is positive semidefinite, by L D L^T with pivoting.
 Eigen::MatrixXd solve_symmetric(const ConstMatrixRef& A, const ConstMatrixRef& B);
 

@@ -41,6 +41,11 @@ std::optional<Eigen::Index> factorise_definite(Eigen::MatrixXd& A) {
   return {};
 }
 
+bool is_positive_definite(const ConstMatrixRef& A) {
+  Eigen::MatrixXd L = A;
+  return !factorise_definite(L);
+}
+
 void solve_definite(const Eigen::MatrixXd& L, Eigen::MatrixXd& B) {
   const int n = static_cast<int>(L.rows()), columns = static_cast<int>(B.cols());
   if (n == 0 || columns == 0) return;

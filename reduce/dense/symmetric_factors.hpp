@@ -5,11 +5,17 @@
 
 #include <Eigen/Core>
 
+#include "reduce/dense/matrix_refs.hpp"
+
 namespace bielle {
 
 /// A = L L^T: the lower triangle of A (n,n) becomes L, the rest is neither read nor written.
 /// @returns the first column whose pivot is not positive (or no number), and A is then spoilt; nothing where all are
 std::optional<Eigen::Index> factorise_definite(Eigen::MatrixXd& A);
+
+/// Whether a symmetric matrix has a Cholesky factorisation, which one with NaN has not; its lower triangle alone is
+/// read.
+bool is_positive_definite(const ConstMatrixRef& A);
 
 /// B (n,k) becomes A^-1 B. @param L  in the lower triangle, as `factorise_definite` leaves it
 void solve_definite(const Eigen::MatrixXd& L, Eigen::MatrixXd& B);

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "reduce/common/error.hpp"
-#include "reduce/dense/dense_solves.hpp"
+#include "reduce/dense/symmetric_factors.hpp"
 
 namespace bielle::reduce {
 

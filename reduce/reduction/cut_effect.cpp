@@ -8,6 +8,7 @@
 #include "reduce/dense/dense_solves.hpp"
 #include "reduce/dense/orthogonal_factors.hpp"
 #include "reduce/dense/symmetric_eigenpairs.hpp"
+#include "reduce/dense/symmetric_factors.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
 
 namespace bielle::reduce {

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "reduce/dense/dense_solves.hpp"
+#include "reduce/dense/symmetric_factors.hpp"
 #include "reduce/superelement/superelement.hpp"
 
 namespace bielle {

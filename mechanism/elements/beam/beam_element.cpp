@@ -21,7 +21,6 @@ using Vector12 = Eigen::Matrix<double, 12, 1>;
 using Matrix12 = Eigen::Matrix<double, 12, 12>;
 using Matrix6x12 = Eigen::Matrix<double, 6, 12>;
 using Matrix12x6 = Eigen::Matrix<double, 12, 6>;
-using Matrix3x6 = Eigen::Matrix<double, 3, 6>;
 
 /// Resultants at a section of an element of relative motion d that is in equilibrium, of its f: the nodal wrench at B,
 /// T6^-T(d) f, carried there. @param section  in the axes of the section frame at B
@@ -58,14 +57,12 @@ Matrix6 element_stiffness(const ElementSections& sections, const BeamReference& 
   return symmetric_inverse(sum);
 }
 
-/// Q of the stretch by bending, see the head of beam_element.hpp.
-Matrix6 bowing(const Matrix6& stiffness, const ElementSections& sections, const Vector3& along) {
+/// The larger eigenvalue of the flexibility against moments across the element [1/(N m^2)].
+double softness_across(const Matrix6& flexibility, const Vector3& along) {
   const Matrix3 across = Matrix3::Identity() - along * along.transpose();
-  Matrix3x6 of_sections = Matrix3x6::Zero();
-  for (std::size_t g = 0; g < 3; ++g)
-    of_sections += Gauss3::weight[g] * symmetric_inverse(sections.at[g].stiffness).topRows<3>();
-  const Matrix3x6 bent = across * (Matrix3x6::Identity() - of_sections * stiffness);  // gamma_b of e
-  return bent.transpose() * bent;
+  const Matrix3 bending = across * flexibility.bottomRightCorner<3, 3>() * across;
+  const double sum = bending.trace(), difference = std::sqrt(std::max(0.0, 2 * bending.squaredNorm() - sum * sum));
+  return 0.5 * (sum + difference);
 }
 
 }  // namespace
@@ -88,10 +85,11 @@ BeamElement::BeamElement(std::string name, BeamPlace place, int node_a, int node
       flexibility_(symmetric_inverse(section_.stiffness)),
       mass_(L_ * sections.mean_mass()),
       damping_(damping),
+      softness_(softness_across(flexibility_, along_)),
       inertia_(sections, R_A, R_B, reference) {
   if (bending == BeamBending::constant) return;
   to_middle_ = flexibility_ * equilibrium(d0_, exp_se3(-0.5 * d0_)) * stiffness_;
-  bowing_ = bowing(stiffness_, sections, along_);
+  bowing_ = BeamBowing(stiffness_, sections, along_);
 }
 
 void BeamElement::declare(Declaration& declaration) const {
@@ -108,18 +106,15 @@ struct BeamElement::Deformation {
   Matrix3 R_A, R_B;  ///< section axes -> inertial
   Vector6 d;
   Matrix6x12 P;
-  Vector12 v;           ///< body velocities of the section frames
-  double G = 0, r = 1;  ///< gamma_b^2; length of the chord that has bent
-  Vector6 Qe = Vector6::Zero();
-  Vector6 stretches = Vector6::Zero();  ///< r dr/de
-  Vector6 bows = Vector6::Zero();       ///< dq/de
-  Matrix6x12 S;                         ///< J P
+  Vector12 v;  ///< body velocities of the section frames
+  BeamBowing::Stretch bowing;
+  Matrix6x12 S;  ///< J P
   Vector6 eps, epsdot;
   Vector6 f;  ///< of the strains
 
   /// J^T times resultants of the strains: those that work on e.
   Vector6 of_motion(const Vector6& resultants, const Vector3& along) const {
-    return resultants + bows * along.dot(resultants.head<3>());
+    return resultants + bowing.gradient * along.dot(resultants.head<3>());
   }
 };
 
@@ -161,38 +156,14 @@ BeamElement::Deformation BeamElement::deformation(const LocalState& state) const
       Matrix3::Zero(), -inverse.topLeftCorner<3, 3>().transpose(), inverse.bottomRows<3>();
   D.v << D.R_A.transpose() * A.v, R_A_.transpose() * A.Omega, D.R_B.transpose() * B.v, R_B_.transpose() * B.Omega;
   const Vector6 e = (D.d - d0_) / L_;
+  D.bowing = bowing_.at(e);
   D.eps = e;
+  D.eps.head<3>() += D.bowing.q * along_;
   D.S = D.P;
-  if (bending_ == BeamBending::residual) add_bowing(e, D);
+  D.S.topRows<3>() += along_ * (D.bowing.gradient.transpose() * D.P);
   D.epsdot = D.S * D.v / L_;
   D.f = stiffness_ * (D.eps + damping_ * D.epsdot);
   return D;
-}
-
-void BeamElement::add_bowing(const Vector6& e, Deformation& D) const {
-  constexpr double nothing = 1e-20;  // ends that coincide have no chord
-  const double c = 1 + along_.dot(e.head<3>());
-  D.Qe.noalias() = bowing_ * e;
-  D.G = e.dot(D.Qe);
-  D.r = std::sqrt(c * c + D.G + nothing);
-  D.stretches = D.Qe;
-  D.stretches.head<3>() += c * along_;
-  D.bows = (1 - 0.1 * D.G / (D.r * D.r)) / D.r * D.stretches + 0.2 / D.r * D.Qe;
-  D.bows.head<3>() -= along_;
-  D.eps.head<3>() += (D.r + 0.1 * D.G / D.r - c) * along_;
-  D.S.topRows<3>() += along_ * (D.bows.transpose() * D.P);
-}
-
-// With m = r dr/de:  d2r/de2 = (t t^T + Q - m m^T/r^2)/r, and of q = r + G/(10 r) - c the second derivatives by r and
-// G.
-Matrix6 BeamElement::bows_gradient(const Deformation& D) const {
-  if (bending_ == BeamBending::constant) return Matrix6::Zero();
-  const double r = D.r, by_r = 1 - 0.1 * D.G / (r * r);
-  const Vector6& m = D.stretches;
-  Matrix6 gradient = (by_r + 0.2) / r * bowing_ + (0.2 * D.G / (r * r) - by_r) / (r * r * r) * m * m.transpose() -
-                     0.2 / (r * r * r) * (m * D.Qe.transpose() + D.Qe * m.transpose());
-  gradient.topLeftCorner<3, 3>() += by_r / r * along_ * along_.transpose();
-  return gradient;
 }
 
 void BeamElement::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
@@ -231,7 +202,7 @@ void add_rotated(const Matrix12& A, const std::array<Matrix3, 4>& U, Eigen::Ref<
 void BeamElement::add_stiffness(const Deformation& D, Eigen::Ref<MatrixX> K) const {
   const Vector12 F = D.S.transpose() * D.f;
   const Vector6 f_of_motion = D.of_motion(D.f, along_);
-  const Matrix6 bows_gradient = this->bows_gradient(D);
+  const Matrix6 bows_gradient = bowing_.second_gradient(D.bowing);
   Matrix12x6 G;
   G << inverse_transpose_gradient_se3(-D.d, f_of_motion), inverse_transpose_gradient_se3(D.d, f_of_motion);
   G.noalias() += D.P.transpose() * (along_.dot(D.f.head<3>()) / L_ * bows_gradient);
@@ -242,7 +213,8 @@ void BeamElement::add_stiffness(const Deformation& D, Eigen::Ref<MatrixX> K) con
     Matrix6x12 rate_gradient = along_d * D.P;
     for (Eigen::Index k : {0, 6}) rate_gradient.middleCols<3>(k + 3) += D.P.middleCols<3>(k) * skew(D.v.segment<3>(k));
     const Vector6 bows_rate = bows_gradient * (D.P * D.v) / L_;
-    rate_gradient.topRows<3>() += along_ * (D.bows.transpose() * rate_gradient + bows_rate.transpose() * D.P).eval();
+    rate_gradient.topRows<3>() +=
+        along_ * (D.bowing.gradient.transpose() * rate_gradient + bows_rate.transpose() * D.P).eval();
     f_gradient += damping_ / L_ * stiffness_ * rate_gradient;
   }
   const Matrix12 K_b = D.S.transpose() * f_gradient + G * D.P;
@@ -307,17 +279,12 @@ void BeamElement::describe(const LocalState& /*state*/, Description& description
   description.add_each("section in the middle of", "element", text);
 }
 
-double BeamElement::largest_strain(const LocalState& state) const {
-  const Vector6 d = relative_motion(state, state.node(0).R * R_A_, state.node(1).R * R_B_);
-  return section_.largest_strain(to_middle_ * (d - d0_) / L_);
-}
-
-double BeamElement::bending_layers(const LocalState& state) const {
-  const double tension = along_.dot(deformation(state).f.head<3>());
-  const Matrix3 across = Matrix3::Identity() - along_ * along_.transpose();
-  const Matrix3 bending = across * flexibility_.bottomRightCorner<3, 3>() * across;
-  const double sum = bending.trace(), difference = std::sqrt(std::max(0.0, 2 * bending.squaredNorm() - sum * sum));
-  return L_ * std::sqrt(std::max(0.0, tension) * 0.5 * (sum + difference));  // the larger of two eigenvalues
+BeamElement::Validity BeamElement::validity(const LocalState& state) const {
+  const Vector6 d = relative_motion(state, state.node(0).R * R_A_, state.node(1).R * R_B_), e = (d - d0_) / L_;
+  Vector6 eps = e;
+  eps.head<3>() += bowing_.at(e).q * along_;
+  const double tension = along_.dot(stiffness_.topRows<3>() * eps);
+  return {section_.largest_strain(to_middle_ * e), L_ * std::sqrt(std::max(0.0, tension) * softness_)};
 }
 
 std::unique_ptr<Gatherer> BeamElement::make_gatherer() const { return std::make_unique<BeamStrainWatch>(*this); }

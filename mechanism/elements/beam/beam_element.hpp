@@ -23,16 +23,8 @@
 // physical strain there is C^-1 A(1/2) J^T f: these are what the results hold. (Without all this, `bending: constant`:
 // C_e the mean of C; eps and f themselves are the strain and the resultants.)
 //
-// Stretch by bending (bowing). Of the shear across the chord, t = d0_u/L, the part that the sections do not take,
-//     gamma_b = [e - S C_e e]_u - t (t . ..),   S the mean of C^-1,
-// is an S-shaped bending of slope v' = 6 gamma_b (1/12 - z^2) at -1/2 <= z <= 1/2. The helix takes it for shear. The
-// chord that has bent is r = (c^2 + gamma_b^2)^1/2 long, c = 1 + t . e_u, and the line longer by gamma_b^2/(10 r):
-//     eps = e + t q,   q = r + gamma_b^2/(10 r) - c,   gamma_b^2 = e^T Q e,   J = I + t dq/de
-// This makes the geometric stiffness of a straight slender element the consistent one of the cubic beam (J.
-// Przemieniecki, Theory of Matrix Structural Analysis, 1968, ch. 15); without it, an element under a tension of 12
-// EI/L^2 yields sideways. An element that does not stretch keeps r below one, however far it bends: with q = (3/5)
-// gamma_b^2, the same for small angles, it would grow longer than itself from a side load of 18 EI/L^2 on. Products of
-// gamma_b with shear and stretch of the section are left to the mesh.
+// Stretch by bending: q(e) of beam_bowing.hpp, along the chord t = d0_u/L,
+//     eps = e + t q,   J = 1 + t (dq/de)^T.
 //
 // Limits: the ends of one element turn by less than 180 degrees against each other (`largest_turn` at the end of a
 // step); an error advises to refine. The relative rotation may well grow over several elements. Strains are small
@@ -43,6 +35,7 @@
 #include <numbers>
 #include <string>
 
+#include "mechanism/elements/beam/beam_bowing.hpp"
 #include "mechanism/elements/beam/beam_inertia.hpp"
 #include "mechanism/elements/beam/beam_section.hpp"
 #include "mechanism/math/se3.hpp"
@@ -90,11 +83,13 @@ class BeamElement : public Component {
   double mass() const { return mass_; }                              ///< [kg]
   const Matrix6& section() const { return section_.stiffness; }      ///< of the section in the middle
   bool knows_its_shape() const { return !section_.reach.isZero(); }  ///< else the section is given by constants
-  /// In the middle, see beam_strain.hpp; to first order in how far the element itself bends.
-  double largest_strain(const LocalState& state) const;
-  /// Length of the element over l = sqrt(EI/N), within which bending fades from an end under the tension N; 0 without
-  /// tension. EI is that of the softer direction.
-  double bending_layers(const LocalState& state) const;
+  /// How far the linear law and the length of the element hold.
+  struct Validity {
+    double strain;  ///< largest in the middle, see beam_strain.hpp; to first order in how far the element itself bends
+    double layers;  ///< L/l, within l = sqrt(EI/N) bending fades from an end under the tension N (0 without tension);
+                    ///< EI is that of the softer direction
+  };
+  Validity validity(const LocalState& state) const;
   std::unique_ptr<Gatherer> make_gatherer() const override;
 
  private:
@@ -103,8 +98,6 @@ class BeamElement : public Component {
   Vector6 relative_motion(const LocalState& state, const Matrix3& R_A, const Matrix3& R_B) const;
   [[noreturn]] void refuse(const LocalState& state, const std::string& why, const char* or_else) const;
   Deformation deformation(const LocalState& state) const;
-  void add_bowing(const Vector6& e, Deformation& D) const;  ///< to eps = e and S = P
-  Matrix6 bows_gradient(const Deformation& D) const;        ///< d2q/de2
   /// Resultants that a linear step from one state to another predicts. See Environment::before.
   Vector6 predicted_resultants(const LocalState& before, const LocalState& state) const;
   void add_stiffness(const Deformation& D, Eigen::Ref<MatrixX> K) const;
@@ -120,8 +113,9 @@ class BeamElement : public Component {
   BeamSection section_;                      ///< in the middle
   Matrix6 flexibility_;                      ///< C^-1 in the middle
   Matrix6 to_middle_ = Matrix6::Identity();  ///< e -> strain in the middle, at the reference
-  Matrix6 bowing_ = Matrix6::Zero();         ///< Q
-  double mass_;                              ///< [kg]
+  double softness_;                          ///< 1/EI of the softer direction
+  BeamBowing bowing_;
+  double mass_;  ///< [kg]
   double damping_;
   BeamInertia inertia_;
 };

@@ -8,7 +8,7 @@
 #include "mechanism/math/gauss.hpp"
 #include "mechanism/math/so3.hpp"
 #include "reduce/common/plausible.hpp"
-#include "reduce/dense/dense_solves.hpp"
+#include "reduce/dense/symmetric_factors.hpp"
 
 namespace bielle::mechanism {
 namespace {

@@ -23,8 +23,8 @@ void BeamStrainWatch::begin() {
 }
 
 void BeamStrainWatch::add(const LocalState& state) {
-  layers_ = std::max(layers_, element_.bending_layers(state));
-  const double strain = element_.largest_strain(state);
+  const auto [strain, layers] = element_.validity(state);
+  layers_ = std::max(layers_, layers);
   if (!(strain > strain_)) return;
   strain_ = strain;
   statics_ = state.environment().statics;
@@ -44,8 +44,7 @@ std::string BeamStrainWatch::summary() {
   if (layers_ > too_long)
     text = fmt::format(
         "  DOUBTFUL: under its tension beam '{}' bends within {:.2g} m of clamps and side loads alone, and its "
-        "elements "
-        "are {:.2g} m long: take at least {:.0f} of them\n",
+        "elements are {:.2g} m long: take at least {:.0f} of them\n",
         element_.name(), element_.length() / layers_, element_.length(), std::ceil(elements * layers_ / advised));
   if (strain_ < worth_a_doubt) return text;
   return text +

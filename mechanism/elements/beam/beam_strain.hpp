@@ -34,7 +34,7 @@ class BeamStrainWatch final : public Gatherer {
  private:
   const BeamElement& element_;
   double strain_ = 0, time_ = 0;
-  double layers_ = 0;     ///< BeamElement::bending_layers
+  double layers_ = 0;     ///< BeamElement::Validity::layers
   bool statics_ = false;  ///< the time is a load factor
 };
 

@@ -9,6 +9,7 @@
 #include "reduce/common/error.hpp"
 #include "reduce/dense/dense_products.hpp"
 #include "reduce/dense/dense_solves.hpp"
+#include "reduce/dense/symmetric_factors.hpp"
 
 namespace bielle::mechanism {
 namespace {

@@ -6,6 +6,7 @@
 #include "mechanism/solvers/linearised/modes.hpp"
 #include "reduce/dense/dense_solves.hpp"
 #include "reduce/dense/orthogonal_factors.hpp"
+#include "reduce/dense/symmetric_factors.hpp"
 
 namespace bielle::mechanism {
 

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "reduce/dense/dense_solves.hpp"
+#include "reduce/dense/symmetric_factors.hpp"
 
 using namespace bielle;
 using Eigen::MatrixXd;
