@@ -1,7 +1,7 @@
 // Modes over a speed as results: arrays for the sinks.
 #pragma once
 
-#include "mechanism/session/session.hpp"
+#include "mechanism/analyses/campbell.hpp"
 
 namespace bielle::mechanism {
 

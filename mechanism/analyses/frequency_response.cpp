@@ -2,115 +2,155 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
-#include "mechanism/analyses/analysis_table.hpp"
-#include "mechanism/analyses/response_reader.hpp"
-#include "mechanism/analyses/rotation_reader.hpp"
-#include "mechanism/analyses/summary_text.hpp"
-#include "reduce/common/counted.hpp"
+#include "mechanism/analyses/modal_response.hpp"
+#include "mechanism/analyses/standing_state.hpp"
+#include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
 namespace {
 
-/// `{from: 1, to: 100, count: 200, spacing: logarithmic}`, or a list.
-std::vector<double> read_frequencies(const YamlValue& entry) {
-  std::vector<double> frequencies;
-  if (entry.is_sequence()) {
-    for (const YamlValue& item : entry.items()) {
-      frequencies.push_back(item.number());
-      if (frequencies.back() < 0) item.fail("expected a frequency of 0 or more [Hz]");
-    }
-    if (frequencies.empty()) entry.fail("expected at least one frequency");
-    return frequencies;
-  }
-  entry.check_keys({"from", "to", "count", "spacing"}, "`frequencies`");
-  const bool even = entry.has("spacing") && entry.at("spacing").word({"logarithmic", "even"}, "a spacing") == "even";
-  const double from = even ? entry.at("from").number() : entry.at("from").positive_number();
-  const double to = entry.at("to").positive_number();
-  if (from < 0) entry.at("from").fail("expected a frequency of 0 or more [Hz]");
-  if (to <= from) entry.at("to").fail("expected more than `from`");
-  const int count = entry.has("count") ? entry.at("count").integer() : 200;
-  if (count < 2) entry.at("count").fail("expected at least 2 frequencies");
-  for (int k = 0; k < count; ++k) {
-    const double part = static_cast<double>(k) / (count - 1);
-    frequencies.push_back(even ? from + part * (to - from) : from * std::pow(to / from, part));
-  }
-  return frequencies;
+using Complex = std::complex<double>;
+
+[[noreturn]] void throw_no_response(double frequency) {
+  throw ComputationError(
+      fmt::format("there is no response at {:.6g} Hz: it is a frequency at which the mechanism moves without any force",
+                  frequency));
 }
+
+/// Answers by one factorisation each.
+class DirectResponse {
+ public:
+  DirectResponse(const LinearResponse& response, const LinearisedEquations& equations,
+                 const FrequencyResponseOptions& options)
+      : response_(response),
+        equations_(equations),
+        options_(options),
+        rights_(response.right_sides(options.inputs, options.outputs)) {}
+
+  Eigen::MatrixXcd operator()(Complex s) const {
+    const ShiftedOperator D(equations_, s);
+    if (!D.regular()) throw_no_response(s.imag() / (2 * std::numbers::pi));
+    Eigen::MatrixXcd H(options_.outputs.size(), options_.inputs.size());
+    for (std::size_t j = 0; j < rights_.size(); ++j) {
+      const Variation variation = response_.answer(D, rights_[j]);
+      for (std::size_t i = 0; i < options_.outputs.size(); ++i)
+        H(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+            response_.value(options_.outputs[i], variation) + response_.direct(options_.outputs[i], options_.inputs[j]);
+    }
+    return H;
+  }
+
+ private:
+  const LinearResponse& response_;
+  const LinearisedEquations& equations_;
+  const FrequencyResponseOptions& options_;
+  std::vector<VectorX> rights_;
+};
+
+/// The sum over modes.
+class SuperposedResponse {
+ public:
+  SuperposedResponse(const LinearResponse& response, const LinearisedEquations& equations,
+                     const FrequencyResponseOptions& options)
+      : response_(response), equations_(equations), options_(options) {}
+
+  void run(FrequencyResponse& result) const {
+    const double most =
+                     2 * std::numbers::pi * *std::max_element(options_.frequencies.begin(), options_.frequencies.end()),
+                 least =
+                     2 * std::numbers::pi * *std::min_element(options_.frequencies.begin(), options_.frequencies.end());
+    if (most == 0)
+      throw InputError("`modes`: a sum over modes is for frequencies above 0; the answer at 0 alone is found directly");
+    ModeOptions search;
+    search.count = options_.modes;
+    const Modes found = find_modes(equations_, search);
+    const std::vector<ModalPole> poles = modal_poles(equations_, found.modes);
+    const bool rigid = found.modes.size() > poles.size();
+    const DirectResponse direct(response_, equations_, options_);
+    const ModalResponse superposed(response_, poles, options_, most, direct);
+    result.modal = superposed.accuracy(least);
+    result.modal->modes = static_cast<int>(poles.size());
+    for (const ModalPole& pole : poles)
+      result.modal->fastest = std::max(result.modal->fastest, std::abs(pole.s) / (2 * std::numbers::pi));
+    constexpr double enough = 1e-3;
+    if (result.modal->deviation > enough) check_rigid(*result.modal, found.modes, poles);
+    for (const double frequency : options_.frequencies) {
+      const Complex s(0, 2 * std::numbers::pi * frequency);
+      if (frequency == 0 && rigid) {
+        result.response.push_back(direct(s));
+        continue;
+      }
+      check_not_a_mode(poles, s);
+      result.response.push_back(superposed.at(s));
+    }
+  }
+
+ private:
+  /// What moves without any force answers with 1/s^2 and 1/s, which no smooth rest follows.
+  void check_rigid(const ModalAccuracy& accuracy, const std::vector<Mode>& modes,
+                   const std::vector<ModalPole>& poles) const {
+    for (const Mode& mode : modes)
+      if (mode.kind == ModeKind::rigid && takes_part(mode, poles))
+        throw ComputationError(
+            fmt::format("modes cannot be superposed: a rigid mode that no force resists has a part in these answers "
+                        "(at {:.6g} Hz the "
+                        "sum differs from the direct answer by {:.2g} of it): hold the mechanism, or leave `modes` out",
+                        accuracy.frequency, accuracy.deviation));
+  }
+  /// Whether an input moves it, and an output sees it.
+  bool takes_part(const Mode& mode, const std::vector<ModalPole>& poles) const {
+    constexpr double something = 1e-6;
+    const int n = equations_.unknowns();
+    const double size = mode.u.norm();
+    bool moved = false, seen = false;
+    for (const VectorX& right : response_.right_sides(options_.inputs, options_.outputs))
+      if (std::abs(right.head(n).cast<Complex>().dot(mode.u)) > something * right.head(n).norm() * size) moved = true;
+    Eigen::VectorXcd solution = Eigen::VectorXcd::Zero(n + equations_.constraints());
+    solution.head(n) = mode.u;
+    const Variation motion = response_.motion(0, solution);
+    for (const ResponseOutput& output : options_.outputs) {
+      double usual = 0;
+      for (const ModalPole& pole : poles)
+        usual = std::max(
+            usual, std::abs(response_.value(output, response_.motion(pole.s, pole.right))) / pole.right.head(n).norm());
+      if (std::abs(response_.value(output, motion)) > something * usual * size) seen = true;
+    }
+    return moved && seen;
+  }
+  static void check_not_a_mode(const std::vector<ModalPole>& poles, Complex s) {
+    constexpr double rounding = 1e-13;
+    for (const ModalPole& pole : poles)
+      if (std::abs(pole.s - s) <= rounding * std::abs(s)) throw_no_response(s.imag() / (2 * std::numbers::pi));
+  }
+
+  const LinearResponse& response_;
+  const LinearisedEquations& equations_;
+  const FrequencyResponseOptions& options_;
+};
 
 }  // namespace
 
-std::unique_ptr<Analysis> read_frequency_response(const YamlValue& entry, const Model& model) {
-  entry.check_keys({"type", "inputs", "outputs", "frequencies", "rotation", "modes"},
-                   "the analysis 'frequency_response'");
-  FrequencyResponseOptions options;
-  options.inputs = read_response_inputs(entry, model);
-  options.outputs = read_response_outputs(entry, model);
-  options.frequencies = read_frequencies(entry.at("frequencies"));
-  if (const auto rotation = entry.find("rotation")) options.rotation = read_rotation(*rotation);
-  if (const auto modes = entry.find("modes")) {
-    options.modes = modes->integer();
-    if (options.modes < 1)
-      modes->fail("expected at least one mode; without `modes` each frequency is answered directly");
-    if (std::all_of(options.frequencies.begin(), options.frequencies.end(), [](double f) { return f == 0; }))
-      modes->fail("a sum over modes is for frequencies above 0; the answer at 0 alone is found directly");
+FrequencyResponse compute_frequency_response(Session& session, const FrequencyResponseOptions& options) {
+  const System& system = session.system();
+  check_response_names(session.model(), options.inputs, options.outputs);
+  const StandingState about = standing_state(session, options.rotation);
+  FrequencyResponse result;
+  static_cast<LinearisedSetting&>(result) = linearised_setting(system, about.environment, about.state);
+  const LinearisedEquations equations = linearised_equations(system, about.environment, about.state, result.axes);
+  const LinearResponse response(system, about, equations);
+  for (const ResponseOutput& output : options.outputs) result.output_units.push_back(response.units(output));
+  if (options.modes > 0) {
+    SuperposedResponse(response, equations, options).run(result);
+    return result;
   }
-  return std::make_unique<FrequencyResponseAnalysis>(std::move(options));
-}
-
-void FrequencyResponseAnalysis::solve(Session& session, AnalysisSummary& summary) const {
-  const FrequencyResponse result = session.frequency_response(options_);
-  const std::size_t frequencies = options_.frequencies.size(), outputs = options_.outputs.size(),
-                    inputs = options_.inputs.size();
-  std::vector<double> numbers;
-  for (const Eigen::MatrixXcd& H : result.response)
-    for (Eigen::Index i = 0; i < H.rows(); ++i)
-      for (Eigen::Index j = 0; j < H.cols(); ++j) numbers.insert(numbers.end(), {H(i, j).real(), H(i, j).imag()});
-  std::vector<std::string> input_names, output_names;
-  for (const ResponseInput& input : options_.inputs) input_names.push_back(input.name);
-  for (std::size_t k = 0; k < outputs; ++k)
-    output_names.push_back(fmt::format("{} [{}]", options_.outputs[k].name, result.output_units[k]));
-  session.write({"frequency_response/frequency", {frequencies}, options_.frequencies, "Hz", ""});
-  session.write(
-      {"frequency_response/response",
-       {frequencies, outputs, inputs, 2},
-       numbers,
-       "-",
-       "complex amplitude of each output per unit of each input: real and imaginary part of Re(H exp(i w t))"});
-  session.write(ResultNames{"frequency_response/inputs", input_names});
-  session.write(ResultNames{"frequency_response/outputs", output_names});
-  summary.text =
-      fmt::format("frequency_response, {} from {:.6g} to {:.6g} Hz\n", counted(frequencies, "frequency", "frequencies"),
-                  options_.frequencies.front(), options_.frequencies.back());
-  summary.text += format_setting(result, "responses");
-  if (result.modal) {
-    const ModalAccuracy& modal = *result.modal;
-    session.write(
-        {"frequency_response/deviation", {}, {modal.deviation}, "-", "the largest from a direct answer, of it"});
-    summary.numbers["deviation"].push_back(modal.deviation);
-    summary.text += fmt::format(
-        "  by {} up to {:.6g} Hz, and the residual of the others from direct answers at {} frequencies; where it was "
-        "compared with others, it differs by at most {:.2g} of the answer (at {:.6g} Hz)\n",
-        counted(modal.modes, "mode"), modal.fastest, modal.direct, modal.deviation, modal.frequency);
-    constexpr double doubtful = 0.05;
-    if (modal.deviation > doubtful)
-      summary.text += "  DOUBTFUL: take more `modes`, up to one and a half times the highest frequency\n";
-  }
-  for (std::size_t i = 0; i < outputs; ++i)
-    for (std::size_t j = 0; j < inputs; ++j) {
-      const auto size = [&](std::size_t k) {
-        return std::abs(result.response[k](static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
-      };
-      std::size_t most = 0;
-      for (std::size_t k = 1; k < frequencies; ++k)
-        if (size(k) > size(most)) most = k;
-      summary.numbers["peak"].push_back(size(most));
-      summary.numbers["peak_frequency"].push_back(options_.frequencies[most]);
-      summary.text += fmt::format("  {} per unit of {}: at most {:.6g}, at {:.6g} Hz\n", output_names[i],
-                                  input_names[j], size(most), options_.frequencies[most]);
-    }
+  const DirectResponse direct(response, equations, options);
+  for (const double frequency : options.frequencies)
+    result.response.push_back(direct(Complex(0, 2 * std::numbers::pi * frequency)));
+  return result;
 }
 
 }  // namespace bielle::mechanism

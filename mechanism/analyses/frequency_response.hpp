@@ -1,21 +1,61 @@
-// `frequency_response`: harmonic answers of small motions between inputs and outputs.
+// Harmonic responses of small motions about the present state of a session.
 #pragma once
 
-#include "mechanism/analyses/analysis.hpp"
+#include <complex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mechanism/analyses/linearised_setting.hpp"
+#include "mechanism/math/types.hpp"
+#include "mechanism/session/session.hpp"
+#include "mechanism/solvers/linearised/steady_rotation.hpp"
 
 namespace bielle::mechanism {
 
-/// Its summary has the numbers "peak" (of each output to each input, outputs first) and "peak_frequency" [Hz], of a sum
-/// over modes "deviation".
-class FrequencyResponseAnalysis : public Analysis {
- public:
-  explicit FrequencyResponseAnalysis(FrequencyResponseOptions options)
-      : Analysis("frequency_response"), options_(std::move(options)) {}
-  const FrequencyResponseOptions& options() const { return options_; }
-
- private:
-  void solve(Session& session, AnalysisSummary& summary) const override;
-  FrequencyResponseOptions options_;
+/// A force or moment on a node along an inertial direction, or the number of an input of the model.
+struct ResponseInput {
+  std::string name;  ///< of the model's input; of others as they are recorded: "force x at node 'tip'"
+  int node = -1;     ///< -1: an input of the model
+  bool moment = false;
+  Vector3 direction = Vector3::Zero();  ///< unit vector
 };
+
+/// A measure of the model, or the displacement (or rotation) of a node along an inertial direction.
+struct ResponseOutput {
+  std::string name;
+  int node = -1;  ///< -1: a measure
+  bool rotation = false;
+  Vector3 direction = Vector3::Zero();
+};
+
+struct FrequencyResponseOptions {
+  std::vector<ResponseInput> inputs;
+  std::vector<ResponseOutput> outputs;
+  std::vector<double> frequencies;  ///< [Hz] >= 0
+  std::optional<SteadyRotation> rotation = {};
+  int modes = 0;  ///< so many of the slowest are superposed, with the residual of the others; 0: one factorisation each
+};
+
+/// How a sum over modes was made, and how good it is.
+struct ModalAccuracy {
+  int modes = 0;         ///< in the sum
+  double fastest = 0;    ///< of them [Hz]
+  int direct = 0;        ///< frequencies at which the answer was found directly
+  double deviation = 0;  ///< the largest from such an answer, relative to it, where it was not used
+  double frequency = 0;  ///< where that is [Hz]
+};
+
+struct FrequencyResponse : LinearisedSetting {
+  /// Of each frequency (outputs, inputs): the output's complex amplitude per unit of the input, both as Re(x exp(i w
+  /// t)).
+  std::vector<Eigen::MatrixXcd> response;
+  std::vector<std::string> output_units;
+  std::optional<ModalAccuracy> modal;  ///< of a sum over modes
+};
+
+/// The present state stays. @throws InputError for names that the model does not have; ComputationError at a frequency
+/// of an undamped mode
+FrequencyResponse compute_frequency_response(Session& session, const FrequencyResponseOptions& options);
 
 }  // namespace bielle::mechanism

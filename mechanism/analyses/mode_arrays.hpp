@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "mechanism/session/session.hpp"
+#include "mechanism/analyses/modes.hpp"
 
 namespace bielle::mechanism {
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "mechanism/analyses/frequency_response.hpp"
 #include "mechanism/model/model.hpp"
-#include "mechanism/session/frequency_response.hpp"
 #include "reduce/common/yaml_file.hpp"
 
 namespace bielle::mechanism {

@@ -1,63 +1,159 @@
 #include "mechanism/analyses/state_space.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 
-#include "mechanism/analyses/analysis_table.hpp"
-#include "mechanism/analyses/response_reader.hpp"
-#include "mechanism/analyses/rotation_reader.hpp"
-#include "mechanism/analyses/summary_text.hpp"
-#include "reduce/common/counted.hpp"
+#include "mechanism/analyses/linear_response.hpp"
+#include "mechanism/analyses/standing_state.hpp"
+#include "mechanism/solvers/linearised/finite_states.hpp"
+#include "mechanism/solvers/linearised/modes.hpp"
+#include "reduce/common/error.hpp"
+#include "reduce/dense/dense_solves.hpp"
 
 namespace bielle::mechanism {
 namespace {
 
-void write_matrix(Session& session, const char* name, const MatrixX& matrix, const char* description) {
-  std::vector<double> values;
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) values.push_back(matrix(i, j));
-  session.write({fmt::format("state_space/{}", name),
-                 {static_cast<std::size_t>(matrix.rows()), static_cast<std::size_t>(matrix.cols())},
-                 std::move(values),
-                 "-",
-                 description});
+using Complex = std::complex<double>;
+using MatrixXc = Eigen::MatrixXcd;
+
+class StateSpaceBuilder {
+ public:
+  StateSpaceBuilder(const System& system, const LinearResponse& response, const LinearisedEquations& equations,
+                    const StateSpaceOptions& options, const ShiftedOperator& T)
+      : system_(system), response_(response), e_(equations), options_(options), T_(T), finite_(equations, T) {}
+
+  StateSpace build() {
+    StateSpace result;
+    const auto states = finite_.size(), inputs = static_cast<Eigen::Index>(options_.inputs.size()),
+               outputs = static_cast<Eigen::Index>(options_.outputs.size());
+    rights_ = response_.right_sides(options_.inputs, options_.outputs);
+    result.E = finite_.Tf();
+    result.A = MatrixX::Identity(states, states) + T_.shift().real() * finite_.Tf();
+    result.B = MatrixX::Zero(states, inputs);
+    for (Eigen::Index j = 0; j < inputs; ++j) {
+      const Variation answer = response_.answer(T_, rights_[static_cast<std::size_t>(j)]);
+      VectorX x(e_.states());
+      x << answer.u.real(), answer.rate.head(e_.dofs).real();
+      result.B.col(j) = -finite_.coordinates(VectorX(x.cwiseQuotient(T_.scale())));
+    }
+    result.C = outputs_of_states(outputs);
+    // At the shift, C (shift E - A)^-1 = -C.
+    const MatrixX CB = result.C * result.B, sizes = result.C.cwiseAbs() * result.B.cwiseAbs();
+    const MatrixXc H = exact(T_);
+    result.D = H.real() + CB;
+    constexpr double rounding = 1e-12;
+    for (Eigen::Index i = 0; i < outputs; ++i)
+      for (Eigen::Index j = 0; j < inputs; ++j)
+        if (std::abs(result.D(i, j)) <= rounding * (sizes(i, j) + std::abs(H(i, j)))) result.D(i, j) = 0;
+    result.unknowns = T_.scale().head(e_.unknowns()).asDiagonal() * finite_.V().topRows(e_.unknowns());
+    for (const ResponseOutput& output : options_.outputs) result.output_units.push_back(response_.units(output));
+    check(result);
+    return result;
+  }
+
+ private:
+  /// C: displacements and velocities by the states as they are, multipliers and rates of first-order unknowns by T_f.
+  MatrixX outputs_of_states(Eigen::Index outputs) const {
+    const int n = e_.unknowns(), m = e_.constraints();
+    const auto states = finite_.size();
+    MatrixX multipliers(m, states);
+    for (Eigen::Index k = 0; k < states; ++k) multipliers.col(k) = T_.multipliers(VectorX(finite_.V().col(k)));
+    multipliers = finite_.times_inverse(multipliers);
+    const MatrixX x = T_.scale().asDiagonal() * finite_.V();
+    const MatrixX y = x.middleRows(e_.dofs, n - e_.dofs);
+    const MatrixX y_rates = finite_.times_inverse(y) + T_.shift().real() * y;
+    MatrixX C(outputs, states);
+    for (Eigen::Index k = 0; k < states; ++k) {
+      Variation variation{x.col(k).head(n).cast<Complex>(), Eigen::VectorXcd(n),
+                          Eigen::VectorXcd::Zero(system_.multipliers())};
+      variation.rate << x.col(k).tail(e_.dofs).cast<Complex>(), y_rates.col(k).cast<Complex>();
+      for (int c = 0; c < m; ++c) variation.multiplier[e_.multiplier[static_cast<std::size_t>(c)]] = multipliers(c, k);
+      for (Eigen::Index i = 0; i < outputs; ++i)
+        C(i, k) = response_.value(options_.outputs[static_cast<std::size_t>(i)], variation).real();
+    }
+    return C;
+  }
+
+  /// The response of the equations as they were.
+  MatrixXc exact(const ShiftedOperator& D) const {
+    MatrixXc H(options_.outputs.size(), options_.inputs.size());
+    for (std::size_t j = 0; j < options_.inputs.size(); ++j) {
+      const Variation variation = response_.answer(D, rights_[j]);
+      for (std::size_t i = 0; i < options_.outputs.size(); ++i)
+        H(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+            response_.value(options_.outputs[i], variation) + response_.direct(options_.outputs[i], options_.inputs[j]);
+    }
+    return H;
+  }
+
+  /// A second point tells an output that follows derivatives of an input.
+  void check(const StateSpace& found) const {
+    const double s = 2.3 * T_.shift().real();
+    const ShiftedOperator D(e_, s);
+    if (!D.regular()) return;
+    const MatrixXc H = exact(D);
+    MatrixX answers(found.E.rows(), found.B.cols());
+    if (answers.size() > 0) {
+      LUFactors factors;
+      factors.compute(MatrixX(s * found.E - found.A));
+      factors.solve(found.B, answers);
+    }
+    const MatrixX ours = found.C * answers + found.D, sizes = found.C.cwiseAbs() * answers.cwiseAbs();
+    constexpr double agrees = 1e-6;
+    for (Eigen::Index i = 0; i < H.rows(); ++i)
+      for (Eigen::Index j = 0; j < H.cols(); ++j)
+        if (!(std::abs(H(i, j) - ours(i, j)) <= agrees * (std::abs(H(i, j)) + sizes(i, j))))
+          throw ComputationError(fmt::format(
+              "a state space cannot have the output '{}' of the input '{}': it follows the input's derivatives, as "
+              "reactions and velocities do where an input prescribes a motion (`frequency_response` can)",
+              options_.outputs[static_cast<std::size_t>(i)].name, options_.inputs[static_cast<std::size_t>(j)].name));
+  }
+
+  const System& system_;
+  const LinearResponse& response_;
+  const LinearisedEquations& e_;
+  const StateSpaceOptions& options_;
+  const ShiftedOperator& T_;
+  FiniteStates finite_;
+  std::vector<VectorX> rights_;
+};
+
+/// |s| of the slowest mode that is not rigid.
+double slowest_motion(const LinearisedEquations& equations) {
+  ModeOptions few;
+  few.count = 1;
+  for (const Mode& mode : find_modes(equations, few).modes)
+    if (mode.kind != ModeKind::rigid) return std::abs(mode.s);
+  return slowest_rate(equations);
 }
 
 }  // namespace
 
-std::unique_ptr<Analysis> read_state_space_analysis(const YamlValue& entry, const Model& model) {
-  entry.check_keys({"type", "inputs", "outputs", "rotation"}, "the analysis 'state_space'");
-  StateSpaceOptions options;
-  options.inputs = read_response_inputs(entry, model);
-  options.outputs = read_response_outputs(entry, model);
-  if (const auto rotation = entry.find("rotation")) options.rotation = read_rotation(*rotation);
-  return std::make_unique<StateSpaceAnalysis>(std::move(options));
-}
-
-void StateSpaceAnalysis::solve(Session& session, AnalysisSummary& summary) const {
-  const StateSpace found = session.state_space(options_);
-  if (found.E.rows() == 0) {
-    summary.text = "state_space: nothing can move\n";
-    summary.numbers["states"].push_back(0);
-    return;
+StateSpace compute_state_space(Session& session, const StateSpaceOptions& options) {
+  const System& system = session.system();
+  check_response_names(session.model(), options.inputs, options.outputs);
+  const StandingState about = standing_state(session, options.rotation);
+  const LinearisedSetting setting = linearised_setting(system, about.environment, about.state);
+  const LinearisedEquations equations = linearised_equations(system, about.environment, about.state, setting.axes);
+  constexpr int most = 4000;  // dense matrices of that size
+  if (equations.states() > most)
+    throw ComputationError(fmt::format(
+        "a state space of {} states is too large (at most {}): reduce the bodies, or ask for a frequency response",
+        equations.states(), most));
+  // Between the slowest and the fastest: both keep digits.
+  const double slowest = slowest_motion(equations), fastest = std::max(slowest, fastest_rate(equations));
+  constexpr double factors[] = {1, 1.0137, 13.7};
+  for (const double factor : factors) {
+    const ShiftedOperator T(equations, factor * std::sqrt(slowest * fastest));
+    if (!T.regular()) continue;
+    const LinearResponse response(system, about, equations);
+    StateSpace result = StateSpaceBuilder(system, response, equations, options, T).build();
+    static_cast<LinearisedSetting&>(result) = setting;
+    return result;
   }
-  write_matrix(session, "E", found.E, "regular, of E x' = A x + B u");
-  write_matrix(session, "A", found.A, "of E x' = A x + B u");
-  write_matrix(session, "B", found.B, "columns as `inputs`, which are deviations from their values in the state");
-  write_matrix(session, "C", found.C, "rows as `outputs`, deviations likewise, of y = C x + D u");
-  write_matrix(session, "D", found.D, "of y = C x + D u");
-  write_matrix(session, "shapes", found.unknowns, "increments of `unknowns`, each in its units, of each state");
-  std::vector<std::string> inputs, outputs, unknowns;
-  for (const ResponseInput& input : options_.inputs) inputs.push_back(input.name);
-  for (std::size_t k = 0; k < options_.outputs.size(); ++k)
-    outputs.push_back(fmt::format("{} [{}]", options_.outputs[k].name, found.output_units[k]));
-  for (int i = 0; i < found.unknowns.rows(); ++i) unknowns.push_back(session.system().unknown_name(i));
-  session.write(ResultNames{"state_space/inputs", inputs});
-  session.write(ResultNames{"state_space/outputs", outputs});
-  session.write(ResultNames{"state_space/unknowns", unknowns});
-  summary.numbers["states"].push_back(static_cast<double>(found.E.rows()));
-  summary.text = fmt::format("state_space, {} from {} to {}\n", counted(found.E.rows(), "state"),
-                             counted(inputs.size(), "input"), counted(outputs.size(), "output"));
-  summary.text += format_setting(found, "its matrices");
+  throw ComputationError("the linearised equations are singular whatever the frequency (`eigen` says of what)");
 }
 
 }  // namespace bielle::mechanism

@@ -1,19 +1,32 @@
-// `state_space`: small motions between inputs and outputs as matrices.
+// Small motions about the present state of a session as a state space.
 #pragma once
 
-#include "mechanism/analyses/analysis.hpp"
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mechanism/analyses/frequency_response.hpp"
 
 namespace bielle::mechanism {
 
-/// Its summary has the number "states".
-class StateSpaceAnalysis : public Analysis {
- public:
-  explicit StateSpaceAnalysis(StateSpaceOptions options) : Analysis("state_space"), options_(std::move(options)) {}
-  const StateSpaceOptions& options() const { return options_; }
-
- private:
-  void solve(Session& session, AnalysisSummary& summary) const override;
-  StateSpaceOptions options_;
+struct StateSpaceOptions {
+  std::vector<ResponseInput> inputs;
+  std::vector<ResponseOutput> outputs;
+  std::optional<SteadyRotation> rotation = {};
 };
+
+/// E x' = A x + B u, y = C x + D u: u and y are deviations of inputs and outputs from their values in the state. E is
+/// regular. There are as many states as finite eigenvalues: constraints, massless directions and algebraic unknowns are
+/// eliminated.
+struct StateSpace : LinearisedSetting {
+  MatrixX E, A, B, C, D;
+  /// (unknowns, states): increments of dofs and first-order unknowns, in their units, of a unit of each state
+  MatrixX unknowns;
+  std::vector<std::string> output_units;
+};
+
+/// Constraints are eliminated; the present state stays. @throws InputError for names that the model does not have;
+/// ComputationError where an output follows the derivative of an input, or nothing can move
+StateSpace compute_state_space(Session& session, const StateSpaceOptions& options);
 
 }  // namespace bielle::mechanism

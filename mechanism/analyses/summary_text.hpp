@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "mechanism/analyses/linearised_setting.hpp"
 #include "mechanism/session/session.hpp"
 #include "mechanism/session/unique_reactions.hpp"
 #include "mechanism/solvers/start/start_report.hpp"

@@ -139,4 +139,7 @@ class Model {
   std::map<std::string, const Measure*> measures_;
 };
 
+/// The same model with another value of one of its parameters. @throws InputError
+using ModelMaker = std::function<Model(const std::string& parameter, double value)>;
+
 }  // namespace bielle::mechanism

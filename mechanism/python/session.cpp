@@ -2,7 +2,7 @@
 #include <pybind11/stl.h>
 
 #include "mechanism/analyses/analysis_table.hpp"
-#include "mechanism/analyses/dynamic.hpp"
+#include "mechanism/analyses/dynamic_analysis.hpp"
 #include "mechanism/io/run_analyses.hpp"
 #include "mechanism/python/arrays.hpp"
 #include "mechanism/python/bind.hpp"

@@ -1,4 +1,5 @@
-// A model at work, for programs: assemble it, bring it into equilibrium, move it, read it, save it, without a file.
+// A model at work, for programs: assemble it, move it, read it, save it, without a file. Other analyses are functions
+// of a session (mechanism/analyses/statics.hpp, modes.hpp, ..).
 //
 //     Session session(read_mechanism_text(text, "pendulum").model);
 //     session.assemble();
@@ -21,22 +22,17 @@
 #include <vector>
 
 #include "mechanism/session/assembly_options.hpp"
-#include "mechanism/session/campbell.hpp"
-#include "mechanism/session/frequency_response.hpp"
 #include "mechanism/session/gatherers.hpp"
 #include "mechanism/session/gauge.hpp"
-#include "mechanism/session/kinematics_options.hpp"
-#include "mechanism/session/modes_report.hpp"
 #include "mechanism/session/motion.hpp"
 #include "mechanism/session/notes.hpp"
 #include "mechanism/session/recording.hpp"
 #include "mechanism/session/result_sink.hpp"
 #include "mechanism/session/results_rows.hpp"
-#include "mechanism/session/state_space.hpp"
-#include "mechanism/session/statics_options.hpp"
 #include "mechanism/solvers/constraints/reaction_norm.hpp"
 #include "mechanism/solvers/constraints/redundancy.hpp"
 #include "mechanism/solvers/start/start_conditions.hpp"
+#include "mechanism/solvers/statics/load_ramp.hpp"
 
 namespace bielle::mechanism {
 
@@ -60,6 +56,8 @@ class Session {
   const Environment& environment() const { return environment_; }  ///< of the whole load
   const Environment& acting() const { return acting_; }            ///< of the load factor that the state stands under
   const Loaded& loaded() const { return loaded_; }                 ///< what of loads and motions has been made
+  /// What the model asks of a start, until something has started.
+  StartConditions start_conditions() const;
   /// Sets an input of the model (`inputs`), that formulas use. In a motion it holds from here on: forces jump, and the
   /// motion is restarted with its next step.
   /// @param smooth  the value is one of a smooth function of time, seen once a step: nothing jumps
@@ -70,13 +68,6 @@ class Session {
   /// Makes positions and velocities consistent. What starts first, this or statics or a motion, starts from the values
   /// and rates of coordinates that the model gives. @throws ComputationError naming what cannot be satisfied
   StartReport assemble(const AssemblyOptions& options = {});
-  /// Equilibrium under the whole load, or along a path. The state is at rest afterwards.
-  /// @throws ComputationError when there is none near; the state is then the last equilibrium
-  StaticsReport statics(const StaticsOptions& options = {});
-  /// A mechanism whose every motion is driven: positions, velocities, accelerations and the forces that belong to them,
-  /// time after time, without integration; elastic parts follow in equilibrium, if asked for. @throws InputError naming
-  /// what is free, ComputationError naming what cannot be satisfied
-  KinematicsReport kinematics(const KinematicsOptions& options);
   /// A motion from the state, made consistent. It must not outlive the session.
   Motion dynamics(const DynamicsOptions& options);
   /// Goes on with a motion as `save` left it: its numbers are those of a motion that was not interrupted. Steps may be
@@ -84,19 +75,6 @@ class Session {
   Motion dynamics(const DynamicsOptions& options, const std::vector<double>& saved);
   /// The same from what a sink keeps (ResultSink::checkpoint). @param sink  whose part stands among the numbers
   Motion dynamics(const DynamicsOptions& options, const std::vector<double>& checkpoint, ResultSink& sink);
-  /// Small motions about the present state, which stays: about the start made consistent, an equilibrium under the part
-  /// of the load that it stands under, the end of a motion. @throws ComputationError
-  ModesReport modes(const ModesOptions& options) const;
-  /// Modes over a speed, tracked, with critical speeds; the present state stays. If the analysis is stopped, it
-  /// returns the values so far.
-  /// @throws InputError where nothing turns, or the model cannot be made with another parameter; ComputationError
-  Campbell campbell(const CampbellOptions& options);
-  /// How small motions about the present state answer to harmonic inputs. @throws InputError for names that the model
-  /// does not have; ComputationError at a frequency of an undamped mode
-  FrequencyResponse frequency_response(const FrequencyResponseOptions& options) const;
-  /// Small motions about the present state as a state space, without constraints. @throws InputError for names that the
-  /// model does not have; ComputationError where an output follows the derivative of an input, or nothing can move
-  StateSpace state_space(const StateSpaceOptions& options) const;
 
   // -- reading
   const State& state() const { return *shown_; }  ///< of the motion, while one is under way
@@ -133,8 +111,12 @@ class Session {
   /// Ends the present computation after the current step.
   void stop() { stopping_ = true; }
   bool stopping() const { return stopping_; }  ///< until the next computation is started
+  void forget_stop() { stopping_ = false; }
+  /// Call after each point of an analysis.
+  void call_back();
   /// @param notes  must outlive its use; nullptr: silence
   void set_notes(Notes* notes) { notes_ = notes; }
+  Notes* notes() const { return notes_; }
 
   // -- saving
   /// Everything that the session needs to continue. What sinks have recorded is not part of it.
@@ -164,29 +146,15 @@ class Session {
 
  private:
   friend class Motion;
-  struct Stopped {};
+  friend class Computation;
   Session(std::unique_ptr<const Model> owned, const Model* model, int threads);
   void at_rest();  ///< ends the motion, if any
-  StandingState standing() const;
-  /// What the model asks of a start, until something has started.
-  StartConditions start_conditions() const;
   void record(const State& state, const Environment& environment, const StepRecord& step);
   /// The state with the reactions to report.
   const State& reported(const State& state, const Environment& environment) const;
-  void call_back();
   void note(const Event& event);
   void note(const std::string& sentence) const;
   const ResultsRows& readable() const;
-  /// @param done  share of the way; @param limit  a limit point of the load
-  using StaticsPoint = std::function<void(const State& state, double factor, int iterations, double done, bool limit)>;
-  void begin_kinematics(const KinematicsOptions& options, KinematicsReport& report);
-  /// @returns whether one of them ends the analysis
-  bool note_crossings(const std::vector<CrossingWatch::Noted>& crossed, KinematicsReport& report);
-  void note_dropped_rates(const StartConditions& conditions) const;  ///< where a state that moves comes to rest
-  /// By load steps or along a path, point after point. @param statics  the environment of statics under the whole load
-  void follow_loads(const StaticsOptions& options, const Environment& statics, StaticsReport& report,
-                    const StaticsPoint& point);
-  void statics_point(const State& state, double factor, int iterations, bool recorded);
   struct Saved;
   void exchange(Archive& archive, Saved& saved) const;
 

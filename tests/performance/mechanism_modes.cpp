@@ -11,6 +11,9 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/analyses/frequency_response.hpp"
+#include "mechanism/analyses/modes.hpp"
+#include "mechanism/analyses/statics.hpp"
 #include "mechanism/io/mechanism_file.hpp"
 #include "mechanism/session/session.hpp"
 #include "tests/performance/processor_time.hpp"
@@ -44,10 +47,10 @@ void compare_responses(const Session& session, int count, double highest) {
   constexpr int frequencies = 400;
   for (int k = 1; k <= frequencies; ++k) options.frequencies.push_back(highest * k / (1.5 * frequencies));
   const double start = processor_seconds();
-  const FrequencyResponse direct = session.frequency_response(options);
+  const FrequencyResponse direct = compute_frequency_response(session, options);
   const double middle = processor_seconds();
   options.modes = count;
-  const FrequencyResponse sum = session.frequency_response(options);
+  const FrequencyResponse sum = compute_frequency_response(session, options);
   const double end = processor_seconds();
   double largest = 0, worst = 0;
   for (const Eigen::MatrixXcd& H : direct.response) largest = std::max(largest, std::abs(H(0, 0)));
@@ -75,11 +78,11 @@ int main(int argc, char** argv) {
   };
   Session session(file.model);
   const double setup = lap();
-  session.statics();
+  compute_statics(session);
   const double statics = lap();
   ModesOptions options;
   options.search.count = count;
-  const ModesReport report = session.modes(options);
+  const ModesReport report = compute_modes(session, options);
   const double modes = lap();
   constexpr double first_zero = 2.404825557695773;
   const double expected = first_zero * std::sqrt(9.81 / links) / (4 * std::numbers::pi);

@@ -83,9 +83,9 @@ BeamElement::BeamElement(std::string name, BeamPlace place, int node_a, int node
       stiffness_(element_stiffness(sections, reference, bending)),
       section_(sections.middle()),
       flexibility_(symmetric_inverse(section_.stiffness)),
+      softness_(softness_across(flexibility_, along_)),
       mass_(L_ * sections.mean_mass()),
       damping_(damping),
-      softness_(softness_across(flexibility_, along_)),
       inertia_(sections, R_A, R_B, reference) {
   if (bending == BeamBending::constant) return;
   to_middle_ = flexibility_ * equilibrium(d0_, exp_se3(-0.5 * d0_)) * stiffness_;

@@ -8,7 +8,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
-#include "mechanism/analyses/static.hpp"
+#include "mechanism/analyses/static_analysis.hpp"
 #include "mechanism/io/mechanism_file.hpp"
 #include "mechanism/solvers/statics/statics.hpp"
 #include "tests/support/static_model.hpp"

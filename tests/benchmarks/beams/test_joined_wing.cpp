@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "mechanism/analyses/statics.hpp"
 #include "mechanism/io/mechanism_file.hpp"
 #include "mechanism/session/session.hpp"
 
@@ -40,7 +41,7 @@ Found run(double lift, const StaticsOptions& options) {
   const MechanismFile file = read_mechanism_text(wing(lift), "wing.yaml");
   Session session(file.model);
   Found found;
-  found.report = session.statics(options);
+  found.report = compute_statics(session, options);
   found.tip = session.node("p5").x;
   return found;
 }

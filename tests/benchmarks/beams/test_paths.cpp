@@ -9,7 +9,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
-#include "mechanism/analyses/static.hpp"
+#include "mechanism/analyses/static_analysis.hpp"
 #include "mechanism/solvers/statics/arc_length.hpp"
 #include "tests/support/run_model.hpp"
 

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "mechanism/analyses/statics.hpp"
 #include "mechanism/io/mechanism_file.hpp"
 #include "mechanism/session/session.hpp"
 #include "tests/benchmarks/beams/critical_load.hpp"
@@ -30,7 +31,7 @@ Found run(const std::string& text, int steps, double branch = 0) {
   options.steps = steps;
   options.branch = branch;
   Found found;
-  found.report = session.statics(options);
+  found.report = compute_statics(session, options);
   found.tip = session.node("tip").x;
   return found;
 }
@@ -148,7 +149,7 @@ TEST_CASE("a path of a shallow arch meets its bifurcation before its limit point
   path.end.displacement = -3;
   options.steps = 0;
   options.path = path;
-  const StaticsReport report = session.statics(options);
+  const StaticsReport report = compute_statics(session, options);
   REQUIRE(report.limit_points.size() == 1);
   REQUIRE(report.log.critical.size() == 1);
   CHECK(report.log.critical[0].before == 0);

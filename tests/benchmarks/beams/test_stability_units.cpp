@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "mechanism/analyses/statics.hpp"
 #include "mechanism/io/mechanism_file.hpp"
 #include "mechanism/session/session.hpp"
 
@@ -17,7 +18,7 @@ StaticsReport run(const std::string& text, int steps = 1) {
   Session session(file.model);
   StaticsOptions options;
   options.steps = steps;
-  return session.statics(options);
+  return compute_statics(session, options);
 }
 
 /// Rods of mass 2 below each other, or above each other where l is negative.

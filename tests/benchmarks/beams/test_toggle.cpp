@@ -9,7 +9,8 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
-#include "mechanism/analyses/static.hpp"
+#include "mechanism/analyses/static_analysis.hpp"
+#include "mechanism/analyses/statics.hpp"
 #include "mechanism/io/mechanism_file.hpp"
 #include "mechanism/session/session.hpp"
 #include "tests/support/runge_kutta.hpp"
@@ -89,7 +90,7 @@ double load_at(double v, int elements) {
       "model.yaml");
   Session session(file.model);
   const auto& options = dynamic_cast<const StaticAnalysis&>(*file.analyses.front()).options();
-  return session.statics(options).load_factor;
+  return compute_statics(session, options).load_factor;
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "mechanism/analyses/statics.hpp"
 #include "mechanism/io/mechanism_file.hpp"
 #include "mechanism/session/session.hpp"
 
@@ -32,7 +33,7 @@ StaticsReport twisted(int elements, double moment, double tension, double GJ) {
   Session session(file.model);
   StaticsOptions options;
   options.steps = 10;
-  return session.statics(options);
+  return compute_statics(session, options);
 }
 
 /// The smallest factor by which moment and tension make it unstable.
@@ -103,7 +104,7 @@ TEST_CASE("the branch of a shaft that is turned at its end: two motions at once,
     options.steps = 4;
     options.branch = 1e-3;
     Turned result;
-    result.report = session.statics(options);
+    result.report = compute_statics(session, options);
     result.deflection = session.node(fmt::format("shaft.{}", elements / 2)).x.tail<2>().norm();
     return result;
   };

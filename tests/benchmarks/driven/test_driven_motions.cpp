@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "mechanism/analyses/kinematics.hpp"
 #include "mechanism/io/mechanism_file.hpp"
 #include "mechanism/session/session.hpp"
 #include "tests/support/messages.hpp"
@@ -53,7 +54,7 @@ TEST_CASE("inverse dynamics runs through dwells, with the torque that holds the 
         ++looked;
         CHECK(at.read("joints/pivot/drive_force")[0] == Approx(-g * 0.5 * std::cos(angle)).epsilon(1e-9));
       });
-      CHECK(session.kinematics({.duration = 0.6, .step = step}).points >= 61);
+      CHECK(compute_kinematics(session, {.duration = 0.6, .step = step}).points >= 61);
       if (law.moved_by < 0.6) CHECK(looked > 5);
     }
 }
@@ -74,7 +75,7 @@ TEST_CASE("a closed loop of spherical and universal joints waits, moves and wait
       "drives: {motor: {joint: a, angle: \"0.3*step(t, 0.05, 0.3)\"}}\n",
       "model.yaml");
   Session session(file.model);
-  const KinematicsReport report = session.kinematics({.duration = 0.6, .step = 2e-3});
+  const KinematicsReport report = compute_kinematics(session, {.duration = 0.6, .step = 2e-3});
   CHECK(report.points == 301);
   CHECK(std::abs(report.balance) < 1e-6);  // no gravity: what goes in comes out where it rests again
 }
@@ -91,13 +92,14 @@ TEST_CASE("kinematics names the motions that are not driven, by their joints") {
       "drives: {motor: {joint: upper, angle: \"t\"}}\n",
       "model.yaml");
   Session session(two.model);
-  const std::string said = message_of<std::runtime_error>([&] { session.kinematics({.duration = 1, .step = 0.1}); });
+  const std::string said =
+      message_of<std::runtime_error>([&] { compute_kinematics(session, {.duration = 1, .step = 0.1}); });
   CHECK_THAT(said, Contains("2 degrees of freedom are not driven") && Contains("angle of joint 'lower'") &&
                        Contains("displacement of joint 'rail'") && !Contains("'upper'"));
   const MechanismFile floating = read_mechanism_text(
       "nodes: {a: {}}\nelements: {a: {type: rigid_body, node: a, mass: 1, inertia: [1, 1, 1]}}\n", "model.yaml");
   Session free(floating.model);
-  CHECK_THAT(message_of<std::runtime_error>([&] { free.kinematics({.duration = 1, .step = 0.1}); }),
+  CHECK_THAT(message_of<std::runtime_error>([&] { compute_kinematics(free, {.duration = 1, .step = 0.1}); }),
              Contains("6 degrees of freedom are not driven") && Contains("displacement x of node 'a'") &&
                  Contains("rotation z of node 'a'"));
 }
@@ -115,7 +117,7 @@ TEST_CASE("links that stand in line at the start are said to do so") {
       "drives: {d: {joint: o1, angle: \"5*t\"}}\n",
       "model.yaml");
   Session session(file.model);
-  CHECK_THAT(message_of<std::runtime_error>([&] { session.kinematics({.duration = 1, .step = 0.1}); }),
+  CHECK_THAT(message_of<std::runtime_error>([&] { compute_kinematics(session, {.duration = 1, .step = 0.1}); }),
              Contains("singular position (links in line, a dead centre)") && Contains("joint 'p2'"));
 }
 
@@ -129,7 +131,7 @@ TEST_CASE("kinematics lists events where they happen") {
     Session session(file.model);
     std::vector<std::pair<std::string, double>> events;
     session.on_event([&](const Event& event) { events.emplace_back(event.name, event.time); });
-    const KinematicsReport report = session.kinematics({.duration = 2, .step = step});
+    const KinematicsReport report = compute_kinematics(session, {.duration = 2, .step = step});
     const auto time_of = [](double angle) { return -3 + std::sqrt(9 + 2 * angle); };
     const double back = std::acos(-0.4);
     REQUIRE(events.size() == 3);
@@ -172,7 +174,7 @@ TEST_CASE("a flat follower lifts off where its force vanishes, in inverse dynami
   Session session(file.model);
   std::vector<Event> events;
   session.on_event([&](const Event& event) { events.push_back(event); });
-  session.kinematics({.duration = 0.2, .step = 1e-3});
+  compute_kinematics(session, {.duration = 0.2, .step = 1e-3});
   REQUIRE(events.size() == 2);  // 1.6 turns
   for (std::size_t k = 0; k < 2; ++k) {
     CHECK(events[k].name == "joint 'cam': lifts off");

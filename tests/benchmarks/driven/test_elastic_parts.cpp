@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "mechanism/analyses/kinematics.hpp"
 #include "mechanism/io/mechanism_file.hpp"
 #include "mechanism/session/session.hpp"
 #include "tests/benchmarks/driven/delta_robot.hpp"
@@ -41,7 +42,7 @@ TEST_CASE("the strip lags behind its drive by the deflection under its own inert
   const MechanismFile file = read_mechanism_text(strip(fmt::format("{}*(1 - cos({}*t))", A, w)), "model.yaml");
   Session session(file.model);
   const KinematicsReport report =
-      session.kinematics({.duration = 2 * M_PI / w, .step = 2 * M_PI / w / 40, .elastic = true});
+      compute_kinematics(session, {.duration = 2 * M_PI / w, .step = 2 * M_PI / w / 40, .elastic = true});
   CHECK(report.elastic);
   const double EI = young * width * std::pow(thickness, 3) / 12;
   const double deflection = -11.0 / 120 * per_length * a * std::pow(length, 5) / EI;
@@ -61,7 +62,7 @@ TEST_CASE("inverse dynamics of a turning strip stretches it by the centrifugal f
     CAPTURE(w);
     const MechanismFile file = read_mechanism_text(strip(fmt::format("{}*t", w)), "model.yaml");
     Session session(file.model);
-    session.kinematics({.duration = 2 / w, .step = 0.2 / w, .elastic = true});
+    compute_kinematics(session, {.duration = 2 / w, .step = 0.2 / w, .elastic = true});
     const double k = w * std::sqrt(density / young);
     // Deformations settle to 1e-9; elements err by (k L/16)^2/12.
     CHECK(session.node("tip").x.norm() - length ==
@@ -93,7 +94,7 @@ TEST_CASE("a mass on a radial spring turns at the radius to which the centrifuga
       CHECK(at.node("m").a.norm() == Approx(w * w * (r + e)).epsilon(1e-7).margin(1e-12));
       CHECK(std::abs(at.read("supports/r/reaction")[5]) < 1e-6 * m * w * w * r * r + 1e-12);
     });
-    const KinematicsReport report = session.kinematics({.duration = 0.4, .step = 0.01, .elastic = true});
+    const KinematicsReport report = compute_kinematics(session, {.duration = 0.4, .step = 0.01, .elastic = true});
     CHECK(report.left_out < 1e-4);  // it stays as it is in the turning axes
     CHECK(std::abs(report.balance) < 1e-9 * (1 + m * w * w * r * r));
   }
@@ -117,7 +118,7 @@ TEST_CASE("a mass on a radial spring of a shaft that starts up is pressed by wha
     CHECK(at.node("m").x.norm() == Approx(radius).epsilon(1e-7));
     CHECK(at.read("supports/r/reaction")[5] == Approx(m * radius * radius * a).epsilon(1e-6));
   });
-  session.kinematics({.duration = 2, .step = 0.05, .elastic = true});
+  compute_kinematics(session, {.duration = 2, .step = 0.05, .elastic = true});
 }
 
 TEST_CASE("the drives of a delta robot with elastic arms do the work that its energies take") {
@@ -132,7 +133,7 @@ TEST_CASE("the drives of a delta robot with elastic arms do the work that its en
       missing = std::max(missing, std::abs(at.balance()));
       exchanged = std::max(exchanged, at.energy().kinetic);
     });
-    const KinematicsReport report = session.kinematics({.duration = 0.35, .step = 2.5e-3, .elastic = true});
+    const KinematicsReport report = compute_kinematics(session, {.duration = 0.35, .step = 2.5e-3, .elastic = true});
     CHECK(report.indifferent.size() == 6);  // the rods' spins
     CHECK(report.left_out < 0.01 / stiffer);
     return torques;
@@ -154,10 +155,11 @@ TEST_CASE("inverse dynamics refuses what nothing drives, holds or balances") {
   hanging = "gravity: [0, -9.81, 0]\n" + hanging.substr(0, hanging.find("drives"));
   const MechanismFile loose = read_mechanism_text(hanging, "model.yaml");
   Session session(loose.model);
-  CHECK_THAT(message_of<std::runtime_error>([&] { session.kinematics({.duration = 1, .step = 0.1, .elastic = true}); }),
+  CHECK_THAT(message_of<std::runtime_error>(
+                 [&] { compute_kinematics(session, {.duration = 1, .step = 0.1, .elastic = true}); }),
              Contains("1 degree of freedom is not driven (angle of joint 'shaft')"));
   const MechanismFile bending = read_mechanism_text(strip("0.1*t"), "model.yaml");
   Session kinematic(bending.model);
-  CHECK_THAT(message_of<std::runtime_error>([&] { kinematic.kinematics({.duration = 1, .step = 0.1}); }),
+  CHECK_THAT(message_of<std::runtime_error>([&] { compute_kinematics(kinematic, {.duration = 1, .step = 0.1}); }),
              Contains("`inverse_dynamics` elastic ones as well"));
 }

@@ -8,6 +8,8 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "mechanism/analyses/kinematics.hpp"
+#include "mechanism/analyses/statics.hpp"
 #include "mechanism/io/mechanism_file.hpp"
 #include "mechanism/session/session.hpp"
 #include "tests/benchmarks/driven/delta_robot.hpp"
@@ -103,7 +105,7 @@ TEST_CASE("the torques of a robot arm whose tip follows a straight line are thos
       exchanged = std::max(exchanged, at.energy().kinetic);
       ++looked;
     });
-    session.kinematics({.duration = 1.3, .step = 0.01, .elastic = elastic});
+    compute_kinematics(session, {.duration = 1.3, .step = 0.01, .elastic = elastic});
     CHECK(looked == 130);
     // The trapezoidal rule errs by (h w)^2/12 of each oscillation of the power, whose second harmonics turn with 2 w.
     CHECK(exchanged > 0.5);
@@ -123,7 +125,7 @@ TEST_CASE("the sought torques are those of drives that make the same motion, wit
       torques.push_back(force_of(at, "shoulder"));
       torques.push_back(force_of(at, "elbow"));
     });
-    session.kinematics({.duration = 0.8, .step = 0.01});
+    compute_kinematics(session, {.duration = 0.8, .step = 0.01});
     return torques;
   };
   for (const std::string& of_elbow : {std::string(), friction}) {
@@ -173,7 +175,7 @@ TEST_CASE("the force that moves a mass through a spring is found, and so is wher
     forces.push_back(force_of(at, "rail_a"));
     missing = std::max(missing, std::abs(at.balance()));
   });
-  session.kinematics({.duration = 1, .step = 0.01, .elastic = true});
+  compute_kinematics(session, {.duration = 1, .step = 0.01, .elastic = true});
   // Left out is the power of the spring's force along what inertia makes of its length; the rest is the trapezoidal
   // rule's (h w)^2/12.
   const double by_inertia = 2 * mb * A * w * w / k, kinetic = 0.5 * (ma + mb) * A * A * w * w;
@@ -188,7 +190,7 @@ TEST_CASE("the force that moves a mass through a spring is found, and so is wher
   again.on_step([&](Session& at) {
     CHECK(force_of(at, "rail_a") == Approx(forces[row++]).margin(1.5 * w * w / (k / mb) * (ma + mb) * A * w * w));
   });
-  again.kinematics({.duration = 1, .step = 0.01, .elastic = true});
+  compute_kinematics(again, {.duration = 1, .step = 0.01, .elastic = true});
 }
 
 TEST_CASE("torques about a spherical joint turn a body as its rotation vector is prescribed") {
@@ -210,7 +212,7 @@ TEST_CASE("torques about a spherical joint turn a body as its rotation vector is
     const std::vector<double> support = at.read("supports/b/reaction");
     CHECK(std::abs(support[3]) + std::abs(support[4]) + std::abs(support[5]) < 1e-9);
   });
-  const KinematicsReport report = session.kinematics({.duration = 1, .step = 0.002});
+  const KinematicsReport report = compute_kinematics(session, {.duration = 1, .step = 0.002});
   CHECK(report.points == 501);
   CHECK(std::abs(report.balance) < 1e-5);
 }
@@ -239,11 +241,11 @@ TEST_CASE("the force on a slider that turns its crank is found, but not through 
     const double slope = -s - s * r * std::cos(a) / std::sqrt(l * l - s * s);
     CHECK(force_of(at, "sl") == Approx(J / slope).epsilon(1e-6));
   });
-  CHECK(session.kinematics({.duration = 1.5, .step = 0.05}).points == 31);
+  CHECK(compute_kinematics(session, {.duration = 1.5, .step = 0.05}).points == 31);
   // In line, the slider's force has no arm.
   const MechanismFile in_line = read_mechanism_text(slide_crank("t", 0), "crank.yaml");
   Session refused(in_line.model);
-  CHECK_THAT(message_of<std::runtime_error>([&] { refused.kinematics({.duration = 1, .step = 0.1}); }),
+  CHECK_THAT(message_of<std::runtime_error>([&] { compute_kinematics(refused, {.duration = 1, .step = 0.1}); }),
              Contains("t = 0 s: the force on displacement of joint 'sl' moves nothing that has a `motion`"));
 }
 
@@ -271,7 +273,7 @@ TEST_CASE("a delta robot's motors lift its platform as they would if they were d
       CHECK(at.read("joints/motor_2/drive_force")[0] == Approx(torques.back()).epsilon(1e-6).margin(1e-6));
       missing = std::max(missing, std::abs(at.balance()));
     });
-    session.kinematics({.duration = 0.35, .step = 5e-3, .elastic = true});
+    compute_kinematics(session, {.duration = 0.35, .step = 5e-3, .elastic = true});
     return torques;
   };
   double missing = 0, unused = 0;
@@ -292,7 +294,7 @@ TEST_CASE("efforts that cannot be sought are refused, with the reason") {
     return message_of<std::runtime_error>([&] {
       const MechanismFile file = read_mechanism_text(text, "arm.yaml");
       Session session(file.model);
-      session.kinematics({.duration = 0.2, .step = 0.1});
+      compute_kinematics(session, {.duration = 0.2, .step = 0.1});
     });
   };
   const std::string moved = ", motion: {x: \"-0.1*t\", y: \"0.1*t\"}";
@@ -328,7 +330,7 @@ TEST_CASE("efforts that cannot be sought are refused, with the reason") {
              Contains("do not move x of node 'tip', y of node 'tip' independently of each other"));
   const MechanismFile file = read_mechanism_text(arm.model(moved, sought_arm), "arm.yaml");
   Session session(file.model);
-  CHECK_THAT(message_of<std::runtime_error>([&] { session.statics(); }),
+  CHECK_THAT(message_of<std::runtime_error>([&] { compute_statics(session); }),
              Contains("a static analysis cannot seek the torque on angle of joint 'shoulder'"));
   DynamicsOptions options;
   options.duration = 1;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/analyses/analysis.hpp"
+#include "mechanism/analyses/statics.hpp"
 #include "tests/benchmarks/joints/moved.hpp"
 
 using namespace bielle::mechanism;
@@ -42,7 +43,7 @@ TEST_CASE("drives that lift the same part bear equal shares, in statics and in m
     const std::string text = lift(std::vector<std::string>(static_cast<std::size_t>(count)), drives);
     const MechanismFile file = read_mechanism_text(text, "model.yaml");
     Session session(file.model);
-    session.statics();
+    compute_statics(session);
     for (int k = 1; k <= count; ++k) CHECK(force(session, k, "drive_force") == Approx(100.0 / count).epsilon(1e-9));
     // m (g + 0.2) in motion; what they put in lifts 10 kg by 0.1 m and makes its velocity of 0.2 m/s.
     move_to(text, 0.01, 1, [&](const Session& moved) {
@@ -169,7 +170,7 @@ TEST_CASE("the drives of a six-legged platform bear what its joints bear") {
   const MechanismFile file =
       read_mechanism_text("gravity: [0, 0, -9.81]\n" + nodes + bodies + joints + drives, "m.yaml");
   Session session(file.model);
-  session.statics();
+  compute_statics(session);
   const double weight = 0.001 * 9.81, T = (40 * 9.81 / 6 + weight * (1 - cosine * cosine)) / cosine;
   for (int k = 0; k < 6; ++k)
     CHECK(session.read(fmt::format("joints/l{}/drive_force", k))[0] == Approx(T + weight * cosine).epsilon(1e-8));
@@ -195,7 +196,7 @@ TEST_CASE("hydraulic cylinders that hold the same part share its weight, whateve
       CAPTURE(statics);
       Session session(file.model);
       if (statics) {
-        session.statics();
+        compute_statics(session);
       } else {
         DynamicsOptions options;
         options.duration = options.stepping.size = 1e-3;

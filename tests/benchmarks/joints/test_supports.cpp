@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "mechanism/analyses/statics.hpp"
 #include "tests/benchmarks/joints/moved.hpp"
 
 using bielle::mechanism::Session;
@@ -30,7 +31,7 @@ loads: {weight: {node: b, force: [0, 0, -10]}}
 )yaml";
   const bielle::mechanism::MechanismFile file = bielle::mechanism::read_mechanism_text(text, "model.yaml");
   Session session(file.model);
-  session.statics();
+  compute_statics(session);
   const std::vector<double> f = support(session, "a");
   CHECK(f[2] == Approx(10 + 6 * 9.81).epsilon(1e-8));
   CHECK(f[4] == Approx(-(20 + 6 * 9.81)).epsilon(1e-5));

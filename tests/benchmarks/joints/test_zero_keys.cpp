@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "mechanism/analyses/statics.hpp"
 #include "mechanism/io/mechanism_file.hpp"
 #include "mechanism/session/session.hpp"
 #include "reduce/common/error.hpp"
@@ -21,7 +22,7 @@ double measured(const std::string& text, bool in_motion = true) {
   const MechanismFile file = read_mechanism_text(text, "model.yaml");
   Session session(file.model);
   if (!in_motion) {
-    session.statics();
+    compute_statics(session);
     return session.read("measures/m")[0];
   }
   DynamicsOptions options;

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "mechanism/analyses/statics.hpp"
 #include "mechanism/io/mechanism_file.hpp"
 #include "mechanism/math/so3.hpp"
 #include "mechanism/session/session.hpp"
@@ -223,7 +224,7 @@ joints:
 )yaml",
                                                                                          gravity, keys)));
     Session session(file.model);
-    session.statics();
+    compute_statics(session);
     return session.read("joints/it/coordinate")[2];
   };
   const std::string curve = "curves: {z: z.csv}";
@@ -331,7 +332,7 @@ loads:
 )yaml",
                                   at[0], at[1], at[2], fmt::format(fmt::runtime(element), y[0], y[1], y[2]))));
     Session session(model.model);
-    session.statics();
+    compute_statics(session);
     Vector6 moved;
     moved << session.node("tip").x - at, log_so3(session.node("tip").R);
     return moved;

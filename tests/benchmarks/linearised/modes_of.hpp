@@ -9,6 +9,8 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "mechanism/analyses/modes.hpp"
+#include "mechanism/analyses/statics.hpp"
 #include "mechanism/io/mechanism_file.hpp"
 #include "mechanism/session/session.hpp"
 
@@ -25,10 +27,10 @@ struct ModesOf {
     if (!equilibrium) return;
     mechanism::StaticsOptions statics;
     statics.newton.tolerance = 1e-12;
-    session.statics(statics);
+    compute_statics(session, statics);
   }
   mechanism::ModesReport operator()(const mechanism::ModeOptions& search = {}) const {
-    return session.modes({search, {}});
+    return compute_modes(session, {search, {}});
   }
 };
 

@@ -1,4 +1,5 @@
 // Rigid and indifferent motions: they are told from slow modes by what their stiffness is known to.
+#include "mechanism/analyses/modes.hpp"
 #include "mechanism/solvers/linearised/steady_rotation.hpp"
 #include "reduce/superelement/superelement.hpp"
 #include "tests/benchmarks/linearised/modes_of.hpp"
@@ -200,7 +201,7 @@ TEST_CASE("a free body that spins drifts and nutates; it grows about its middle 
     Session session(file.model);
     ModesOptions options;
     options.rotation = SteadyRotation{{0, 0, 7}, {0, 0, 0}};
-    const ModesReport report = session.modes(options);
+    const ModesReport report = compute_modes(session, options);
     double fastest = 0;
     for (const Mode& mode : report.found.modes)
       if (mode.kind == ModeKind::growing) fastest = std::max(fastest, mode.s.real());

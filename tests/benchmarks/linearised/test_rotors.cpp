@@ -1,4 +1,5 @@
 // Modes of mechanisms in motion: whirl, rotating beams, tops.
+#include "mechanism/analyses/modes.hpp"
 #include "mechanism/solvers/linearised/steady_rotation.hpp"
 #include "tests/benchmarks/linearised/modes_of.hpp"
 
@@ -101,7 +102,7 @@ TEST_CASE("a rotating cantilever has Wright's frequencies, in and out of the pla
                            Case{12, 0, 13.1701504875, 37.6031123312}, Case{12, 1, 19.7215419354, 0}}) {
     const ModesOf model(text(each.eta, each.hub));
     const SteadyRotation rotation{Vector3(0, 0, each.eta), Vector3::Zero()};
-    const ModesReport report = model.session.modes({{.count = 4}, rotation});
+    const ModesReport report = compute_modes(model.session, {{.count = 4}, rotation});
     CAPTURE(each.eta);
     CHECK(report.axes == ModeAxes::turning);
     CHECK(report.steadiness->steady());
@@ -130,7 +131,7 @@ TEST_CASE("a rigid blade on a flapping hinge in rotation swings with the speed",
                     "elements: {{rod: {{type: rigid_body, node: rod, mass: 3, inertia: [0, 0.25, 0.25]}}}}\n"
                     "joints: {{flap: {{type: hinge, nodes: [hub, rod], position: [{1}, 0, 0], axis: [0, 1, 0]}}}}\n",
                     rate, e));
-    const ModesReport report = model.session.modes({{}, SteadyRotation{Vector3(0, 0, rate), Vector3::Zero()}});
+    const ModesReport report = compute_modes(model.session, {{}, SteadyRotation{Vector3(0, 0, rate), Vector3::Zero()}});
     CHECK(report.steadiness->steady());
     check_rates(rates_of(report), {rate * std::sqrt(1 + 1.5 * e)}, 1e-9);
   }
@@ -166,7 +167,7 @@ TEST_CASE("what does not turn as a whole is refused, and a motion that is not st
       "nodes: {root: {position: [0, 0, 0], fixed: true}, b: {position: [1, 0, 0]}}\n"
       "elements: {b: {type: rigid_body, node: b, mass: 1, inertia: [0.1, 0.1, 0.1]}}\n"
       "joints: {j: {type: rigid, nodes: [root, b]}}\n";
-  CHECK_THROWS_WITH(ModesOf(blade).session.modes({{}, SteadyRotation{Vector3(0, 0, 3), Vector3::Zero()}}),
+  CHECK_THROWS_WITH(ModesOf(blade).compute_modes(session, {{}, SteadyRotation{Vector3(0, 0, 3), Vector3::Zero()}}),
                     Catch::Contains("cannot turn as a whole") && Catch::Contains("joint 'j'"));
   const ModesReport falling = ModesOf(
       "gravity: [0, 0, -9.81]\nnodes: {b: {position: [1, 0, 0], angular_velocity: [0, 3, 0]}}\n"
@@ -197,7 +198,7 @@ TEST_CASE("a swept blade finds its steady rotation at every speed, whatever its 
     ModesOptions options;
     options.search.count = 2;
     options.rotation = SteadyRotation{{0, 0, speed}, {0, 0, 0}};
-    const ModesReport report = model.session.modes(options);
+    const ModesReport report = compute_modes(model.session, options);
     CHECK(count_rigid(report) == 0);
     for (const Mode& mode : report.found.modes) CHECK(mode.kind == ModeKind::oscillating);
     return Found{report.about.state.nodes[2].x, report.found.modes.front().frequency()};

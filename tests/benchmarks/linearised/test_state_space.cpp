@@ -2,6 +2,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include "mechanism/analyses/frequency_response.hpp"
+#include "mechanism/analyses/state_space.hpp"
 #include "mechanism/session/memory_sink.hpp"
 #include "tests/benchmarks/linearised/modes_of.hpp"
 
@@ -19,9 +21,9 @@ Eigen::MatrixXcd response(const StateSpace& found, double frequency) {
 
 /// The largest difference from frequency_response, relative to the largest response at that frequency.
 double difference(const Session& session, const StateSpaceOptions& options, const std::vector<double>& frequencies) {
-  const StateSpace found = session.state_space(options);
+  const StateSpace found = compute_state_space(session, options);
   FrequencyResponseOptions same{options.inputs, options.outputs, frequencies, options.rotation};
-  const FrequencyResponse exact = session.frequency_response(same);
+  const FrequencyResponse exact = compute_frequency_response(session, same);
   double most = 0;
   for (std::size_t k = 0; k < frequencies.size(); ++k) {
     const Eigen::MatrixXcd H = response(found, frequencies[k]);
@@ -85,7 +87,7 @@ TEST_CASE("a state space has the frequency response of the equations with constr
 
 TEST_CASE("its eigenvalues are those of `eigen`: two swings, a damper in series and a filter", "[linearised]") {
   const ModesOf model(with_wall());
-  const std::vector<Complex> found = eigenvalues(model.session.state_space(options_of(model)));
+  const std::vector<Complex> found = eigenvalues(compute_state_space(model.session, options_of(model)));
   const ModesReport modes = model();
   REQUIRE(found.size() == modes.found.modes.size());
   for (std::size_t k = 0; k < found.size(); ++k)
@@ -95,7 +97,7 @@ TEST_CASE("its eigenvalues are those of `eigen`: two swings, a damper in series 
 TEST_CASE("a step of a small input moves the program as it moves the state space: to the square of its size",
           "[linearised]") {
   const ModesOf model(with_wall());
-  const StateSpace found = model.session.state_space(options_of(model));
+  const StateSpace found = compute_state_space(model.session, options_of(model));
   const Eigen::FullPivLU<MatrixX> E(found.E);
   const Eigen::EigenSolver<MatrixX> solver(E.solve(found.A));
   constexpr double end = 1;
@@ -144,8 +146,8 @@ TEST_CASE("a state space of an oscillator is that of the textbook", "[linearised
       "elements:\n  m: {type: point_mass, node: m, mass: 2}\n"
       "  s: {type: spring_damper, nodes: [ground, m], stiffness: 200, damping: 3}\n");
   const int m = *model.file.model.find_node("m");
-  const StateSpace found =
-      model.session.state_space({{{"f", m, false, Vector3::UnitX()}}, {{"x", m, false, Vector3::UnitX()}}, {}});
+  const StateSpace found = compute_state_space(
+      model.session, {{{"f", m, false, Vector3::UnitX()}}, {{"x", m, false, Vector3::UnitX()}}, {}});
   REQUIRE(found.E.rows() == 2);
   CHECK(found.D(0, 0) == 0);
   const MatrixX inverse = found.E.inverse(), A = inverse * found.A, B = inverse * found.B;

@@ -11,6 +11,7 @@
 // b = w^2 e^2 and a = b Om^2/g,
 //     j S^2 + (a + b + 2 j (w^2 + Om^2)) S + j g^2 + 2 a (w^2 + Om^2) + b (w^2 + 2 Om^2) = 0.
 // A shaft that turns freely is thus unstable from the critical speed to where the last term vanishes.
+#include "mechanism/analyses/modes.hpp"
 #include "mechanism/solvers/linearised/steady_rotation.hpp"
 #include "tests/benchmarks/linearised/modes_of.hpp"
 
@@ -34,7 +35,7 @@ std::string disk(double e, const std::string& radial = "1e6") {
 ModesReport modes_at(double e, double speed) {
   ModesOptions options;
   options.rotation = SteadyRotation{Vector3(0, 0, speed), Vector3::Zero()};
-  return ModesOf(disk(e)).session.modes(options);
+  return ModesOf(disk(e)).compute_modes(session, options);
 }
 
 /// S of the motions in the plane.

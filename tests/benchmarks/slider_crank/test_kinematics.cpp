@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "mechanism/analyses/kinematics.hpp"
 #include "mechanism/io/mechanism_file.hpp"
 #include "mechanism/session/memory_sink.hpp"
 #include "mechanism/session/session.hpp"
@@ -71,7 +72,7 @@ TEST_CASE("kinematics of a slider-crank is that of its formula, at each time to 
       ++looked;
     };
     session.on_step([&](Session& at) { look(at); });
-    const KinematicsReport report = session.kinematics({.duration = 1, .step = 0.02});
+    const KinematicsReport report = compute_kinematics(session, {.duration = 1, .step = 0.02});
     CHECK(report.points == 51);
     CHECK(looked == 50);
   }
@@ -86,7 +87,7 @@ TEST_CASE("inverse dynamics gives the torque that a pendulum's motion takes") {
     CHECK(at.read("joints/foot/drive_force")[0] ==
           Approx((J + m * l * l) * a + m * g * l * std::cos(phi)).margin(1e-9));
   });
-  session.kinematics({.duration = 2, .step = 0.05});
+  compute_kinematics(session, {.duration = 2, .step = 0.05});
 }
 
 TEST_CASE("forward dynamics under the torque of inverse dynamics moves as that was told") {
@@ -111,7 +112,7 @@ TEST_CASE("inverse dynamics meets stops") {
   text.replace(text.find("axis: [0, -1, 0]"), 16, "axis: [0, -1, 0], stops: {range: [~, 0.5], stiffness: 1000}");
   const MechanismFile file = read_mechanism_text(text, "model.yaml");
   Session session(file.model);
-  session.kinematics({.duration = 1, .step = 0.05});
+  compute_kinematics(session, {.duration = 1, .step = 0.05});
   CHECK(session.read("joints/foot/drive_force")[0] == Approx(500 + m * g * l * std::cos(1.0)).epsilon(1e-9));
 }
 
@@ -134,7 +135,7 @@ TEST_CASE("kinematics does not change its branch at a dead centre without a word
       right = right && (x - exact).norm() < 1e-9;
     });
     const std::string said =
-        message_of<std::runtime_error>([&] { session.kinematics({.duration = 2 * pi, .step = step}); });
+        message_of<std::runtime_error>([&] { compute_kinematics(session, {.duration = 2 * pi, .step = step}); });
     CAPTURE(step, said);
     CHECK(right);
     if (step == 0.1) CHECK(said == "(nothing thrown)");
@@ -152,7 +153,8 @@ TEST_CASE("kinematics goes on where a drive changes its speed at once") {
     const double t = at.time(), angle = 3 * t + 40 * std::clamp(t - 0.113, 0.0, 1.0), s = std::sin(angle);
     right = right && std::abs(at.node("piston").x[0] - 0.1 * std::cos(angle) - std::sqrt(0.04 - 0.01 * s * s)) < 1e-12;
   });
-  CHECK(session.kinematics({.duration = 1.5, .step = 0.02}).points == 78);  // 76 of the grid and two kinks between
+  CHECK(compute_kinematics(session, {.duration = 1.5, .step = 0.02}).points ==
+        78);  // 76 of the grid and two kinks between
   CHECK(right);
 }
 
@@ -166,7 +168,7 @@ TEST_CASE("rows of kinematics stand at the times that the output asks for") {
   session.add_sink(memory);
   session.set_recording(file.output.recording);
   session.begin_analysis("kinematic");
-  session.kinematics({.duration = 1, .step = 0.02});
+  compute_kinematics(session, {.duration = 1, .step = 0.02});
   session.end_analysis();
   const std::vector<double> time = memory.read(0, "time"), angle = memory.read(0, "joints/main/coordinate");
   CHECK_THAT(time, Catch::Approx(std::vector<double>{0, 0.04, 0.1234, 1}));
@@ -177,17 +179,17 @@ TEST_CASE("rows of kinematics stand at the times that the output asks for") {
 TEST_CASE("kinematics asks for what is not driven") {
   const MechanismFile free = read_mechanism_text(slider_crank(bodies, ""), "model.yaml");
   Session loose(free.model);
-  CHECK_THAT(message_of<std::runtime_error>([&] { loose.kinematics({.duration = 1, .step = 0.1}); }),
+  CHECK_THAT(message_of<std::runtime_error>([&] { compute_kinematics(loose, {.duration = 1, .step = 0.1}); }),
              Contains("1 degree of freedom is not driven") && Contains("dynamic analysis"));
   const MechanismFile rate =
       read_mechanism_text(slider_crank(bodies, "drives: {motor: {joint: main, rate: \"5\"}}\n"), "model.yaml");
   Session turning(rate.model);
-  CHECK_THAT(message_of<std::runtime_error>([&] { turning.kinematics({.duration = 1, .step = 0.1}); }),
+  CHECK_THAT(message_of<std::runtime_error>([&] { compute_kinematics(turning, {.duration = 1, .step = 0.1}); }),
              Contains("condition on velocities"));
   const MechanismFile filter = read_mechanism_text(
       slider_crank(bodies, driven + "states: {slow: {rate: \"main.angle - slow\", start: 0}}\n"), "model.yaml");
   Session filtered(filter.model);
-  CHECK_THAT(message_of<std::runtime_error>([&] { filtered.kinematics({.duration = 1, .step = 0.1}); }),
+  CHECK_THAT(message_of<std::runtime_error>([&] { compute_kinematics(filtered, {.duration = 1, .step = 0.1}); }),
              Contains("motion of its own"));
   // A connecting rod that is too short: the crank gets stuck.
   const MechanismFile stuck = read_mechanism_text(
@@ -198,7 +200,8 @@ TEST_CASE("kinematics asks for what is not driven") {
       "drives: {motor: {joint: main, angle: \"t\"}}\n",
       "model.yaml");
   Session blocked(stuck.model);
-  const std::string said = message_of<std::runtime_error>([&] { blocked.kinematics({.duration = 3, .step = 0.1}); });
+  const std::string said =
+      message_of<std::runtime_error>([&] { compute_kinematics(blocked, {.duration = 3, .step = 0.1}); });
   CHECK_THAT(said, Contains("t = 0.7 s: ") && Contains("drive 'motor' stays 3.2"));
 }
 

@@ -1,8 +1,8 @@
 // An analysis of one's own runs like those of the table, into every sink.
 #include <catch2/catch.hpp>
 
-#include "mechanism/analyses/dynamic.hpp"
-#include "mechanism/analyses/static.hpp"
+#include "mechanism/analyses/dynamic_analysis.hpp"
+#include "mechanism/analyses/static_analysis.hpp"
 #include "mechanism/io/describe_model.hpp"
 #include "mechanism/io/run_analyses.hpp"
 #include "mechanism/session/memory_sink.hpp"

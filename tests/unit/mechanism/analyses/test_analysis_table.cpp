@@ -2,11 +2,11 @@
 #include <catch2/catch.hpp>
 
 #include "mechanism/analyses/analysis_table.hpp"
-#include "mechanism/analyses/dynamic.hpp"
-#include "mechanism/analyses/eigen.hpp"
-#include "mechanism/analyses/frequency_response.hpp"
-#include "mechanism/analyses/state_space.hpp"
-#include "mechanism/analyses/static.hpp"
+#include "mechanism/analyses/dynamic_analysis.hpp"
+#include "mechanism/analyses/eigen_analysis.hpp"
+#include "mechanism/analyses/frequency_response_analysis.hpp"
+#include "mechanism/analyses/state_space_analysis.hpp"
+#include "mechanism/analyses/static_analysis.hpp"
 #include "tests/support/messages.hpp"
 
 using namespace bielle;
@@ -91,9 +91,9 @@ TEST_CASE("the analysis `frequency_response` says what it does not understand") 
   const std::string force = "[{node: ground, direction: x}]", moves = "[{node: ground, direction: [0, 3, 4]}]",
                     some = "{from: 1, to: 10, count: 5}";
   const auto read_all = [&](const std::string& frequencies) {
-    return dynamic_cast<const FrequencyResponseAnalysis&>(
-               *read("{type: frequency_response, inputs: " + force + ", outputs: " + moves +
-                     ", frequencies: " + frequencies + "}"))
+    return dynamic_cast<const FrequencyResponseAnalysis&>(*read("{type: frequency_response, inputs: " + force +
+                                                                ", outputs: " + moves +
+                                                                ", frequencies: " + frequencies + "}"))
         .options();
   };
   CHECK(read_all(some).frequencies.size() == 5);
@@ -129,7 +129,8 @@ TEST_CASE("the analysis `state_space` reads inputs and outputs as `frequency_res
   CHECK(options.inputs[0].name == "force x of node 'ground'");
   CHECK(options.outputs[0].rotation);
   CHECK_THAT(refusal("{type: state_space, inputs: " + force + "}"), Contains("outputs"));
-  CHECK_THAT(refusal("{type: state_space, inputs: [psh], outputs: " + force + "}"), Contains("there is no input 'psh'"));
+  CHECK_THAT(refusal("{type: state_space, inputs: [psh], outputs: " + force + "}"),
+             Contains("there is no input 'psh'"));
   CHECK_THAT(refusal("{type: state_space, inputs: " + force + ", outputs: " + force + ", frequencies: [1]}"),
              Contains("'frequencies' is not a key of the analysis 'state_space'"));
 }

@@ -2,7 +2,7 @@
 #include "swinging_arms.hpp"
 #include <catch2/catch.hpp>
 
-#include "mechanism/analyses/dynamic.hpp"
+#include "mechanism/analyses/dynamic_analysis.hpp"
 #include "mechanism/io/run_analyses.hpp"
 #include "mechanism/session/memory_sink.hpp"
 #include "reduce/common/hdf5_file.hpp"

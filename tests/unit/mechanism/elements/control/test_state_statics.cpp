@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "mechanism/analyses/statics.hpp"
 #include "mechanism/session/notes.hpp"
 #include "tests/support/session_model.hpp"
 
@@ -46,7 +47,7 @@ TEST_CASE("in statics a controller's integral is what keeps the joint at its tar
   session.set_notes(&told);
   StaticsOptions options;
   options.steps = 3;
-  session.statics(options);
+  compute_statics(session, options);
   CHECK(session.read("joints/main/coordinate")[0] == Approx(0.4).epsilon(1e-9));
   CHECK(session.read("measures/seen")[0] == Approx(0.4).epsilon(1e-9));
   CHECK(session.read("measures/total")[0] == Approx(holding / 50).epsilon(1e-8));
@@ -85,7 +86,7 @@ states:
   Session session = session_of(text);
   Told told;
   session.set_notes(&told);
-  session.statics({});
+  compute_statics(session, {});
   const auto value = [&](const char* name) { return session.read(std::string("measures/") + name)[0]; };
   const double angle = session.read("joints/main/coordinate")[0];
   CHECK(40 * angle == Approx(-2 * 9.81 * 0.5 * std::cos(angle)).epsilon(1e-9));
@@ -117,7 +118,7 @@ drives: {motor: {joint: main, torque: "-10*seen"}}
   options.steps = 0;
   options.path.emplace();
   options.path->end.load_factor = 1;
-  session.statics(options);
+  compute_statics(session, options);
   CHECK(session.read("joints/main/coordinate")[0] == Approx(12.0 / 50).epsilon(1e-8));
   CHECK(session.read("measures/seen")[0] == Approx(12.0 / 50).epsilon(1e-8));
 }

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "mechanism/analyses/statics.hpp"
 #include "mechanism/io/describe_model.hpp"
 #include "mechanism/io/mechanism_file.hpp"
 #include "mechanism/session/session.hpp"
@@ -130,7 +131,7 @@ drives: {motor: {joint: main, angle: "t", release: 0.25}}
     }
     CHECK(angle(other) == angle(session));
     CHECK(rate(other) == rate(session));
-    session.statics({});
+    compute_statics(session, {});
     CHECK(angle(session) == Approx(0.1).epsilon(1e-9));  // where the spring is free
     Motion motion = session.dynamics(steps_of(0.1, 0.01));
     motion.finish();

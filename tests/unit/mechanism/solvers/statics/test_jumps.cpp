@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "mechanism/analyses/statics.hpp"
 #include "mechanism/io/mechanism_file.hpp"
 #include "mechanism/session/memory_sink.hpp"
 #include "mechanism/session/session.hpp"
@@ -39,7 +40,7 @@ StaticsReport run(const std::string& text, int steps) {
   Session session(file.model);
   StaticsOptions options;
   options.steps = steps;
-  return session.statics(options);
+  return compute_statics(session, options);
 }
 
 }  // namespace
@@ -124,7 +125,7 @@ TEST_CASE("rows of statics stand at the load factors that the output asks for") 
     session.add_sink(memory);
     session.set_recording(file.output.recording);
     session.begin_analysis("static");
-    session.statics(options);
+    compute_statics(session, options);
     session.end_analysis();
     return std::pair(memory.read(0, "time"), memory.read(0, "nodes/apex/position"));
   };

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "mechanism/analyses/statics.hpp"
 #include "mechanism/io/mechanism_file.hpp"
 #include "mechanism/session/session.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
@@ -19,7 +20,7 @@ Vector3 hanging(double drawn, double stiffness, const StaticsOptions& options = 
                   drawn, stiffness),
       "drop.yaml");
   Session session(file.model);
-  session.statics(options);
+  compute_statics(session, options);
   return session.node("m").x;
 }
 

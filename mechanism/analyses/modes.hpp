@@ -1,23 +1,15 @@
-// What a session answers when it is asked for modes.
+// Modes of small motions about the present state of a session.
 #pragma once
 
 #include <memory>
 #include <optional>
 
-#include "mechanism/session/linearised_setting.hpp"
+#include "mechanism/analyses/linearised_setting.hpp"
+#include "mechanism/analyses/standing_state.hpp"
 #include "mechanism/solvers/linearised/mode_parts.hpp"
 #include "mechanism/solvers/linearised/modes.hpp"
-#include "mechanism/solvers/linearised/steady_rotation.hpp"
-#include "mechanism/solvers/start/start_report.hpp"
 
 namespace bielle::mechanism {
-
-/// The state that the modes are about, as a motion would begin with it, and what acts there.
-struct StandingState {
-  State state;
-  Environment environment;
-  StartReport start;  ///< what had to be made consistent
-};
 
 struct ModesOptions {
   ModeOptions search;
@@ -34,5 +26,8 @@ struct ModesReport : LinearisedSetting {
   /// In steady rotation: motions along which centrifugal forces outweigh what holds them (count_outweighed).
   std::optional<int> outweighed;
 };
+
+/// The state of the session stays. @throws ComputationError
+ModesReport compute_modes(Session& session, const ModesOptions& options);
 
 }  // namespace bielle::mechanism

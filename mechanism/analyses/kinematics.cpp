@@ -1,6 +1,8 @@
 // Mechanisms whose every motion is driven: positions, velocities and accelerations follow from the constraints alone,
 // time after time, and with them the forces of drives and joints that bring them about (inverse dynamics). Nothing is
 // integrated: each time stands for itself, exact to rounding.
+#include "mechanism/analyses/kinematics.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -10,7 +12,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "mechanism/session/session.hpp"
+#include "mechanism/session/computation.hpp"
 #include "mechanism/session/time_grid.hpp"
 #include "mechanism/solvers/dynamics/crossing_watch.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
@@ -191,13 +193,13 @@ class CrossedMotion {
   std::vector<int> passed_;  ///< at the end of the last step
 };
 
-}  // namespace
-
-bool Session::note_crossings(const std::vector<CrossingWatch::Noted>& crossed, KinematicsReport& report) {
+/// @returns whether one of them ends the analysis
+bool note_crossings(const System& system, const std::vector<CrossingWatch::Noted>& crossed, Computation& computation,
+                    KinematicsReport& report) {
   bool stops = false;
   for (const CrossingWatch::Noted& each : crossed) {
-    const MemberCrossing& met = system_.crossings()[static_cast<std::size_t>(each.crossing)];
-    note(Event{each.time, each.crossing, met.name});
+    const MemberCrossing& met = system.crossings()[static_cast<std::size_t>(each.crossing)];
+    computation.note(Event{each.time, each.crossing, met.name});
     report.last_event = met.name;
     ++report.events;
     stops = stops || met.crossing.stops;
@@ -205,78 +207,85 @@ bool Session::note_crossings(const std::vector<CrossingWatch::Noted>& crossed, K
   return stops;
 }
 
-void Session::begin_kinematics(const KinematicsOptions& options, KinematicsReport& report) {
-  at_rest();
-  stopping_ = false;
-  acting_ = environment_;
-  loaded_ = {1, 1};
-  apply_motions(system_, 1, state_);
-  system_.begin_motion(state_, environment_, false);
-  if (const StartConditions conditions = start_conditions(); !conditions.empty())
-    assemble_positions(system_, environment_, state_, report.start, conditions);
-  report.indifferent = check_driven(system_, environment_, state_, mobility_, options.elastic);
-  report.elastic = options.elastic && mobility_.degrees > 0;
-  report.start.add(make_consistent(system_, environment_, state_));
-  started_ = true;
-  shown_ = &state_;
+void begin_kinematics(const Session& session, const KinematicsOptions& options, Computation& computation,
+                      KinematicsReport& report) {
+  const System& system = session.system();
+  const Environment& environment = session.environment();
+  State& state = computation.state();
+  computation.set_acting(environment);
+  computation.loaded() = {1, 1};
+  apply_motions(system, 1, state);
+  system.begin_motion(state, environment, false);
+  if (const StartConditions conditions = session.start_conditions(); !conditions.empty())
+    assemble_positions(system, environment, state, report.start, conditions);
+  report.indifferent = check_driven(system, environment, state, session.mobility(), options.elastic);
+  report.elastic = options.elastic && session.mobility().degrees > 0;
+  report.start.add(make_consistent(system, environment, state));
+  computation.set_started();
 }
 
-KinematicsReport Session::kinematics(const KinematicsOptions& options) {
+}  // namespace
+
+KinematicsReport compute_kinematics(Session& session, const KinematicsOptions& options) {
   if (!(options.duration > 0) || !(options.step > 0))
     throw InputError("kinematics needs a duration and a step greater than 0");
+  const System& system = session.system();
+  const Environment& environment = session.environment();
+  const Recording& recording = session.recording();
   KinematicsReport report;
-  const SoughtEfforts efforts(system_);
-  begin_kinematics(options, report);
+  const SoughtEfforts efforts(system);
+  Computation computation(session);
+  State& state = computation.state();
+  begin_kinematics(session, options, computation, report);
   EnergyBalance books;
-  const double begin = state_.time;
-  const std::vector<double> times = times_of(system_, options, recording_, begin);
-  const std::vector<double> kinks = system_.break_points();
+  const double begin = state.time;
+  const std::vector<double> times = times_of(system, options, recording, begin);
+  const std::vector<double> kinks = system.break_points();
   const double rounding = same_time * options.step;
-  RigidPositions rigid(system_, environment_, efforts);
+  RigidPositions rigid(system, environment, efforts);
   std::optional<QuasiStaticMotion> elastic;
   if (report.elastic)
-    elastic.emplace(system_, environment_, efforts, options.step).begin(state_);
+    elastic.emplace(system, environment, efforts, options.step).begin(state);
   else
-    rigid.begin(state_);
-  CrossedMotion motion(system_, environment_, [&](const State& from, double time) {
+    rigid.begin(state);
+  CrossedMotion motion(system, environment, [&](const State& from, double time) {
     return elastic ? elastic->position(from, time) : rigid(from, time);
   });
-  books.start(begin, system_.energy(state_, environment_));
+  books.start(begin, system.energy(state, environment));
   const auto point = [&](double step, bool recorded) {
-    report_.emplace();
-    report_->energy = books.totals();
-    report_->balance = books.balance();
-    report_->step = step;
-    if (recorded) record(state_, environment_, *report_);
-    gather(state_, environment_);
-    if (elastic) elastic->note_left_out(state_);
+    StepRecord row;
+    row.energy = books.totals();
+    row.balance = books.balance();
+    row.step = step;
+    computation.show(state, environment, row, recorded);
+    if (elastic) elastic->note_left_out(state);
     ++report.points;
-    if (notes_) notes_->progress((state_.time - begin) / options.duration, fmt::format("t = {:.6g} s", state_.time));
-    if (state_.time > begin) call_back();
+    computation.progress((state.time - begin) / options.duration, fmt::format("t = {:.6g} s", state.time));
+    if (state.time > begin) session.call_back();
   };
   point(0, true);
   double last = begin;
-  for (std::size_t k = 0; k < times.size() && !stopping_ && !report.stopped_by_event;) {
+  for (std::size_t k = 0; k < times.size() && !session.stopping() && !report.stopped_by_event;) {
     try {
       std::vector<CrossingWatch::Noted> jumped;
-      for (const int crossing : motion.begin(state_)) jumped.push_back({state_.time, crossing});
-      report.stopped_by_event = note_crossings(jumped, report);
+      for (const int crossing : motion.begin(state)) jumped.push_back({state.time, crossing});
+      report.stopped_by_event = note_crossings(system, jumped, computation, report);
       if (report.stopped_by_event) break;
       const bool jumps = contains(kinks, times[k], rounding);
-      report.stopped_by_event = note_crossings(motion.advance(state_, times[k], jumps), report);
+      report.stopped_by_event = note_crossings(system, motion.advance(state, times[k], jumps), computation, report);
     } catch (const ComputationError& error) {
       const std::string time = fmt::format("t = {:.6g} s: ", times[k]), why = error.what();
       throw ComputationError(why.starts_with("t = ") ? why : time + why);
     }
-    books.advance(state_.time, system_.energy(state_, environment_));
+    books.advance(state.time, system.energy(state, environment));
     const bool ends = report.stopped_by_event;
-    if (state_.time < times[k] && !ends) continue;  // a crossing between two points
+    if (state.time < times[k] && !ends) continue;  // a crossing between two points
     ++k;
-    const bool asked_for = recording_.times.empty()
-                               ? k % static_cast<std::size_t>(recording_.every) == 0 || k == times.size()
-                               : contains(recording_.times, state_.time, rounding);
-    point(state_.time - last, asked_for || ends);
-    last = state_.time;
+    const bool asked_for = recording.times.empty()
+                               ? k % static_cast<std::size_t>(recording.every) == 0 || k == times.size()
+                               : contains(recording.times, state.time, rounding);
+    point(state.time - last, asked_for || ends);
+    last = state.time;
   }
   if (elastic) report.left_out = elastic->left_out();
   report.energy = books.totals();

@@ -1,4 +1,4 @@
-#include "mechanism/analyses/dynamic.hpp"
+#include "mechanism/analyses/dynamic_analysis.hpp"
 
 #include <algorithm>
 #include <cmath>

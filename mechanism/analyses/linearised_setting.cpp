@@ -1,4 +1,4 @@
-#include "mechanism/session/linearised_setting.hpp"
+#include "mechanism/analyses/linearised_setting.hpp"
 
 namespace bielle::mechanism {
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mechanism/analyses/analysis.hpp"
+#include "mechanism/analyses/modes.hpp"
 
 namespace bielle::mechanism {
 

@@ -1,10 +1,11 @@
-// What a session is asked in kinematics and inverse dynamics, and what it answers.
+// Kinematics and inverse dynamics of a session.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "mechanism/session/energy_balance.hpp"
+#include "mechanism/session/session.hpp"
 #include "mechanism/solvers/start/start_report.hpp"
 
 namespace bielle::mechanism {
@@ -28,5 +29,10 @@ struct KinematicsReport {
   double left_out = 0;                   ///< by then, see QuasiStaticMotion::left_out
   std::vector<std::string> indifferent;  ///< coordinates that nothing drives or loads, and that stay at rest
 };
+
+/// A mechanism whose every motion is driven: positions, velocities, accelerations and the forces that belong to them,
+/// time after time, without integration; elastic parts follow in equilibrium, if asked for. @throws InputError naming
+/// what is free, ComputationError naming what cannot be satisfied
+KinematicsReport compute_kinematics(Session& session, const KinematicsOptions& options);
 
 }  // namespace bielle::mechanism

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include "mechanism/analyses/analysis_table.hpp"
+#include "mechanism/analyses/kinematics.hpp"
 #include "mechanism/analyses/step_reader.hpp"
 #include "mechanism/analyses/summary_text.hpp"
 #include "mechanism/session/time_grid.hpp"
@@ -41,7 +42,7 @@ class KinematicAnalysis final : public Analysis {
 
  private:
   void solve(Session& session, AnalysisSummary& summary) const override {
-    const KinematicsReport report = session.kinematics(options_);
+    const KinematicsReport report = compute_kinematics(session, options_);
     summary.records = session.rows();
     summary.text = fmt::format("{}, {}\n", type() == "kinematic" ? "kinematics" : "inverse dynamics",
                                counted(report.points, "position"));

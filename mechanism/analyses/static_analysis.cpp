@@ -1,4 +1,4 @@
-#include "mechanism/analyses/static.hpp"
+#include "mechanism/analyses/static_analysis.hpp"
 
 #include <fmt/format.h>
 
@@ -106,7 +106,7 @@ std::unique_ptr<Analysis> read_static(const YamlValue& entry, const Model& model
 }
 
 void StaticAnalysis::solve(Session& session, AnalysisSummary& summary) const {
-  const StaticsReport report = session.statics(options_);
+  const StaticsReport report = compute_statics(session, options_);
   summary.records = session.rows();
   summary.numbers["load_factor"] = {report.load_factor};
   summary.numbers["limit_points"] = report.limit_points;

@@ -1,4 +1,4 @@
-#include "mechanism/session/linear_response.hpp"
+#include "mechanism/analyses/linear_response.hpp"
 
 #include <algorithm>
 #include <cmath>

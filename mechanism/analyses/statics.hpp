@@ -1,9 +1,10 @@
-// What a session is asked in statics, and what it answers.
+// Equilibrium of a session.
 #pragma once
 
 #include <optional>
 #include <vector>
 
+#include "mechanism/session/session.hpp"
 #include "mechanism/solvers/start/start_report.hpp"
 #include "mechanism/solvers/statics/arc_length.hpp"
 #include "mechanism/solvers/statics/statics.hpp"
@@ -25,5 +26,9 @@ struct StaticsReport {
   double load_factor = 0;            ///< at the end
   std::vector<double> limit_points;  ///< load factors at the maxima and minima of a path
 };
+
+/// Equilibrium under the whole load, or along a path. The state is at rest afterwards.
+/// @throws ComputationError when there is none near; the state is then the last equilibrium
+StaticsReport compute_statics(Session& session, const StaticsOptions& options = {});
 
 }  // namespace bielle::mechanism

@@ -1,4 +1,4 @@
-#include "mechanism/session/modal_response.hpp"
+#include "mechanism/analyses/modal_response.hpp"
 
 #include <algorithm>
 #include <cmath>

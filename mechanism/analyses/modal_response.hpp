@@ -1,4 +1,4 @@
-// Harmonic answers as a sum over modes. For the files of Session alone.
+// Harmonic answers as a sum over modes.
 //
 //     H(s) = sum_j c(v_j) (y_j^T r) / (s_j - s) + R(s),      s = 2 pi i f,
 // over modes and their conjugates (modal_poles.hpp), with c(v) the outputs of a motion. R is what slower answers of the
@@ -11,7 +11,7 @@
 #include <functional>
 #include <vector>
 
-#include "mechanism/session/linear_response.hpp"
+#include "mechanism/analyses/linear_response.hpp"
 #include "mechanism/solvers/linearised/modal_poles.hpp"
 
 namespace bielle::mechanism {

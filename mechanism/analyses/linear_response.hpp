@@ -1,12 +1,12 @@
-// Small motions about a state between inputs and outputs: right-hand sides and values. For the files of Session alone.
+// Small motions about a state between inputs and outputs: right-hand sides and values.
 #pragma once
 
 #include <complex>
 #include <string>
 #include <vector>
 
-#include "mechanism/session/frequency_response.hpp"
-#include "mechanism/session/modes_report.hpp"
+#include "mechanism/analyses/frequency_response.hpp"
+#include "mechanism/analyses/standing_state.hpp"
 #include "mechanism/solvers/linearised/shifted_operator.hpp"
 #include "mechanism/solvers/linearised/variations.hpp"
 

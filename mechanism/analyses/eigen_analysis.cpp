@@ -1,4 +1,4 @@
-#include "mechanism/analyses/eigen.hpp"
+#include "mechanism/analyses/eigen_analysis.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -133,8 +133,7 @@ std::unique_ptr<Analysis> read_eigen(const YamlValue& entry, const Model& /*mode
 }
 
 void EigenAnalysis::solve(Session& session, AnalysisSummary& summary) const {
-  const ModesReport report = session.modes(options_);
-  if (options_.rotation) session.gather(report.about.state, report.about.environment);
+  const ModesReport report = compute_modes(session, options_);
   const ModeParts parts = mode_parts(session.model(), report);
   const std::vector<Mode>& modes = report.found.modes;
   write_modes(session, report, parts, shapes_);

@@ -1,0 +1,177 @@
+#include "mechanism/analyses/campbell_analysis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "mechanism/analyses/analysis_table.hpp"
+#include "mechanism/analyses/campbell_arrays.hpp"
+#include "mechanism/analyses/summary_text.hpp"
+#include "mechanism/reading/names.hpp"
+#include "reduce/common/counted.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+/// `{from: 0, to: 300, count: 61}`, or a list.
+std::vector<double> read_speeds(const YamlValue& entry) {
+  std::vector<double> values;
+  if (entry.is_sequence()) {
+    for (const YamlValue& item : entry.items()) {
+      if (!values.empty() && item.number() <= values.back()) item.fail("expected more than the value before it");
+      values.push_back(item.number());
+    }
+    if (values.size() < 2) entry.fail("expected at least two values");
+    return values;
+  }
+  entry.check_keys({"from", "to", "count"}, "`speeds`");
+  const double from = entry.has("from") ? entry.at("from").number() : 0, to = entry.at("to").number();
+  if (to <= from) entry.at("to").fail("expected more than `from`");
+  const int count = entry.has("count") ? entry.at("count").integer() : 41;
+  if (count < 2) entry.at("count").fail("expected at least 2 values");
+  for (int k = 0; k < count; ++k) values.push_back(from + (to - from) * k / (count - 1));
+  return values;
+}
+
+std::string read_swept_parameter(const YamlValue& entry, const Model& model) {
+  const std::string name = entry.text();
+  std::vector<std::string> names;
+  for (const auto& [known, value] : model.parameters) names.push_back(known);
+  if (std::find(names.begin(), names.end(), name) == names.end())
+    entry.fail(fmt::format("the model has no parameter '{}'{}", name, did_you_mean(name, names)));
+  return name;
+}
+
+/// `{axis: [0, 0, 1], position: [0, 0, 0], rate: "rpm*pi/30"}`.
+void read_swept_rotation(const YamlValue& entry, const Model& model, CampbellOptions& options) {
+  entry.check_keys({"axis", "position", "rate"}, "`rotation` of a sweep");
+  options.rotation = true;
+  options.axis = Vector3(entry.at("axis").direction());
+  if (const auto position = entry.find("position")) options.through = position->vector3();
+  const auto rate = entry.find("rate");
+  if (!rate) return;
+  if (options.parameter.empty())
+    rate->fail("the rates are the `speeds`: give a formula where a `parameter` is swept that is no speed in rad/s");
+  options.rate = rate->text();
+  try {
+    Expression(options.rate, {}, model.parameters)({});
+  } catch (const std::runtime_error& error) {
+    rate->fail(error.what());
+  }
+}
+
+std::string format_frequency(const TrackedMode& mode) {
+  return mode.found ? fmt::format("{:.6g}", std::abs(mode.s.imag()) / (2 * std::numbers::pi)) : "lost";
+}
+
+std::string format_mode_lines(const SweptModes& swept) {
+  const SweepPoint &first = swept.points.front(), &last = swept.points.back();
+  std::string text = fmt::format("  {:>4}  {:>12}  {:>12}  {:>11}  {}\n", "mode", "first [Hz]", "last [Hz]", "damping",
+                                 "whirl at last");
+  for (std::size_t k = 0; k < first.tracks.size(); ++k) {
+    const TrackedMode& mode = last.tracks[k];
+    const double ratio = mode.found ? -mode.s.real() / std::abs(mode.s) : NAN;
+    const double rounding = mode.found ? std::max(1e-10, mode.uncertainty / std::abs(mode.s)) : 0;
+    text += fmt::format("  {:>4}  {:>12}  {:>12}  {:>11.4g}  {}\n", k + 1, format_frequency(first.tracks[k]),
+                        format_frequency(mode), std::abs(ratio) < rounding ? 0 : ratio,
+                        mode.found ? whirl_name(mode.whirl) : "");
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string CampbellAnalysis::at(double value, double speed) const {
+  return options_.parameter.empty() ? fmt::format("{:.6g} rad/s", speed)
+                                    : fmt::format("{} = {:.6g} ({:.6g} rad/s)", options_.parameter, value, speed);
+}
+
+std::string CampbellAnalysis::format(const Campbell& found) const {
+  const SweptModes& swept = found.swept;
+  std::string text = format_setting(found, "modes");
+  if (found.steadiness && found.unsteady.empty() && found.axes == ModeAxes::turning)
+    text += "  frequencies and senses of whirl are those seen from what turns\n";
+  if (!found.unsteady.empty())
+    text += fmt::format("  the motion is not steady at {} of the values, the first {:.6g}\n", found.unsteady.size(),
+                        *std::min_element(found.unsteady.begin(), found.unsteady.end()));
+  if (swept.points.front().tracks.empty())
+    return text + "  nothing oscillates at the first value: there is nothing to track\n";
+  text += format_mode_lines(swept);
+  for (const CriticalSpeed& each : swept.critical)
+    text += fmt::format("  critical at {}: mode {}, {:.6g} Hz = {:g} x speed{}{}\n", at(each.value, each.speed),
+                        each.mode + 1, each.frequency, each.order, std::isnan(each.whirl) ? "" : ", ",
+                        whirl_name(each.whirl));
+  if (swept.critical.empty()) text += "  no critical speeds\n";
+  for (const ModeMeeting& each : swept.meetings)
+    text += each.veering ? fmt::format(
+                               "  modes {} and {} veer around {}, {:.6g} Hz: they come within {:.3g} Hz, turn away and "
+                               "exchange their shapes\n",
+                               each.first + 1, each.second + 1, at(each.value, each.speed), each.frequency, each.gap)
+                         : fmt::format("  modes {} and {} cross at {}, {:.6g} Hz\n", each.first + 1, each.second + 1,
+                                       at(each.value, each.speed), each.frequency);
+  for (std::size_t k = 0; k < swept.points.front().tracks.size(); ++k) {
+    for (const SweepPoint& point : swept.points) {
+      const TrackedMode& mode = point.tracks[k];
+      if (!mode.found || !mode.grows) continue;
+      text += fmt::format("  UNSTABLE: mode {} grows at {}, the first value of the sweep at which it does\n", k + 1,
+                          at(point.value, point.speed));
+      break;
+    }
+  }
+  for (const DoubtfulTrack& each : swept.doubtful)
+    text += each.lost ? fmt::format(
+                            "  mode {} was lost between {:.9g} and {:.9g}: nothing that oscillates there has its "
+                            "shape (it no longer oscillates, or changes within less than that)\n",
+                            each.mode + 1, each.from, each.to)
+                      : fmt::format(
+                            "  mode {} is tracked with doubt between {:.9g} and {:.9g}: {:.0f} % of its shape "
+                            "goes on\n",
+                            each.mode + 1, each.from, each.to, 100 * each.correlation);
+  return text;
+}
+
+std::unique_ptr<Analysis> read_campbell(const YamlValue& entry, const Model& model) {
+  entry.check_keys({"type", "parameter", "rotation", "speeds", "modes", "orders", "node"}, "the analysis 'campbell'");
+  CampbellOptions options;
+  if (const auto parameter = entry.find("parameter")) options.parameter = read_swept_parameter(*parameter, model);
+  if (const auto rotation = entry.find("rotation")) read_swept_rotation(*rotation, model, options);
+  if (options.parameter.empty() && !options.rotation)
+    entry.fail(
+        "expected the `parameter` whose values are swept, or a `rotation` about an axis in which everything free "
+        "turns");
+  options.values = read_speeds(entry.at("speeds"));
+  if (const auto modes = entry.find("modes")) {
+    options.modes = modes->integer();
+    if (options.modes < 1) modes->fail("expected at least one mode");
+  }
+  if (const auto orders = entry.find("orders")) {
+    options.orders.clear();
+    for (const YamlValue& item : orders->items()) options.orders.push_back(item.positive_number());
+  }
+  if (const auto node = entry.find("node")) options.node = node_named_by(*node, model);
+  return std::make_unique<CampbellAnalysis>(std::move(options));
+}
+
+void CampbellAnalysis::solve(Session& session, AnalysisSummary& summary) const {
+  const Campbell found = compute_campbell(session, options_);
+  const SweptModes& swept = found.swept;
+  write_campbell(session, found, options_.parameter);
+  for (const CriticalSpeed& each : swept.critical) {
+    summary.numbers["critical_speed"].push_back(each.speed);
+    summary.numbers["critical_frequency"].push_back(each.frequency);
+    summary.numbers["critical_mode"].push_back(each.mode + 1);
+    summary.numbers["critical_order"].push_back(each.order);
+  }
+  const auto given =
+      std::count_if(swept.points.begin(), swept.points.end(), [](const SweepPoint& point) { return point.given; });
+  summary.text =
+      fmt::format("campbell, {} from {} to {}, {} ({} computed)\n", counted(swept.points.front().tracks.size(), "mode"),
+                  at(swept.points.front().value, swept.points.front().speed),
+                  at(swept.points.back().value, swept.points.back().speed), counted(given, "value"), swept.solved);
+  summary.text += format(found);
+  summary.text += found.gathered;
+}
+
+}  // namespace bielle::mechanism
