@@ -9,8 +9,8 @@
 #include "mechanism/io/run_analyses.hpp"
 #include "reduce/common/command_line.hpp"
 #include "reduce/common/error.hpp"
+#include "reduce/common/process/run_program.hpp"
 #include "reduce/common/progress.hpp"
-#include "reduce/common/run_program.hpp"
 #include "reduce/dense/blas.hpp"
 
 namespace {

@@ -11,13 +11,13 @@
 #include <malloc.h>
 #include <sys/prctl.h>
 
-#include "reduce/body_file.hpp"
+#include "reduce/body_file/body_file.hpp"
 #include "reduce/common/command_line.hpp"
 #include "reduce/common/error.hpp"
-#include "reduce/common/file_checks.hpp"
+#include "reduce/common/files/file_checks.hpp"
+#include "reduce/common/process/run_program.hpp"
+#include "reduce/common/process/sleeping_threads.hpp"
 #include "reduce/common/progress.hpp"
-#include "reduce/common/run_program.hpp"
-#include "reduce/common/sleeping_threads.hpp"
 #include "reduce/dense/blas.hpp"
 #include "reduce/distributed/distributed_matrices.hpp"
 #include "reduce/distributed/greeting.hpp"
@@ -25,9 +25,9 @@
 #include "reduce/mesh/describe.hpp"
 #include "reduce/mesh/import.hpp"
 #include "reduce/reduction/reduce_pieces.hpp"
-#include "reduce/summary.hpp"
-#include "reduce/summary_of_pieces.hpp"
-#include "reduce/verdict.hpp"
+#include "reduce/report/summary.hpp"
+#include "reduce/report/summary_of_pieces.hpp"
+#include "reduce/report/verdict.hpp"
 
 namespace {
 

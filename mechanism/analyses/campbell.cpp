@@ -7,7 +7,7 @@
 #include "mechanism/analyses/modes.hpp"
 #include "mechanism/solvers/linearised/whirl.hpp"
 #include "reduce/common/error.hpp"
-#include "reduce/common/expression.hpp"
+#include "reduce/common/formula/expression.hpp"
 
 namespace bielle::mechanism {
 namespace {

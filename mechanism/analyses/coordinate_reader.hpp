@@ -7,7 +7,7 @@
 
 #include "mechanism/model/model.hpp"
 #include "mechanism/session/assembly_options.hpp"
-#include "reduce/common/yaml_file.hpp"
+#include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
 

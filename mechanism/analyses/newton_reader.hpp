@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mechanism/solvers/newton/convergence.hpp"
-#include "reduce/common/yaml_file.hpp"
+#include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
 

@@ -5,7 +5,7 @@
 
 #include "mechanism/analyses/frequency_response.hpp"
 #include "mechanism/model/model.hpp"
-#include "reduce/common/yaml_file.hpp"
+#include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
 

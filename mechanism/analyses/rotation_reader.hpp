@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mechanism/solvers/linearised/steady_rotation.hpp"
-#include "reduce/common/yaml_file.hpp"
+#include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
 

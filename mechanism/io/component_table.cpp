@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/contacts/contact.hpp"
 #include "mechanism/elements/beam/beam.hpp"
 #include "mechanism/elements/control/state_reader.hpp"
 #include "mechanism/elements/forces/load.hpp"
@@ -17,7 +18,6 @@
 #include "mechanism/joints/actions/drive.hpp"
 #include "mechanism/joints/cables/rope_section.hpp"
 #include "mechanism/joints/cams/cam.hpp"
-#include "mechanism/joints/contacts/contact.hpp"
 #include "mechanism/joints/couplings/linear_coupling.hpp"
 #include "mechanism/joints/flexible/bearing.hpp"
 #include "mechanism/joints/flexible/bushing.hpp"

@@ -19,7 +19,7 @@
 #include "mechanism/reading/names.hpp"
 #include "mechanism/reading/read_file.hpp"
 #include "mechanism/reading/read_frame.hpp"
-#include "reduce/common/plausible.hpp"
+#include "reduce/common/input/plausible.hpp"
 
 namespace bielle::mechanism {
 namespace {

@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "mechanism/model/model.hpp"
-#include "mechanism/session/recording.hpp"
-#include "mechanism/session/results_rows.hpp"
-#include "reduce/common/yaml_file.hpp"
+#include "mechanism/results/recording.hpp"
+#include "mechanism/results/results_rows.hpp"
+#include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
 

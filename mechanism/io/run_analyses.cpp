@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 
 #include "mechanism/io/interrupt_guard.hpp"
-#include "mechanism/io/results_file.hpp"
-#include "mechanism/io/step_log.hpp"
-#include "reduce/common/file_checks.hpp"
-#include "reduce/common/hdf5_file.hpp"
+#include "mechanism/results/results_file.hpp"
+#include "mechanism/results/step_log.hpp"
+#include "reduce/common/files/file_checks.hpp"
+#include "reduce/common/files/hdf5_file.hpp"
 
 namespace bielle::mechanism {
 namespace {

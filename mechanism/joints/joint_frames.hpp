@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "mechanism/model/model.hpp"
-#include "reduce/common/yaml_file.hpp"
+#include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "mechanism/math/types.hpp"
-#include "reduce/common/interpolation.hpp"
+#include "reduce/common/formula/interpolation.hpp"
 
 namespace bielle::mechanism {
 

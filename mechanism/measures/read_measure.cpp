@@ -9,8 +9,8 @@
 #include "mechanism/measures/combined_measure.hpp"
 #include "mechanism/measures/node_measures.hpp"
 #include "mechanism/reading/names.hpp"
-#include "reduce/common/formula_parser.hpp"
-#include "reduce/common/units.hpp"
+#include "reduce/common/formula/formula_parser.hpp"
+#include "reduce/common/formula/units.hpp"
 
 namespace bielle::mechanism {
 namespace {

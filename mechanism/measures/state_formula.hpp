@@ -12,7 +12,7 @@
 
 #include "mechanism/model/measure.hpp"
 #include "mechanism/model/references.hpp"
-#include "reduce/common/expression.hpp"
+#include "reduce/common/formula/expression.hpp"
 
 namespace bielle::mechanism {
 

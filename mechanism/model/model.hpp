@@ -16,7 +16,7 @@
 #include "mechanism/model/entry.hpp"
 #include "mechanism/model/prescribed_motion.hpp"
 #include "reduce/common/error.hpp"
-#include "reduce/common/expression.hpp"
+#include "reduce/common/formula/expression.hpp"
 
 namespace bielle::mechanism {
 

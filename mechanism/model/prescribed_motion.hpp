@@ -12,7 +12,7 @@
 #include <memory>
 #include <vector>
 
-#include "reduce/common/expression.hpp"
+#include "reduce/common/formula/expression.hpp"
 
 namespace bielle::mechanism {
 

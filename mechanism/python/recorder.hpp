@@ -4,10 +4,10 @@
 #include <memory>
 #include <string>
 
-#include "mechanism/io/results_file.hpp"
 #include "mechanism/python/gate.hpp"
 #include "mechanism/python/held_model.hpp"
-#include "mechanism/session/memory_sink.hpp"
+#include "mechanism/results/memory_sink.hpp"
+#include "mechanism/results/results_file.hpp"
 
 namespace bielle::python {
 

@@ -9,7 +9,7 @@
 #include "mechanism/python/held_motion.hpp"
 #include "mechanism/python/texts.hpp"
 #include "reduce/common/error.hpp"
-#include "reduce/common/file_checks.hpp"
+#include "reduce/common/files/file_checks.hpp"
 
 namespace bielle::python {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "reduce/common/error.hpp"
-#include "reduce/common/yaml_file.hpp"
+#include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
 

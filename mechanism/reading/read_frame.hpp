@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "mechanism/math/se3.hpp"
-#include "reduce/common/yaml_file.hpp"
+#include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "mechanism/results/step_record.hpp"
 #include "mechanism/session/assembly_options.hpp"
 #include "mechanism/session/energy_balance.hpp"
 #include "mechanism/session/prescribed_jumps.hpp"
-#include "mechanism/session/step_record.hpp"
 #include "mechanism/solvers/dynamics/march.hpp"
 
 namespace bielle::mechanism {

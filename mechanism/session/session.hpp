@@ -21,14 +21,14 @@
 #include <unordered_map>
 #include <vector>
 
+#include "mechanism/results/recording.hpp"
+#include "mechanism/results/result_sink.hpp"
+#include "mechanism/results/results_rows.hpp"
 #include "mechanism/session/assembly_options.hpp"
 #include "mechanism/session/gatherers.hpp"
 #include "mechanism/session/gauge.hpp"
 #include "mechanism/session/motion.hpp"
 #include "mechanism/session/notes.hpp"
-#include "mechanism/session/recording.hpp"
-#include "mechanism/session/result_sink.hpp"
-#include "mechanism/session/results_rows.hpp"
 #include "mechanism/solvers/constraints/reaction_norm.hpp"
 #include "mechanism/solvers/constraints/redundancy.hpp"
 #include "mechanism/solvers/start/start_conditions.hpp"

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "mechanism/session/result_sink.hpp"
+#include "mechanism/results/result_sink.hpp"
 #include "mechanism/system/system.hpp"
 
 namespace bielle::mechanism {

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
-#include "reduce/common/address_space.hpp"
+#include "reduce/common/process/address_space.hpp"
 
 namespace bielle {
 

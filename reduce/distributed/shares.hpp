@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "reduce/common/packing.hpp"
+#include "reduce/common/files/packing.hpp"
 #include "reduce/mesh/mesh.hpp"
 
 namespace bielle::reduce {

@@ -9,8 +9,8 @@
 #include <fmt/ranges.h>
 #include <gmsh.h>
 
-#include "reduce/common/child_process.hpp"
 #include "reduce/common/error.hpp"
+#include "reduce/common/process/child_process.hpp"
 #include "reduce/common/progress.hpp"
 #include "reduce/mesh/checks.hpp"
 #include "reduce/mesh/gmsh_model.hpp"

@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
-#include "reduce/common/child_process.hpp"
 #include "reduce/common/counted.hpp"
 #include "reduce/common/error.hpp"
-#include "reduce/common/packing.hpp"
+#include "reduce/common/files/packing.hpp"
+#include "reduce/common/process/child_process.hpp"
 #include "reduce/common/progress.hpp"
 #include "reduce/mesh/checks.hpp"
 #include "reduce/mesh/cut_geometry.hpp"

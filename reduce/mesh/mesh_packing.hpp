@@ -1,7 +1,7 @@
 // A mesh, and the phases of its import, on their way from one process to another.
 #pragma once
 
-#include "reduce/common/packing.hpp"
+#include "reduce/common/files/packing.hpp"
 #include "reduce/common/progress.hpp"
 #include "reduce/mesh/mesh.hpp"
 

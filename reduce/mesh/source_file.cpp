@@ -12,8 +12,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "reduce/common/closed_process.hpp"
 #include "reduce/common/error.hpp"
+#include "reduce/common/process/closed_process.hpp"
 #include "reduce/common/progress.hpp"
 #include "reduce/mesh/length_unit.hpp"
 #include "reduce/mesh/place.hpp"

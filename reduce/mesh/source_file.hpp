@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "reduce/common/child_process.hpp"
+#include "reduce/common/process/child_process.hpp"
 #include "reduce/mesh/foreign_mesh.hpp"
 #include "reduce/mesh/mesh_request.hpp"
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "reduce/common/error.hpp"
-#include "reduce/common/free_memory.hpp"
+#include "reduce/common/process/free_memory.hpp"
 #include "reduce/sparse/cholmod_objects.hpp"
 
 namespace bielle {

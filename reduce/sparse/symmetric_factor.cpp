@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 #include <omp.h>
 
-#include "reduce/common/free_memory.hpp"
+#include "reduce/common/process/free_memory.hpp"
 #include "reduce/dense/blas.hpp"
 #include "reduce/sparse/block_graph.hpp"
 

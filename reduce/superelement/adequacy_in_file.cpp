@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "reduce/common/error.hpp"
-#include "reduce/common/hdf5_file.hpp"
+#include "reduce/common/files/hdf5_file.hpp"
 
 namespace bielle {
 

@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "reduce/common/atomic_output.hpp"
 #include "reduce/common/error.hpp"
-#include "reduce/common/hdf5_file.hpp"
+#include "reduce/common/files/atomic_output.hpp"
+#include "reduce/common/files/hdf5_file.hpp"
 #include "reduce/superelement/modal_damping.hpp"
 #include "reduce/superelement/superelement_file.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "reduce/common/hdf5_file.hpp"
+#include "reduce/common/files/hdf5_file.hpp"
 #include "reduce/superelement/cut_body.hpp"
 
 namespace bielle {

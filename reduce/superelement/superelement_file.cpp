@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "reduce/common/atomic_output.hpp"
-#include "reduce/common/hdf5_file.hpp"
+#include "reduce/common/files/atomic_output.hpp"
+#include "reduce/common/files/hdf5_file.hpp"
 #include "reduce/superelement/adequacy_in_file.hpp"
 #include "reduce/superelement/named_points.hpp"
 #include "reduce/superelement/physical_check.hpp"

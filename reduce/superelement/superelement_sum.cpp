@@ -1,6 +1,6 @@
 #include "reduce/superelement/superelement_sum.hpp"
 
-#include "reduce/common/checksum.hpp"
+#include "reduce/common/files/checksum.hpp"
 #include "reduce/superelement/superelement.hpp"
 
 namespace bielle {

@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/io/mechanism_file.hpp"
-#include "mechanism/session/memory_sink.hpp"
+#include "mechanism/results/memory_sink.hpp"
 #include "mechanism/session/session.hpp"
 #include "tests/support/temporary_folder.hpp"
 

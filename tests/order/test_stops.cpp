@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "mechanism/io/mechanism_file.hpp"
-#include "mechanism/session/memory_sink.hpp"
+#include "mechanism/results/memory_sink.hpp"
 #include "mechanism/session/session.hpp"
 #include "tests/support/bounce.hpp"
 #include "tests/support/session_model.hpp"

@@ -22,7 +22,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/io/mechanism_file.hpp"
-#include "mechanism/io/results_file.hpp"
+#include "mechanism/results/results_file.hpp"
 #include "mechanism/session/energy_balance.hpp"
 #include "tests/performance/chain.hpp"
 #include "tests/performance/processor_time.hpp"

@@ -16,9 +16,9 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
-#include "mechanism/io/results_file.hpp"
 #include "mechanism/model/model.hpp"
-#include "reduce/common/hdf5_file.hpp"
+#include "mechanism/results/results_file.hpp"
+#include "reduce/common/files/hdf5_file.hpp"
 #include "tests/performance/processor_time.hpp"
 
 namespace {

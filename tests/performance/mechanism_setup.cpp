@@ -30,8 +30,8 @@
 #include "mechanism/solvers/start/assemble_positions.hpp"
 #include "mechanism/solvers/start/consistent_start.hpp"
 #include "mechanism/solvers/statics/statics.hpp"
+#include "reduce/common/input/yaml_file.hpp"
 #include "reduce/common/progress.hpp"
-#include "reduce/common/yaml_file.hpp"
 #include "tests/performance/processor_time.hpp"
 #include "tests/support/large_models.hpp"
 

@@ -19,7 +19,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "reduce/body_file.hpp"
+#include "reduce/body_file/body_file.hpp"
 #include "reduce/common/command_line.hpp"
 #include "reduce/common/progress.hpp"
 #include "reduce/dense/blas.hpp"

@@ -14,7 +14,7 @@
 
 #include <fmt/format.h>
 
-#include "reduce/body_file.hpp"
+#include "reduce/body_file/body_file.hpp"
 #include "reduce/common/progress.hpp"
 #include "reduce/dense/blas.hpp"
 #include "reduce/fe/assembly.hpp"

@@ -16,7 +16,7 @@
 
 #include <fmt/format.h>
 
-#include "reduce/body_file.hpp"
+#include "reduce/body_file/body_file.hpp"
 #include "reduce/common/command_line.hpp"
 #include "reduce/common/progress.hpp"
 #include "reduce/dense/blas.hpp"

@@ -1,7 +1,7 @@
 // Shapes of contacts, made and placed without a model, and the sum of what presses between two.
 #pragma once
 
-#include "mechanism/joints/contacts/pair_touches.hpp"
+#include "mechanism/contacts/pair_touches.hpp"
 
 namespace bielle::test {
 

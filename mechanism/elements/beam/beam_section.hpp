@@ -15,7 +15,7 @@
 
 #include "mechanism/elements/beam/wall_taper.hpp"
 #include "mechanism/math/types.hpp"
-#include "reduce/common/yaml_file.hpp"
+#include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
 

@@ -7,7 +7,7 @@
 #include "mechanism/elements/beam/beam_section.hpp"
 #include "mechanism/math/gauss.hpp"
 #include "mechanism/math/so3.hpp"
-#include "reduce/common/plausible.hpp"
+#include "reduce/common/input/plausible.hpp"
 #include "reduce/dense/symmetric_factors.hpp"
 
 namespace bielle::mechanism {

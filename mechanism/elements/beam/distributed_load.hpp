@@ -24,7 +24,7 @@
 #include "mechanism/math/se3.hpp"
 #include "mechanism/model/component.hpp"
 #include "mechanism/model/time_dependent.hpp"
-#include "reduce/common/yaml_file.hpp"
+#include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "reduce/common/expression.hpp"
-#include "reduce/common/yaml_file.hpp"
+#include "reduce/common/formula/expression.hpp"
+#include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
 

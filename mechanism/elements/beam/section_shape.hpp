@@ -20,7 +20,7 @@
 
 #include "mechanism/elements/beam/saint_venant.hpp"
 #include "mechanism/math/types.hpp"
-#include "reduce/common/yaml_file.hpp"
+#include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
 

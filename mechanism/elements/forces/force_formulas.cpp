@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/measures/read_measure.hpp"
-#include "reduce/common/plausible.hpp"
+#include "reduce/common/input/plausible.hpp"
 
 namespace bielle::mechanism {
 

@@ -9,7 +9,7 @@
 #include "mechanism/measures/state_formula.hpp"
 #include "mechanism/model/model.hpp"
 #include "mechanism/model/time_dependent.hpp"
-#include "reduce/common/yaml_file.hpp"
+#include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
 

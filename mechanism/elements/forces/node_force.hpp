@@ -12,7 +12,7 @@
 #include "mechanism/elements/forces/force_formulas.hpp"
 #include "mechanism/measures/pair_measure.hpp"
 #include "mechanism/model/model.hpp"
-#include "reduce/common/yaml_file.hpp"
+#include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
 

@@ -9,10 +9,10 @@
 #include <string>
 #include <utility>
 
-#include "mechanism/measures/force_law.hpp"
+#include "mechanism/laws/force_law.hpp"
 #include "mechanism/model/model.hpp"
 #include "mechanism/model/time_dependent.hpp"
-#include "reduce/common/yaml_file.hpp"
+#include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
 

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/laws/read_elastic_law.hpp"
 #include "mechanism/measures/middle_frame.hpp"
-#include "mechanism/measures/read_elastic_law.hpp"
 #include "mechanism/model/description.hpp"
 #include "mechanism/reading/names.hpp"
 #include "mechanism/reading/read_frame.hpp"

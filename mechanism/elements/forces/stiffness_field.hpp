@@ -15,9 +15,9 @@
 
 #include <array>
 
-#include "mechanism/measures/elastic_law.hpp"
+#include "mechanism/laws/elastic_law.hpp"
 #include "mechanism/model/model.hpp"
-#include "reduce/common/yaml_file.hpp"
+#include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
 

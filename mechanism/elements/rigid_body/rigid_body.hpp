@@ -15,7 +15,7 @@
 #include "mechanism/elements/rigid_body/mass_properties.hpp"
 #include "mechanism/model/component.hpp"
 #include "mechanism/model/model.hpp"
-#include "reduce/common/yaml_file.hpp"
+#include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
 

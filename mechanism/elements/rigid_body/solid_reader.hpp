@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mechanism/elements/rigid_body/mass_properties.hpp"
-#include "reduce/common/yaml_file.hpp"
+#include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
 

@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "mechanism/model/model.hpp"
-#include "reduce/common/yaml_file.hpp"
+#include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
 

@@ -33,8 +33,8 @@
 #include "mechanism/elements/superelement/superelement_body_motion.hpp"
 #include "mechanism/model/model.hpp"
 #include "mechanism/model/time_dependent.hpp"
-#include "reduce/common/expression.hpp"
-#include "reduce/common/yaml_file.hpp"
+#include "reduce/common/formula/expression.hpp"
+#include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
 

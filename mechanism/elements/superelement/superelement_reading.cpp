@@ -9,7 +9,7 @@
 #include "mechanism/reading/names.hpp"
 #include "mechanism/reading/read_frame.hpp"
 #include "mechanism/reading/start_motion.hpp"
-#include "reduce/common/plausible.hpp"
+#include "reduce/common/input/plausible.hpp"
 #include "reduce/dense/dense_solves.hpp"
 #include "reduce/superelement/modal_damping.hpp"
 

@@ -3,7 +3,7 @@
 // With l the distance of the points, chambers k of the space V_k(l) (chamber_space.hpp) and the pressure p_k,
 //     F = sum (p_k - p_a) dV_k/dl - F_f(ldot) + F_s(l, ldot)
 // pushes the points apart: chamber 1 extends it, dV_1/dl = A_1, chamber 2 draws it in, dV_2/dl = -A_2; the atmosphere
-// acts on the rod. F_f is the friction of the seals (contact_laws/friction_law.hpp with N = 1), F_s that of the stops
+// acts on the rod. F_f is the friction of the seals (laws/friction_law.hpp with N = 1), F_s that of the stops
 // at the ends of the stroke: k x + d xdot while it pushes, x the way beyond the end, as of stops in joints. The spaces
 // belong to the volumes into which the chambers open.
 //
@@ -14,10 +14,10 @@
 #include <optional>
 #include <vector>
 
-#include "mechanism/contact_laws/friction_law.hpp"
 #include "mechanism/hydraulics/actuators/chamber_space.hpp"
 #include "mechanism/hydraulics/circuit/ports.hpp"
 #include "mechanism/hydraulics/circuit/volume.hpp"
+#include "mechanism/laws/friction_law.hpp"
 #include "mechanism/measures/pair_measure.hpp"
 
 namespace bielle::mechanism {

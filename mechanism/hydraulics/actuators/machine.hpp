@@ -15,7 +15,7 @@
 #include "mechanism/joints/actions/coordinate_action.hpp"
 #include "mechanism/measures/time_formula.hpp"
 #include "mechanism/model/model.hpp"
-#include "reduce/common/yaml_file.hpp"
+#include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
 

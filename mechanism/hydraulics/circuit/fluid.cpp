@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/math/smooth_step.hpp"
-#include "reduce/common/plausible.hpp"
+#include "reduce/common/input/plausible.hpp"
 
 namespace bielle::mechanism {
 namespace {

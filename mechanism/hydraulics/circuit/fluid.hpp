@@ -19,7 +19,7 @@
 
 #include <string>
 
-#include "reduce/common/yaml_file.hpp"
+#include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
 

@@ -6,7 +6,7 @@
 #include "mechanism/model/flow_balance.hpp"
 #include "mechanism/model/model.hpp"
 #include "mechanism/model/references.hpp"
-#include "reduce/common/yaml_file.hpp"
+#include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
 

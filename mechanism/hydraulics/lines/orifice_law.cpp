@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "reduce/common/plausible.hpp"
+#include "reduce/common/input/plausible.hpp"
 
 namespace bielle::mechanism {
 namespace {

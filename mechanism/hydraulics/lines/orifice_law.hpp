@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "mechanism/hydraulics/circuit/fluid.hpp"
-#include "reduce/common/yaml_file.hpp"
+#include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
 

@@ -7,7 +7,7 @@
 #include "mechanism/measures/nested.hpp"
 #include "mechanism/measures/read_measure.hpp"
 #include "reduce/common/error.hpp"
-#include "reduce/common/plausible.hpp"
+#include "reduce/common/input/plausible.hpp"
 
 namespace bielle::mechanism {
 namespace {

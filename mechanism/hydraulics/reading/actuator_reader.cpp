@@ -16,7 +16,7 @@
 #include "mechanism/hydraulics/reading/accumulator_reader.hpp"
 #include "mechanism/hydraulics/reading/line_reader.hpp"
 #include "mechanism/reading/names.hpp"
-#include "reduce/common/plausible.hpp"
+#include "reduce/common/input/plausible.hpp"
 
 namespace bielle::mechanism {
 namespace {

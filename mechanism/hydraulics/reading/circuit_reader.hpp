@@ -6,7 +6,7 @@
 
 #include "mechanism/hydraulics/circuit/fluid.hpp"
 #include "mechanism/model/model.hpp"
-#include "reduce/common/yaml_file.hpp"
+#include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
 

@@ -13,7 +13,7 @@
 
 #include "mechanism/joints/actions/coordinate_action.hpp"
 #include "mechanism/model/measure.hpp"
-#include "reduce/common/yaml_file.hpp"
+#include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
 

@@ -13,7 +13,7 @@
 #include "mechanism/measures/measure_event.hpp"
 #include "mechanism/measures/read_measure.hpp"
 #include "mechanism/reading/names.hpp"
-#include "reduce/common/plausible.hpp"
+#include "reduce/common/input/plausible.hpp"
 
 namespace bielle::mechanism {
 namespace {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "mechanism/joints/joint.hpp"
-#include "reduce/common/yaml_file.hpp"
+#include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
 

@@ -6,9 +6,9 @@
 #pragma once
 
 #include "mechanism/joints/actions/coordinate_action.hpp"
-#include "mechanism/measures/force_law.hpp"
+#include "mechanism/laws/force_law.hpp"
 #include "mechanism/model/time_dependent.hpp"
-#include "reduce/common/yaml_file.hpp"
+#include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
 

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "mechanism/joints/joint.hpp"
-#include "reduce/common/yaml_file.hpp"
+#include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
 

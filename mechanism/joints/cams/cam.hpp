@@ -14,7 +14,7 @@
 #include "mechanism/joints/couplings/coordinate_named_by.hpp"
 #include "mechanism/joints/measured_pair.hpp"
 #include "mechanism/model/references.hpp"
-#include "reduce/common/interpolation.hpp"
+#include "reduce/common/formula/interpolation.hpp"
 
 namespace bielle::mechanism {
 

@@ -7,7 +7,7 @@
 #include "mechanism/joints/pairs/point_on_curve.hpp"
 #include "mechanism/model/model.hpp"
 #include "mechanism/reading/read_file.hpp"
-#include "reduce/common/table_file.hpp"
+#include "reduce/common/files/table_file.hpp"
 
 namespace bielle::mechanism {
 namespace {

@@ -12,7 +12,7 @@
 #pragma once
 
 #include "mechanism/joints/flexible/elastic_pair.hpp"
-#include "reduce/common/yaml_file.hpp"
+#include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
 

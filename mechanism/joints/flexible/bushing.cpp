@@ -4,8 +4,8 @@
 
 #include "mechanism/joints/actions/joint_actions.hpp"
 #include "mechanism/joints/actions/joint_spring.hpp"
+#include "mechanism/laws/read_elastic_law.hpp"
 #include "mechanism/measures/middle_frame.hpp"
-#include "mechanism/measures/read_elastic_law.hpp"
 
 namespace bielle::mechanism {
 namespace {

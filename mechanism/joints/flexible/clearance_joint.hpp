@@ -5,7 +5,7 @@
 //                        ends. The angle about the axis is free
 //   clearance_spherical  a ball in a socket
 // In the gap nothing acts. Where surfaces press into each other by p (clearance_contact.hpp), they push with
-// N = k p^n (1 + d pdot) (contact_laws/normal_law.hpp) and rub with N mu against the way they slide (friction_law.hpp):
+// N = k p^n (1 + d pdot) (laws/normal_law.hpp) and rub with N mu against the way they slide (friction_law.hpp):
 // regularised Coulomb, or bristles (bristle_step.hpp), one of each place. A bristle is zero where surfaces begin to
 // touch, rides on the bush, and follows the surface of the bore. Steps end where surfaces touch and part. With a
 // restitution, d follows from the speed of each touch: it is remembered until they part.
@@ -19,13 +19,13 @@
 #include <string>
 #include <vector>
 
-#include "mechanism/contact_laws/bristle_step.hpp"
-#include "mechanism/contact_laws/friction_law.hpp"
-#include "mechanism/contact_laws/normal_law.hpp"
 #include "mechanism/joints/flexible/clearance_contact.hpp"
 #include "mechanism/joints/joint.hpp"
+#include "mechanism/laws/bristle_step.hpp"
+#include "mechanism/laws/friction_law.hpp"
+#include "mechanism/laws/normal_law.hpp"
 #include "mechanism/model/open_contact.hpp"
-#include "reduce/common/yaml_file.hpp"
+#include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
 

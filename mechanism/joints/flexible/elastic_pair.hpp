@@ -5,7 +5,7 @@
 #pragma once
 
 #include "mechanism/joints/joint.hpp"
-#include "mechanism/measures/elastic_law.hpp"
+#include "mechanism/laws/elastic_law.hpp"
 
 namespace bielle::mechanism {
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "mechanism/joints/joint.hpp"
-#include "reduce/common/yaml_file.hpp"
+#include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
 

@@ -17,8 +17,8 @@
 #include <string>
 #include <vector>
 
-#include "mechanism/contact_laws/friction_law.hpp"
 #include "mechanism/joints/joint.hpp"
+#include "mechanism/laws/friction_law.hpp"
 
 namespace bielle::mechanism {
 

@@ -16,7 +16,7 @@
 #include "mechanism/joints/gears/tooth_contact.hpp"
 #include "mechanism/model/model.hpp"
 #include "mechanism/model/references.hpp"
-#include "reduce/common/yaml_file.hpp"
+#include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
 

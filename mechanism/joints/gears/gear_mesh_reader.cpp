@@ -9,7 +9,7 @@
 #include "mechanism/joints/gears/tooth_directions.hpp"
 #include "mechanism/model/model.hpp"
 #include "mechanism/reading/names.hpp"
-#include "reduce/common/yaml_file.hpp"
+#include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
 namespace {

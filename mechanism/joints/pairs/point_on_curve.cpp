@@ -9,7 +9,7 @@
 #include "mechanism/joints/path_press.hpp"
 #include "mechanism/model/description.hpp"
 #include "mechanism/reading/read_file.hpp"
-#include "reduce/common/table_file.hpp"
+#include "reduce/common/files/table_file.hpp"
 
 namespace bielle::mechanism {
 namespace {

@@ -10,7 +10,7 @@
 #include <mpi.h>
 
 #include "reduce/common/error.hpp"
-#include "reduce/common/sleeping_threads.hpp"
+#include "reduce/common/process/sleeping_threads.hpp"
 #include "reduce/distributed/greeting.hpp"
 #include "reduce/distributed/ranks/driver.hpp"
 #include "reduce/distributed/ranks/service.hpp"

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "reduce/common/error.hpp"
-#include "reduce/common/free_memory.hpp"
+#include "reduce/common/process/free_memory.hpp"
 
 namespace bielle::reduce {
 

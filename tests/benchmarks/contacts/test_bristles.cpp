@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "mechanism/contact_laws/friction_law.hpp"
+#include "mechanism/laws/friction_law.hpp"
 #include "tests/benchmarks/contacts/contact_runs.hpp"
 #include "tests/support/dense_model.hpp"
 #include "tests/support/finite_difference.hpp"

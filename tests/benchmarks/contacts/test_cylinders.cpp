@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "mechanism/joints/contacts/pair_touches.hpp"
+#include "mechanism/contacts/pair_touches.hpp"
 #include "mechanism/math/so3.hpp"
 #include "tests/benchmarks/contacts/contact_runs.hpp"
 #include "tests/support/placed_shapes.hpp"

@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "mechanism/contact_laws/normal_law.hpp"
+#include "mechanism/laws/normal_law.hpp"
 #include "tests/benchmarks/contacts/contact_runs.hpp"
 #include "tests/support/runge_kutta.hpp"
 

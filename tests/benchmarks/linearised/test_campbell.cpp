@@ -1,7 +1,7 @@
 // Modes of rotors over their speed, against closed forms.
 #include <cmath>
 
-#include "mechanism/session/memory_sink.hpp"
+#include "mechanism/results/memory_sink.hpp"
 #include "tests/benchmarks/linearised/modes_of.hpp"
 
 using namespace bielle::mechanism;

@@ -1,6 +1,6 @@
 // Frequency responses against closed forms and a vibration in time.
 #include "mechanism/analyses/frequency_response.hpp"
-#include "mechanism/session/memory_sink.hpp"
+#include "mechanism/results/memory_sink.hpp"
 #include "tests/benchmarks/linearised/modes_of.hpp"
 
 using namespace bielle::mechanism;

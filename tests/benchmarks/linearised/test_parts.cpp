@@ -1,6 +1,6 @@
 // Modes of actuators and superelements, and what the analysis records of modes.
 #include "mechanism/analyses/analysis_table.hpp"
-#include "mechanism/session/memory_sink.hpp"
+#include "mechanism/results/memory_sink.hpp"
 #include "reduce/dense/symmetric_eigenpairs.hpp"
 #include "tests/benchmarks/linearised/modes_of.hpp"
 #include "tests/support/beam_superelement.hpp"

@@ -4,7 +4,7 @@
 
 #include "mechanism/analyses/frequency_response.hpp"
 #include "mechanism/analyses/state_space.hpp"
-#include "mechanism/session/memory_sink.hpp"
+#include "mechanism/results/memory_sink.hpp"
 #include "tests/benchmarks/linearised/modes_of.hpp"
 
 using namespace bielle::mechanism;

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "mechanism/analyses/frequency_response.hpp"
-#include "mechanism/session/memory_sink.hpp"
+#include "mechanism/results/memory_sink.hpp"
 #include "mechanism/solvers/linearised/equation_products.hpp"
 #include "mechanism/solvers/linearised/modal_poles.hpp"
 #include "tests/benchmarks/linearised/modes_of.hpp"

@@ -8,7 +8,7 @@
 
 #include "mechanism/analyses/kinematics.hpp"
 #include "mechanism/io/mechanism_file.hpp"
-#include "mechanism/session/memory_sink.hpp"
+#include "mechanism/results/memory_sink.hpp"
 #include "mechanism/session/session.hpp"
 #include "tests/support/messages.hpp"
 #include "tests/support/second_order.hpp"

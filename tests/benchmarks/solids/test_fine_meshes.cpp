@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "reduce/body_file.hpp"
+#include "reduce/body_file/body_file.hpp"
 #include "reduce/common/progress.hpp"
 #include "reduce/mesh/import.hpp"
 #include "reduce/reduction/checks.hpp"

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/io/run_analyses.hpp"
-#include "reduce/common/hdf5_file.hpp"
+#include "reduce/common/files/hdf5_file.hpp"
 #include "reduce/reduction/reduce_body.hpp"
 #include "tests/support/box_mesh.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -10,17 +10,18 @@ import re
 
 # "" is the program's own folder: what stands beside main.
 FOLDERS = {
-    "reduce": ["common", "dense", "sparse", "spectral", "superelement", "mesh", "fe", "reduction", "distributed", "distributed/ranks", ""],
-    "mechanism": ["math", "model", "reading", "contact_laws", "measures",
+    "reduce": ["common", "common/process", "common/files", "common/formula", "common/input", "dense", "sparse", "spectral", "superelement", "mesh", "fe", "reduction", "distributed", "distributed/ranks",
+               "body_file", "report", ""],
+    "mechanism": ["math", "model", "reading", "measures", "laws", "contacts",
                   "elements/beam", "elements/control", "elements/forces", "elements/rigid_body",
                   "elements/superelement/recovery", "elements/superelement",
-                  "joints", "joints/friction", "joints/actions", "joints/cables", "joints/couplings", "joints/flexible", "joints/gears", "joints/pairs", "joints/cams", "joints/contacts",
+                  "joints", "joints/friction", "joints/actions", "joints/cables", "joints/couplings", "joints/flexible", "joints/gears", "joints/pairs", "joints/cams",
                   "hydraulics/circuit", "hydraulics/lines", "hydraulics/actuators", "hydraulics/reading",
                   "system", "solvers/newton", "solvers/constraints", "solvers/start", "solvers/linearised", "solvers/statics", "solvers/dynamics",
-                  "session", "analyses", "io", "python", ""],
+                  "results", "session", "analyses", "io", "python", ""],
 }
-SHARED = ["common", "dense", "spectral", "superelement"]
-COMPONENTS = [f for f in FOLDERS["mechanism"] if f.split("/")[0] in ("contact_laws", "measures", "elements", "joints", "hydraulics")]
+SHARED = ["common", "common/process", "common/files", "common/formula", "common/input", "dense", "spectral", "superelement"]
+COMPONENTS = [f for f in FOLDERS["mechanism"] if f.split("/")[0] in ("measures", "laws", "contacts", "elements", "joints", "hydraulics")]
 SOLVING = [f for f in FOLDERS["mechanism"] if f.split("/")[0] in ("system", "solvers")]
 
 

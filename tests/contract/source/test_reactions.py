@@ -5,7 +5,7 @@ import re
 import unittest
 
 ROOT = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", ".."))
-FOLDERS = ("contact_laws", "measures", "elements", "joints", "hydraulics", "analyses", "session", "io", "python")
+FOLDERS = ("laws", "contacts", "measures", "elements", "joints", "hydraulics", "analyses", "session", "io", "python")
 # Functions that write the equations of motion or parts of them.
 EQUATIONS = {"add_residual", "add_tangent", "add_kept", "add_kept_tangent", "evaluate_motion"}
 FUNCTION = re.compile(r"(\w+)\([^()]*\bLocalState& ")

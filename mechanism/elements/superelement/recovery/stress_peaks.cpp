@@ -9,7 +9,7 @@
 
 #include "mechanism/elements/superelement/recovery/stress_invariants.hpp"
 #include "mechanism/elements/superelement/recovery/stress_tiles.hpp"
-#include "reduce/common/hdf5_file.hpp"
+#include "reduce/common/files/hdf5_file.hpp"
 
 namespace bielle::mechanism {
 namespace {

@@ -1,9 +1,9 @@
 // Writes a superelement, reads it back, and asks the mechanism's library for a rotation.
 #include <cstdio>
 
-#include "mechanism/io/results_file.hpp"
 #include "mechanism/math/so3.hpp"
 #include "mechanism/model/model.hpp"
+#include "mechanism/results/results_file.hpp"
 #include "reduce/superelement/superelement.hpp"
 
 int main() {

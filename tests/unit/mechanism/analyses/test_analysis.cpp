@@ -5,8 +5,8 @@
 #include "mechanism/analyses/static_analysis.hpp"
 #include "mechanism/io/describe_model.hpp"
 #include "mechanism/io/run_analyses.hpp"
-#include "mechanism/session/memory_sink.hpp"
-#include "reduce/common/hdf5_file.hpp"
+#include "mechanism/results/memory_sink.hpp"
+#include "reduce/common/files/hdf5_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace bielle;

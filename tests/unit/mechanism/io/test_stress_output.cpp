@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/io/run_analyses.hpp"
-#include "reduce/common/hdf5_file.hpp"
+#include "reduce/common/files/hdf5_file.hpp"
 #include "tests/support/beam_superelement.hpp"
 #include "tests/support/messages.hpp"
 #include "tests/support/temporary_folder.hpp"

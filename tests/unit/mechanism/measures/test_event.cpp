@@ -8,7 +8,7 @@
 
 #include "mechanism/elements/rigid_body/rigid_body.hpp"
 #include "mechanism/io/mechanism_file.hpp"
-#include "mechanism/session/memory_sink.hpp"
+#include "mechanism/results/memory_sink.hpp"
 #include "mechanism/session/session.hpp"
 #include "tests/support/messages.hpp"
 #include "tests/support/session_model.hpp"

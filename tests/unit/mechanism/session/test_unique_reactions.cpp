@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 
 #include "mechanism/io/run_analyses.hpp"
-#include "mechanism/session/memory_sink.hpp"
-#include "reduce/common/hdf5_file.hpp"
+#include "mechanism/results/memory_sink.hpp"
+#include "reduce/common/files/hdf5_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace bielle;

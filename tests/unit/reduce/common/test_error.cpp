@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "reduce/common/error.hpp"
-#include "reduce/common/run_program.hpp"
+#include "reduce/common/process/run_program.hpp"
 
 using bielle::did_you_mean;
 using bielle::nearest_name;

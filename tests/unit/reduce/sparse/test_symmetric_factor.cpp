@@ -11,9 +11,9 @@
 #include <malloc.h>
 #include <sys/resource.h>
 
-#include "reduce/common/address_space.hpp"
 #include "reduce/common/error.hpp"
-#include "reduce/common/free_memory.hpp"
+#include "reduce/common/process/address_space.hpp"
+#include "reduce/common/process/free_memory.hpp"
 #include "reduce/dense/blas.hpp"
 #include "reduce/sparse/block_graph.hpp"
 #include "reduce/sparse/factor_structure.hpp"

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "reduce/common/error.hpp"
-#include "reduce/common/hdf5_file.hpp"
+#include "reduce/common/files/hdf5_file.hpp"
 #include "reduce/dense/dense_solves.hpp"
 #include "reduce/superelement/modal_damping.hpp"
 #include "reduce/superelement/named_points.hpp"

@@ -10,7 +10,7 @@
 #include <catch2/catch.hpp>
 
 #include "reduce/common/error.hpp"
-#include "reduce/common/hdf5_file.hpp"
+#include "reduce/common/files/hdf5_file.hpp"
 #include "reduce/superelement/named_points.hpp"
 #include "reduce/superelement/superelement.hpp"
 #include "tests/support/messages.hpp"

@@ -8,7 +8,7 @@
 
 #include "mechanism/analyses/statics.hpp"
 #include "mechanism/io/mechanism_file.hpp"
-#include "mechanism/session/memory_sink.hpp"
+#include "mechanism/results/memory_sink.hpp"
 #include "mechanism/session/session.hpp"
 
 using namespace bielle;

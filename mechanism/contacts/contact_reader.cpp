@@ -1,0 +1,187 @@
+// `contact`: its shapes, which of them may touch, and the laws of their surfaces.
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "mechanism/contacts/contact.hpp"
+#include "mechanism/math/axes_along.hpp"
+#include "mechanism/reading/names.hpp"
+#include "mechanism/reading/read_file.hpp"
+#include "mechanism/reading/read_frame.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+const std::vector<std::string> shape_words = {"sphere", "plane", "capsule", "cylinder", "box", "surface"};
+
+/// Of box and cylinder: how much their edges are rounded. @param thinnest  of their dimensions
+double read_rounding(const YamlValue& entry, double thinnest) {
+  const auto given = entry.find("rounding");
+  if (!given) return 0.05 * thinnest;
+  const double rounding = given->positive_number();
+  if (rounding >= 0.5 * thinnest)
+    given->fail(
+        fmt::format("edges are rounded by less than half of the shape's thinnest part, {:.6g} m", 0.5 * thinnest));
+  return rounding;
+}
+
+double length_unit(const YamlValue& entry) {
+  const auto units = entry.find("units");
+  if (!units) return 1;
+  const std::string unit = units->word({"m", "mm", "cm", "inch"}, "a unit of length");
+  return unit == "mm" ? 1e-3 : unit == "cm" ? 1e-2 : unit == "inch" ? 0.0254 : 1;
+}
+
+void read_dimensions(const YamlValue& entry, const std::string& word, ContactShape& shape) {
+  using Kind = ContactShape::Kind;
+  const YamlValue given = entry.at(word);
+  if (word == "sphere") {
+    shape.kind = Kind::sphere;
+    shape.radius = given.positive_number();
+  } else if (word == "plane") {
+    shape.kind = Kind::plane;
+    shape.frame.R = shape.frame.R * axes_along(given.direction());
+  } else if (word == "capsule" || word == "cylinder") {
+    const VectorX sizes = given.positive_numbers(2, "[radius, length]");
+    shape.kind = word == "capsule" ? Kind::capsule : Kind::cylinder;
+    shape.radius = sizes[0];
+    shape.half_length = 0.5 * sizes[1];
+    if (shape.kind == Kind::cylinder) shape.rounding = read_rounding(entry, std::min(2 * sizes[0], sizes[1]));
+  } else if (word == "box") {
+    shape.kind = Kind::box;
+    shape.half = 0.5 * given.positive_numbers(3, "[length along x, y, z]");
+    shape.rounding = read_rounding(entry, 2 * shape.half.minCoeff());
+  } else {
+    shape.kind = Kind::surface;
+    const double unit = length_unit(entry);
+    shape.surface = read_named_file(
+        given, [&](const std::string& path) { return std::make_shared<const TriangleSurface>(read_stl(path, unit)); });
+    if (!entry.has("units") && shape.surface->size() > 20)
+      given.doubt(
+          fmt::format("is {:.3g} m from end to end; are its lengths in mm? Then `units: mm`", shape.surface->size()));
+    if (shape.surface->flipped_edges() > 0)
+      given.doubt(
+          fmt::format("has {} edges at which inside and outside change places: triangles are listed "
+                      "anticlockwise, seen from outside",
+                      shape.surface->flipped_edges()));
+  }
+}
+
+ContactShape read_shape(const YamlValue& entry, const Model& model) {
+  std::vector<std::string> keys = {"node", "at", "rounding", "units"};
+  keys.insert(keys.end(), shape_words.begin(), shape_words.end());
+  keys.insert(keys.end(), orientation_keys().begin(), orientation_keys().end());
+  entry.check_keys(keys, "a shape of a contact");
+  std::string word;
+  for (const std::string& each : shape_words) {
+    if (!entry.has(each)) continue;
+    if (!word.empty()) entry.fail(fmt::format("has two shapes, `{}` and `{}`", word, each));
+    word = each;
+  }
+  if (word.empty()) entry.fail("give the shape: `sphere`, `plane`, `capsule`, `cylinder`, `box` or `surface`");
+  ContactShape shape;
+  shape.node = node_named_by(entry.at("node"), model);
+  shape.node_name = model.node(shape.node).name;
+  if (const auto at = entry.find("at")) shape.frame.x = at->vector3();
+  shape.frame.R = read_orientation(entry);
+  read_dimensions(entry, word, shape);
+  if (const auto rounding = entry.find("rounding");
+      rounding && shape.kind != ContactShape::Kind::box && shape.kind != ContactShape::Kind::cylinder)
+    rounding->fail("belongs to a box or a cylinder");
+  if (const auto units = entry.find("units"); units && shape.kind != ContactShape::Kind::surface)
+    units->fail("belongs to a `surface`; all else is in metres");
+  shape.complete();
+  return shape;
+}
+
+/// The node that a node moves with, and whether that one never moves.
+std::pair<int, bool> moves_with(int node, const Model& model) {
+  while (const auto carrier = model.node(node).carrier) node = *carrier;
+  const auto& freedom = model.node(node).freedom;
+  return {node, std::all_of(freedom.begin(), freedom.end(), [](Freedom f) { return f == Freedom::fixed; })};
+}
+
+struct ReadShapes {
+  std::vector<ContactShape> shapes;
+  std::vector<YamlValue> entries;
+  std::vector<int> group;  ///< shapes of one group do not touch; -1: of none
+};
+
+ReadShapes read_shapes(const YamlValue& entry, const Model& model) {
+  if (entry.has("shapes") == entry.has("between"))
+    entry.fail("a contact takes either `shapes`, which may all touch each other, or `between`, two lists of shapes");
+  ReadShapes read;
+  const auto add = [&](const YamlValue& list, int group) {
+    for (const YamlValue& item : list.items()) {
+      read.shapes.push_back(read_shape(item, model));
+      read.entries.push_back(item);
+      read.group.push_back(group);
+    }
+  };
+  if (const auto shapes = entry.find("shapes")) {
+    add(*shapes, -1);
+    if (read.shapes.size() < 2) shapes->fail("expected at least two shapes");
+    return read;
+  }
+  const YamlValue between = entry.at("between");
+  const std::vector<YamlValue> groups = between.items();
+  if (groups.size() != 2) between.fail("expected two lists of shapes");
+  for (const int k : {0, 1}) {
+    add(groups[static_cast<std::size_t>(k)], k);
+    if (groups[static_cast<std::size_t>(k)].size() == 0)
+      groups[static_cast<std::size_t>(k)].fail("expected at least one shape");
+  }
+  return read;
+}
+
+std::vector<std::pair<int, int>> pairs_of(const ReadShapes& read, const YamlValue& entry, const Model& model) {
+  std::vector<std::pair<int, int>> pairs;
+  for (std::size_t a = 0; a < read.shapes.size(); ++a)
+    for (std::size_t b = a + 1; b < read.shapes.size(); ++b) {
+      const ContactShape &first = read.shapes[a], &second = read.shapes[b];
+      if (read.group[a] >= 0 && read.group[a] == read.group[b]) continue;
+      const auto [first_node, first_fixed] = moves_with(first.node, model);
+      const auto [second_node, second_fixed] = moves_with(second.node, model);
+      if (first_node == second_node || (first_fixed && second_fixed)) continue;
+      if (!can_touch(first.kind, second.kind))
+        read.entries[b].fail(fmt::format("nothing is known of how a {} touches a {}; a {} can touch: {}",
+                                         second.kind_name(), first.kind_name(), second.kind_name(),
+                                         touchable_kinds(second.kind)));
+      pairs.emplace_back(static_cast<int>(a), static_cast<int>(b));
+    }
+  if (pairs.empty())
+    (entry.has("shapes") ? entry.at("shapes") : entry.at("between"))
+        .fail("no two of them can touch: they belong to the same node, or neither of them can move");
+  return pairs;
+}
+
+}  // namespace
+
+void read_contact(const std::string& name, const YamlValue& entry, Model& model) {
+  std::vector<std::string> keys = {"type", "shapes", "between", "friction"};
+  keys.insert(keys.end(), normal_law_keys().begin(), normal_law_keys().end());
+  entry.check_keys(keys, "a contact");
+  SurfaceLaw law;
+  law.normal = read_normal_law(entry, 1.5);
+  if (const auto friction = entry.find("friction")) {
+    friction->check_keys(friction_law_keys(), "the friction of a contact");
+    law.friction = read_friction_law(*friction, {"coulomb", "lugre"});
+  }
+  ReadShapes read = read_shapes(entry, model);
+  std::vector<std::pair<int, int>> pairs = pairs_of(read, entry, model);
+  auto contact = std::make_unique<Contact>(name, std::move(read.shapes), std::move(pairs), law);
+  std::string depth;
+  double share = 0;
+  try {
+    std::tie(depth, share) = contact->drawn_into_each_other(model);
+  } catch (const InputError& error) {
+    entry.fail(error.what());
+  }
+  if (share > 0.02) entry.doubt(depth + ": they will be thrown apart");
+  contact->set_remark(depth);
+  model.add_within(std::move(contact), Entry{Section::joints, name}, Entry{Section::contacts, name});
+}
+
+}  // namespace bielle::mechanism

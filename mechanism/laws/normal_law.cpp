@@ -1,0 +1,87 @@
+#include "mechanism/laws/normal_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace bielle::mechanism {
+namespace {
+
+/// ln((1 + x)/(1 - e x)) - x (1 + e), x in [0, 1/e): zero at 0 and at delta(e), negative between.
+double imbalance(double x, double e) { return std::log1p(x) - std::log1p(-e * x) - x * (1 + e); }
+
+}  // namespace
+
+// Below 1/e, where the logarithm is infinite. Bisection, once for a touch.
+double damping_for_restitution(double restitution) {
+  if (restitution >= 1) return 0;
+  // For e near 1 the imbalance is of third order in x: delta = (3/2)(1 - e) + .. .
+  double low = std::min(0.5 * (1 - restitution), 0.25 / restitution), high = (1 - 1e-16) / restitution;
+  while (imbalance(low, restitution) > 0) low /= 2;
+  for (int k = 0; k < 200 && high - low > 1e-16 * high; ++k) {
+    const double middle = 0.5 * (low + high);
+    (imbalance(middle, restitution) < 0 ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+double restitution_for_damping(double damping_times_speed) {
+  const double x = damping_times_speed;
+  if (x < 1e-4) return 1 - 2. / 3 * x + 4. / 9 * x * x;
+  // The imbalance grows with e, from ln(1 + x) - x < 0 to infinity at 1/x.
+  double low = 0, high = std::min(1.0, 1 / x);
+  for (int k = 0; k < 200 && high - low > 1e-16; ++k) {
+    const double middle = 0.5 * (low + high);
+    const double value = middle * x >= 1 ? 1 : imbalance(x, middle);
+    (value < 0 ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+double NormalLaw::damping_after(double speed) const {
+  if (restitution == 0) return damping;
+  return damping_for_restitution(restitution) / std::max(speed, slowest_impact);
+}
+
+NormalLaw::Force NormalLaw::force(double p, double rate, double d) const {
+  const double push = 1 + d * rate;
+  if (p <= 0 || push <= 0) return {};
+  const double power = std::pow(p, exponent);
+  return {stiffness * power * push, stiffness * exponent * power / p * push, stiffness * power * d};
+}
+
+double NormalLaw::energy(double p) const { return p > 0 ? stiffness * std::pow(p, exponent + 1) / (exponent + 1) : 0; }
+
+std::string NormalLaw::describe() const {
+  std::string text = fmt::format("stiffness {:.6g} N/m^{:.6g}", stiffness, exponent);
+  if (restitution > 0) text += fmt::format(", restitution {:.6g} at every speed", restitution);
+  if (damping > 0) text += fmt::format(", damping {:.6g} s/m", damping);
+  return text;
+}
+
+const std::vector<std::string>& normal_law_keys() {
+  static const std::vector<std::string> keys = {"stiffness", "exponent", "damping", "restitution"};
+  return keys;
+}
+
+NormalLaw read_normal_law(const YamlValue& entry, double exponent, std::optional<double> stiffness) {
+  NormalLaw law;
+  law.stiffness = stiffness ? *stiffness : entry.at("stiffness").positive_number();
+  law.exponent = exponent;
+  if (const auto given = entry.find("exponent")) {
+    law.exponent = given->number();
+    if (law.exponent < 1) given->fail("expected an exponent of at least 1 (1.5 is a Hertzian contact)");
+  }
+  if (const auto damping = entry.find("damping")) {
+    law.damping = damping->non_negative_number();
+    if (entry.has("restitution")) damping->fail("give either `damping` or `restitution`");
+  }
+  if (const auto restitution = entry.find("restitution")) {
+    law.restitution = restitution->positive_number();
+    if (law.restitution > 1) restitution->fail("expected a coefficient of restitution above 0 and up to 1");
+  }
+  return law;
+}
+
+}  // namespace bielle::mechanism

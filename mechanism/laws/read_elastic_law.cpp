@@ -1,0 +1,165 @@
+#include "mechanism/laws/read_elastic_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "mechanism/reading/read_file.hpp"
+#include "reduce/common/files/table_file.hpp"
+#include "reduce/dense/symmetric_eigenpairs.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+constexpr double rounding_of_files = 1e-6;  ///< matrices come from other programs with some seven digits
+
+/// Six numbers, the diagonal, or a matrix.
+MatrixX read_diagonal_or_matrix(const YamlValue& value) {
+  if (value.is_map()) return read_square_matrix(value, 6);
+  if (!value.is_sequence() || value.size() != 6)
+    value.fail("expected six numbers, along and about x, y, z, or a 6x6 matrix by rows");
+  if (value.at(std::size_t{0}).is_sequence()) return read_square_matrix(value, 6);
+  const Eigen::VectorXd numbers = value.vector();
+  for (std::size_t k = 0; k < 6; ++k) value.at(k).non_negative_number();
+  return numbers.asDiagonal();
+}
+
+Matrix6 read_stiffness(const YamlValue& value) {
+  MatrixX K = read_diagonal_or_matrix(value);
+  make_symmetric(value, K);
+  check_semidefinite(value, K,
+                     "a spring that pushes away from where it is free; what is to do so is one of the `curves`");
+  return K;
+}
+
+Matrix6 read_damping(const YamlValue& value, const Matrix6& K) {
+  if (value.is_scalar()) {
+    if (K.isZero(0)) value.fail("one number is a time that multiplies the `stiffness`, which is missing");
+    return value.non_negative_number() * K;
+  }
+  const MatrixX D = read_diagonal_or_matrix(value);
+  check_semidefinite(value, 0.5 * (D + D.transpose()), "a damper that drives the motion");
+  return D;
+}
+
+/// File names end like tables; other text is a formula.
+bool names_table(const YamlValue& value) {
+  if (!value.is_scalar() || value.is_null()) return false;
+  const std::string text = value.text();
+  for (const std::string ending : {".csv", ".txt", ".dat"})
+    if (text.size() > ending.size() && text.ends_with(ending)) return true;
+  return false;
+}
+
+/// @returns whether it is a table, which the law takes
+bool read_curve(const YamlValue& value, std::size_t k, ElasticLaw& law) {
+  if (!value.is_map() && !names_table(value)) return false;
+  if (value.is_map()) value.check_keys({"table"}, "a curve");
+  law.curves[k] = read_named_file(value.is_map() ? value.at("table") : value,
+                                  [](const std::string& path) { return ForceCurve::from_file(path); });
+  return true;
+}
+
+MaxwellBranch read_branch(const YamlValue& entry, const Matrix6& K) {
+  entry.check_keys({"stiffness", "factor", "time"}, "a branch");
+  MaxwellBranch branch;
+  if (entry.has("stiffness") == entry.has("factor"))
+    entry.fail("a branch takes either its `stiffness` or a `factor` of that of the whole");
+  if (const auto factor = entry.find("factor")) {
+    if (K.isZero(0)) factor->fail("multiplies the `stiffness`, which is missing");
+    branch.K = factor->non_negative_number() * K;
+  } else {
+    branch.K = read_stiffness(entry.at("stiffness"));
+  }
+  branch.time = entry.at("time").non_negative_number();
+  return branch;
+}
+
+}  // namespace
+
+MatrixX read_square_matrix(const YamlValue& value, Eigen::Index rows) {
+  if (!value.is_map()) return value.matrix(rows, rows);
+  value.check_keys({"file"}, "a matrix");
+  const YamlValue file = value.at("file");
+  const MatrixX A = read_named_file(file, [&](const std::string& path) { return MatrixX(read_table(path, rows)); });
+  if (A.rows() != rows) file.fail(fmt::format("has {} rows: expected {} of {} numbers", A.rows(), rows, rows));
+  return A;
+}
+
+void make_symmetric(const YamlValue& value, MatrixX& A) {
+  const double largest = A.cwiseAbs().maxCoeff();
+  for (Eigen::Index i = 0; i < A.rows(); ++i)
+    for (Eigen::Index j = 0; j < i; ++j)
+      if (std::abs(A(i, j) - A(j, i)) > rounding_of_files * std::max(std::abs(A(i, j)), std::abs(A(j, i))) &&
+          std::abs(A(i, j) - A(j, i)) > 1e-12 * largest)
+        value.fail(fmt::format("is not symmetric: {:.9g} in row {}, column {}, and {:.9g} in row {}, column {}",
+                               A(i, j), i + 1, j + 1, A(j, i), j + 1, i + 1));
+  A = (0.5 * (A + A.transpose())).eval();
+}
+
+void check_semidefinite(const YamlValue& value, const MatrixX& A, const char* what) {
+  const Eigen::Index n = A.rows();
+  Eigen::VectorXd scale(n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    if (A(k, k) < 0 || (A(k, k) == 0 && !A.row(k).isZero(0)))
+      value.fail(fmt::format("is not positive semidefinite ({:.6g} in row {} of the diagonal): that is {}", A(k, k),
+                             k + 1, what));
+    scale[k] = A(k, k) > 0 ? 1 / std::sqrt(A(k, k)) : 0;
+  }
+  const MatrixX scaled = scale.asDiagonal() * A * scale.asDiagonal();
+  if (!scaled.allFinite()) value.fail("has entries of sizes that do not go together");
+  const double least = symmetric_eigenpairs(scaled).values[0];
+  if (least < -rounding_of_files)
+    value.fail(
+        fmt::format("is not positive semidefinite (an eigenvalue of {:.6g} where the diagonal is scaled to 1): "
+                    "that is {}",
+                    least, what));
+}
+
+const std::vector<std::string>& elastic_law_keys() {
+  static const std::vector<std::string> keys = {"stiffness", "damping", "preload", "curves", "maxwell"};
+  return keys;
+}
+
+std::vector<CurveFormula> read_elastic_law(const YamlValue& entry, ElasticLaw& law) {
+  std::vector<CurveFormula> formulas;
+  const auto stiffness = entry.find("stiffness"), damping = entry.find("damping"), preload = entry.find("preload"),
+             curves = entry.find("curves"), maxwell = entry.find("maxwell");
+  if (stiffness) law.K = read_stiffness(*stiffness);
+  if (damping) law.D = read_damping(*damping, law.K);
+  if (preload) {
+    const Eigen::VectorXd forces = preload->vector();
+    if (forces.size() != 6) preload->fail("expected six numbers: forces along x, y, z [N], moments about them [N m]");
+    law.preload = forces;
+  }
+  if (curves) {
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < law.size(); ++k) names.push_back(law.measure_name(k));
+    curves->check_keys(names, "`curves`, which names directions");
+    for (std::size_t k = 0; k < law.size(); ++k)
+      if (const auto curve = curves->find(law.measure_name(k)); curve && !read_curve(*curve, k, law))
+        formulas.push_back({k, *curve});
+  }
+  if (maxwell) {
+    const auto branches = maxwell->items();
+    if (branches.empty()) maxwell->fail("expected at least one branch {stiffness or factor, time}");
+    // A branch that relaxes in no time bears nothing.
+    for (const YamlValue& each : branches)
+      if (const MaxwellBranch branch = read_branch(each, law.K); branch.time > 0) law.add(branch);
+  }
+  if (!stiffness && !damping && !curves && !maxwell)
+    entry.fail("expected `stiffness`, `damping`, `curves` or `maxwell`: nothing else joins the nodes");
+  const bool curved = !formulas.empty() || std::any_of(law.curves.begin(), law.curves.end(),
+                                                       [](const auto& curve) { return curve.has_value(); });
+  const bool branched = std::any_of(law.branches().begin(), law.branches().end(),
+                                    [](const MaxwellBranch& branch) { return !branch.K.isZero(0); });
+  if (law.K.isZero(0) && law.D.isZero(0) && !curved && !branched)
+    (stiffness ? *stiffness
+     : damping ? *damping
+               : entry)
+        .fail("does nothing: all of its stiffness and damping is zero");
+  return formulas;
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,278 @@
+#include "mechanism/results/results_stream.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "mechanism/results/results_datasets.hpp"
+#include "reduce/common/counted.hpp"
+#include "reduce/common/error.hpp"
+
+namespace bielle::mechanism {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Rows wait in memory at most so long, or, where writing takes longer (thousands of datasets), so many times as long as
+// that.
+constexpr std::chrono::milliseconds longest_wait{200}, wait_of_large_models{2000};
+constexpr int wait_per_writing = 10;
+// States wait in queues of at most so many bytes and states; the writing thread comes for them when half a queue is
+// full.
+constexpr std::size_t queue_bytes = std::size_t{8} << 20, most_queued = 128;
+// Rows are written in blocks of at most so many bytes and rows.
+constexpr std::size_t block_bytes = std::size_t{32} << 20, most_block_rows = 512;
+// Rows of a column of so many numbers are written one by one: a call costs less than copying them next to each other.
+constexpr std::size_t large_column = 8192;
+// The file grows by so many bytes of results, or by less when the number of rows is known.
+constexpr std::size_t known_growth_bytes = std::size_t{1} << 30, unknown_growth_bytes = std::size_t{4} << 20;
+constexpr std::size_t most_growth_rows = std::size_t{1} << 20, unknown_growth_rows = 8192;
+
+/// Pieces of `piece` bytes that fit, at least one.
+std::size_t pieces_in(std::size_t bytes, std::size_t piece, std::size_t most) {
+  return std::clamp<std::size_t>(bytes / piece, 1, most);
+}
+
+std::size_t bytes_of(const State& state) {
+  const auto numbers =
+      3 * state.amplitude.size() + 2 * state.first_order.size() + state.multiplier.size() + state.memory.size();
+  return sizeof(State) + sizeof(NodeState) * state.nodes.size() + sizeof(double) * static_cast<std::size_t>(numbers);
+}
+
+}  // namespace
+
+ResultsStream::ResultsStream(Hdf5File results, const Model& model, std::optional<ResultsLayout> layout)
+    : model_(model), rows_(model), layout_(layout_for(rows_, layout)), file_(std::move(results)) {}
+
+// -- the run's side
+
+void ResultsStream::start() {
+  writer_ = std::thread([this] { write_until_told_to_stop(); });
+}
+
+ResultsStream::~ResultsStream() {
+  {
+    const std::lock_guard lock(guard_);
+    stopping_ = true;
+  }
+  changed_.notify_all();
+  if (writer_.joinable()) writer_.join();
+}
+
+void ResultsStream::begin(const std::string& group, std::size_t expected_rows) {
+  group_ = group;
+  expected_rows_ = expected_rows;
+  recorded_ = 0;
+  created_ = linked_ = false;
+  sums_.clear();
+}
+
+void ResultsStream::resume(const std::string& group, std::size_t recorded) {
+  std::vector<Checksum> sums = std::move(sums_);
+  begin(group, 0);
+  sums_ = std::move(sums);
+  recorded_ = recorded;
+  prepare_columns();
+  created_ = true;
+  link_from_root();
+}
+
+void ResultsStream::check_datasets(const std::string& group) {
+  begin(group, 0);
+  prepare_columns();
+  check_same_datasets(file_, group_, model_, rows_, layout_, columns_);
+}
+
+void ResultsStream::check_rows(std::size_t rows, std::int64_t sum) {
+  sums_.assign(datasets_.size() + 1, {});
+  for (std::size_t k = 0; k < sums_.size(); ++k) {
+    const std::size_t size = k < columns_.size() ? columns_[k].size : 1;
+    const std::size_t together = pieces_in(block_bytes, sizeof(double) * std::max<std::size_t>(size, 1), rows);
+    for (std::size_t first = 0; first < rows; first += together)
+      sums_[k].add(
+          file_.read_rows(k < columns_.size() ? datasets_[k] : time_dataset_, first, std::min(together, rows - first)));
+  }
+  if (sum_of_rows() != sum)
+    throw InputError(fmt::format(
+        "{}: {}: its first {} are not those that were written: the file is damaged, or was changed; run anew",
+        file_.path(), group_, counted(rows, "row")));
+}
+
+std::int64_t ResultsStream::sum_of_rows() const {
+  Checksum all;
+  for (const Checksum& sum : sums_) all.add(static_cast<double>(sum.value()));
+  return all.value();
+}
+
+void ResultsStream::make_room(const State& state) {
+  for (Queue* queue : {&filling_, &taken_}) {
+    queue->instants.resize(pieces_in(queue_bytes, bytes_of(state), most_queued));
+    for (Instant& instant : queue->instants) instant.state = state;
+  }
+}
+
+void ResultsStream::record(const State& state, const std::vector<Slots>& slots, const Environment& environment,
+                           const StepRecord& step) {
+  if (group_.empty()) throw std::logic_error("a row of results outside of an analysis");
+  std::unique_lock lock(guard_);
+  changed_.wait(lock,
+                [&] { return failure_ || filling_.instants.empty() || filling_.count < filling_.instants.size(); });
+  check();
+  if (filling_.instants.empty()) make_room(state);
+  Instant& instant = filling_.instants[filling_.count++];
+  instant.state = state;
+  instant.slots = &slots;
+  instant.environment = environment;
+  instant.step = step;
+  ++recorded_;
+  ++waiting_;
+  const std::size_t size = filling_.instants.size();
+  if (filling_.count == size || 2 * filling_.count == size) changed_.notify_all();
+}
+
+void ResultsStream::wait_until_all_is_written() {
+  std::unique_lock lock(guard_);
+  wanted_now_ = true;
+  changed_.notify_all();
+  changed_.wait(lock, [&] { return failure_ || waiting_ == 0; });
+  wanted_now_ = false;
+  check();
+}
+
+// -- the writing thread
+
+void ResultsStream::write_until_told_to_stop() {
+  std::unique_lock lock(guard_);
+  Clock::duration wait = longest_wait;
+  auto written = Clock::now();
+  const auto wanted = [&] {
+    return stopping_ || (!failure_ && waiting_ > 0 && (wanted_now_ || 2 * filling_.count >= filling_.instants.size()));
+  };
+  while (true) {
+    changed_.wait_until(lock, written + wait, wanted);
+    if (failure_) {
+      if (stopping_) return;
+      written = Clock::now();  // nothing more will be
+      continue;
+    }
+    const bool at_once = stopping_ || wanted_now_;
+    std::swap(filling_, taken_);
+    filling_.count = 0;
+    lock.unlock();
+    changed_.notify_all();
+    std::exception_ptr failed;
+    std::size_t done = 0;
+    try {
+      for (std::size_t k = 0; k < taken_.count;) {
+        k += make_rows(k);
+        if (block_.rows < block_.times.size()) continue;
+        done += block_.rows;
+        write_block();
+      }
+      const auto now = Clock::now();
+      if (block_.rows > 0 && (at_once || now >= written + wait)) {
+        done += block_.rows;
+        write_block();
+        wait = std::clamp<Clock::duration>(wait_per_writing * (Clock::now() - now), longest_wait, wait_of_large_models);
+      }
+      if (block_.rows == 0) written = Clock::now();
+    } catch (...) {
+      failed = std::current_exception();
+    }
+    taken_.count = 0;
+    lock.lock();
+    waiting_ -= done;
+    if (failed) failure_ = failed;
+    changed_.notify_all();
+    if (stopping_ && filling_.count == 0) return;
+  }
+}
+
+std::size_t ResultsStream::make_rows(std::size_t first) {
+  if (!created_) create_columns();
+  if (block_.times.empty()) {
+    block_.times.resize(pieces_in(block_bytes, row_bytes(), most_block_rows));
+    block_.values.resize(block_.times.size() * rows_.size());
+  }
+  const std::size_t count = std::min(taken_.count - first, block_.times.size() - block_.rows);
+  views_.clear();
+  for (std::size_t k = first; k < first + count; ++k) {
+    const Instant& instant = taken_.instants[k];
+    views_.push_back({&instant.state, instant.slots, &instant.environment, &instant.step});
+    block_.times[block_.rows + k - first] = instant.step.time.value_or(instant.state.time);
+  }
+  rows_.fill(views_, block_.values.data() + block_.rows * rows_.size());
+  block_.rows += count;
+  return count;
+}
+
+/// Row by row: the processor works on several columns at a time.
+void ResultsStream::add_to_sums() {
+  if (sums_.empty()) return;
+  for (std::size_t row = 0; row < block_.rows; ++row) {
+    const double* numbers = block_.values.data() + row * rows_.size();
+    for (std::size_t k = 0; k < columns_.size(); ++k) sums_[k].add({numbers + columns_[k].begin, columns_[k].size});
+  }
+  sums_.back().add({block_.times.data(), block_.rows});
+}
+
+/// The file never counts a row that is not whole: first the data, then the times.
+void ResultsStream::write_block() {
+  add_to_sums();
+  for (std::size_t k = 0; k < datasets_.size(); ++k) {
+    const ResultsColumn& column = columns_[k];
+    const double* first = block_.values.data() + column.begin;
+    if (block_.rows == 1 || column.size >= large_column) {
+      for (std::size_t row = 0; row < block_.rows; ++row)
+        file_.append_rows(datasets_[k], {first + row * rows_.size(), column.size});
+      continue;
+    }
+    together_.resize(block_.rows * column.size);
+    for (std::size_t row = 0; row < block_.rows; ++row)
+      std::copy_n(first + row * rows_.size(), column.size, together_.data() + row * column.size);
+    file_.append_rows(datasets_[k], together_, block_.rows);
+  }
+  file_.flush();
+  file_.append_rows(time_dataset_, {block_.times.data(), block_.rows}, block_.rows);
+  file_.flush();
+  block_.rows = 0;
+  if (!linked_) link_from_root();
+}
+
+// -- the datasets of an analysis
+
+void ResultsStream::prepare_columns() {
+  if (columns_.empty()) columns_ = rows_.columns(layout_);
+  datasets_.clear();
+  for (const ResultsColumn& column : columns_) datasets_.push_back(group_ + "/" + column.dataset);
+  time_dataset_ = group_ + "/time";
+}
+
+/// All of it reaches the file at once, with the flush.
+void ResultsStream::create_columns() {
+  const std::size_t known = std::min(expected_rows_, most_growth_rows);
+  const std::size_t chunk_rows = known > 0 ? pieces_in(known_growth_bytes, row_bytes(), known)
+                                           : pieces_in(unknown_growth_bytes, row_bytes(), unknown_growth_rows);
+  prepare_columns();
+  file_.hold_back(true);
+  create_datasets(file_, group_, rows_, layout_, columns_, chunk_rows);
+  file_.create_rows(time_dataset_, {}, "s", "row 0 is the start; rows of other datasets beyond these do not count",
+                    known > 0 ? known : unknown_growth_rows);
+  file_.flush();
+  file_.hold_back(false);
+  rows_.restart();
+  sums_.assign(datasets_.size() + 1, {});
+  created_ = true;
+}
+
+void ResultsStream::link_from_root() {
+  for (const std::string& name : file_.names_in(group_)) file_.link(group_ + "/" + name, "/" + name);
+  file_.flush();
+  linked_ = true;
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,20 @@
+#include "reduce/body_file/body_axes.hpp"
+
+#include <Eigen/Geometry>
+
+#include "reduce/common/input/yaml_file.hpp"
+
+namespace bielle::reduce {
+
+Eigen::Matrix3d read_axes(const YamlValue& value) {
+  value.check_keys({"x", "y"}, "axes");
+  const Eigen::Vector3d x = value.at("x").direction();
+  const Eigen::Vector3d z = x.cross(value.at("y").direction());
+  // Nearer than that to parallel, y would say nothing reliable.
+  if (z.norm() < 1e-6) value.fail("expected two directions that are not parallel");
+  Eigen::Matrix3d axes;
+  axes << x, z.normalized().cross(x), z.normalized();
+  return axes;
+}
+
+}  // namespace bielle::reduce

@@ -1,0 +1,27 @@
+// Output files that appear when they are complete.
+#pragma once
+
+#include <string>
+
+namespace bielle {
+
+/// A file that takes its name only when it is complete: written as `<path>.partial` in the same folder, renamed by
+/// `commit()`, removed when destroyed without it. An earlier file of that name is replaced by a complete one only.
+/// Where another run writes the same file at the same time, this one writes `<path>.2.partial`: both become whole, the
+/// later one stays.
+class AtomicOutput {
+ public:
+  explicit AtomicOutput(std::string path);
+  ~AtomicOutput();
+  AtomicOutput(const AtomicOutput&) = delete;
+  AtomicOutput& operator=(const AtomicOutput&) = delete;
+  const std::string& temporary_path() const { return temporary_path_; }
+  void commit();  ///< @throws ComputationError when the rename fails
+
+ private:
+  std::string path_, temporary_path_;
+  int lock_ = -1;  ///< file descriptor that holds the temporary file
+  bool committed_ = false;
+};
+
+}  // namespace bielle

@@ -1,0 +1,114 @@
+// The inside of Hdf5File: identifiers that close themselves, and what its parts share. Not for others.
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <hdf5.h>
+
+#include "reduce/common/files/hdf5_file.hpp"
+
+namespace bielle {
+
+/// Owns one HDF5 identifier.
+class Hdf5Id {
+ public:
+  using Closer = herr_t (*)(hid_t);
+  Hdf5Id() = default;
+  Hdf5Id(hid_t id, Closer closer) : id_(id), closer_(closer) {}
+  Hdf5Id(Hdf5Id&& other) noexcept : id_(std::exchange(other.id_, -1)), closer_(other.closer_) {}
+  Hdf5Id& operator=(Hdf5Id&& other) noexcept {
+    std::swap(id_, other.id_);
+    std::swap(closer_, other.closer_);
+    return *this;
+  }
+  Hdf5Id(const Hdf5Id&) = delete;
+  Hdf5Id& operator=(const Hdf5Id&) = delete;
+  ~Hdf5Id() {
+    if (id_ >= 0) closer_(id_);
+  }
+  operator hid_t() const { return id_; }
+  bool valid() const { return id_ >= 0; }
+
+ private:
+  hid_t id_ = -1;
+  Closer closer_ = nullptr;
+};
+
+/// Text of variable length in UTF-8.
+Hdf5Id hdf5_text_type();
+/// A space of fixed size; a scalar for an empty shape.
+Hdf5Id hdf5_space(const Shape& shape);
+std::size_t count_of(const Shape& shape);   ///< the largest number where there are more
+std::string to_string(const Shape& shape);  ///< "(2, 3)"
+/// Properties of a file or group that remembers the order in which its members are made.
+/// @param kind  H5P_FILE_CREATE or H5P_GROUP_CREATE
+Hdf5Id ordered_group_properties(hid_t kind);
+/// Properties of a dataset. Like groups, datasets hold no dates: equal content makes equal files.
+Hdf5Id dataset_properties();
+/// Properties with which files are opened: of the format that every HDF5 since 1.0 reads, and that stays readable when
+/// its writer is killed after a flush.
+Hdf5Id access_properties();
+/// HDF5 prints its own errors on standard error unless told not to, by each thread.
+void silence_hdf5();
+
+/// A dataset to which rows are appended, kept open.
+struct GrowingDataset {
+  Hdf5Id dataset;
+  int rank = 0;
+  std::array<hsize_t, H5S_MAX_RANK> extent{};  ///< now; extent[0] counts the rows
+  std::size_t row_size = 1;
+};
+
+struct Hdf5File::Handle {
+  std::string path;
+  std::string base;  ///< group at which all paths start: "" or "/pieces/2"
+  bool writing = false;
+  Hdf5Id file;
+  std::map<std::string, GrowingDataset> growing;  // after `file`: closed before it
+
+  [[noreturn]] void fail(const std::string& object, const std::string& what) const {
+    const std::string message = fmt::format("{}: {}{}{}", path, at(object), object.empty() ? "" : ": ", what);
+    if (writing) throw ComputationError(message);
+    throw InputError(message);
+  }
+  /// The result of a call that returns a negative number on failure.
+  template <class Result>
+  Result checked(Result result, const std::string& object, const char* what) const {
+    if (result < 0) fail(object, what);
+    return result;
+  }
+
+  /// The path of an object in the file.
+  std::string at(const std::string& object) const {
+    if (object.empty() || base.empty()) return object;
+    return object == "/" ? base : base + object;
+  }
+  bool has(const std::string& object) const;
+  bool exists(const std::string& path_in_file) const;
+  Hdf5Id open_object(const std::string& object) const;
+  Hdf5Id open_dataset(const std::string& dataset) const;
+  void make_groups_above(const std::string& object) const;
+  void write_text_attribute(hid_t object, const std::string& path, const std::string& name,
+                            const std::string& value) const;
+  void write_values(const std::string& dataset, hid_t memory_type, hid_t file_type, const void* values,
+                    std::size_t count, const Shape& shape, const std::string& units,
+                    const std::string& description) const;
+  Hdf5Id make_dataset(const std::string& dataset, hid_t file_type, const Shape& shape, const std::string& units,
+                      const std::string& description) const;
+  void describe(hid_t object, const std::string& dataset, const std::string& units,
+                const std::string& description) const;
+  Shape shape(hid_t dataset, const std::string& name) const;
+  void check_class(hid_t dataset, const std::string& name, H5T_class_t expected) const;
+  std::vector<std::string> read_strings(const std::string& dataset) const;
+  /// How many values a dataset holds. Fails when the file is far too small for them.
+  std::size_t stored_count(hid_t dataset, const std::string& name) const;
+  GrowingDataset growing_from(Hdf5Id dataset, const std::string& name) const;
+  GrowingDataset& growing_dataset(const std::string& dataset);  // opens it when it is not
+};
+
+}  // namespace bielle

@@ -1,0 +1,176 @@
+#include "reduce/common/files/hdf5_soundness.hpp"
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include "reduce/common/error.hpp"
+#include "reduce/common/files/hdf5_handle.hpp"
+#include "reduce/common/process/child_process.hpp"
+
+namespace bielle {
+
+namespace {
+
+/// A walk reads what describes the numbers, a few kB per dataset: the largest files take a second or two. Texts come
+/// whole.
+ChildLimits limits_of_a_walk(std::uint64_t size) {
+  return {.seconds = 3 + static_cast<int>(size / 10'000'000), .memory = 3 * size + 200'000'000};
+}
+
+/// What a file is and when it was written last: device, inode, size, time.
+using Identity = std::array<std::int64_t, 5>;
+
+Identity identity_of(const std::string& path) {
+  struct stat found {};
+  if (stat(path.c_str(), &found) != 0) return {};
+  return {static_cast<std::int64_t>(found.st_dev), static_cast<std::int64_t>(found.st_ino),
+          static_cast<std::int64_t>(found.st_size), found.st_mtim.tv_sec, found.st_mtim.tv_nsec};
+}
+
+/// What a walk has found: HDF5 calls back from C, through which nothing may be thrown.
+struct Walk {
+  std::string damaged;  ///< what is wrong with an object
+};
+
+std::string name_of(hid_t object) {
+  char name[256] = {};
+  H5Iget_name(object, name, sizeof name);
+  return name;
+}
+
+std::string unreadable_text(hid_t object) { return fmt::format("a text at {} cannot be read", name_of(object)); }
+
+/// Texts have lengths that stand elsewhere in the file. Where they are damaged, HDF5 clears gigabytes before it fails.
+/// @returns whether they could be read
+bool read_texts(hid_t type, hid_t space, std::size_t count, const auto& read) {
+  if (H5Tis_variable_str(type) <= 0) {
+    std::vector<char> texts(count * H5Tget_size(type));
+    return read(type, texts.data()) >= 0;
+  }
+  std::vector<char*> texts(count, nullptr);
+  if (read(type, texts.data()) < 0) return false;
+  H5Dvlen_reclaim(type, space, H5P_DEFAULT, texts.data());
+  return true;
+}
+
+herr_t walk_attribute(hid_t object, const char* name, const H5A_info_t*, void* data) {
+  const Hdf5Id attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
+  if (!attribute.valid()) return 0;
+  const Hdf5Id type(H5Aget_type(attribute), H5Tclose), space(H5Aget_space(attribute), H5Sclose);
+  const hssize_t count = H5Sget_simple_extent_npoints(space);
+  if (count != 1) return 0;  // of other shapes none is read
+  const auto read = [&](hid_t memory, void* into) { return H5Aread(attribute, memory, into); };
+  if (H5Tget_class(type) == H5T_STRING && !read_texts(type, space, 1, read)) {
+    static_cast<Walk*>(data)->damaged = unreadable_text(object);
+    return -1;
+  }
+  std::int64_t number = 0;
+  if (H5Tget_class(type) == H5T_INTEGER) H5Aread(attribute, H5T_NATIVE_INT64, &number);
+  return 0;
+}
+
+/// Pieces of a dataset are read as they are stored: from one that is shorter than it should be, HDF5 reads what stands
+/// behind it in memory. What is compressed may have any size.
+bool has_whole_chunks(hid_t dataset, hid_t type, hid_t space, hid_t creation) {
+  if (H5Pget_layout(creation) != H5D_CHUNKED) return true;
+  hsize_t chunks = 0;
+  // Of a dataset that was being made when the program was killed there may be no index yet; reading it fails as it
+  // should.
+  if (H5Dget_num_chunks(dataset, space, &chunks) < 0 || H5Pget_nfilters(creation) > 0) return true;
+  std::array<hsize_t, H5S_MAX_RANK> shape{};
+  const int rank = H5Pget_chunk(creation, H5S_MAX_RANK, shape.data());
+  hsize_t bytes = H5Tget_size(type);
+  for (int k = 0; k < rank; ++k) bytes *= shape[static_cast<std::size_t>(k)];
+  return H5Dget_storage_size(dataset) == chunks * bytes;
+}
+
+/// @returns what is wrong with it; empty: nothing
+std::string walk_dataset(hid_t dataset) {
+  const Hdf5Id type(H5Dget_type(dataset), H5Tclose), space(H5Dget_space(dataset), H5Sclose);
+  const Hdf5Id creation(H5Dget_create_plist(dataset), H5Pclose);
+  if (!has_whole_chunks(dataset, type, space, creation))
+    return fmt::format("the pieces of {} are not as large as they should be", name_of(dataset));
+  const hssize_t count = H5Sget_simple_extent_npoints(space);
+  if (count <= 0) return {};
+  if (H5Tget_class(type) == H5T_STRING) {
+    if (static_cast<hsize_t>(count) > H5Dget_storage_size(dataset)) return {};  // refused by those who read it
+    const bool could_be_read = read_texts(type, space, static_cast<std::size_t>(count), [&](hid_t memory, void* data) {
+      return H5Dread(dataset, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, data);
+    });
+    return could_be_read ? std::string() : unreadable_text(dataset);
+  }
+  if (H5Tget_class(type) != H5T_FLOAT && H5Tget_class(type) != H5T_INTEGER) return {};
+  const std::array<hsize_t, H5S_MAX_RANK> first{};
+  const bool scalar = H5Sget_simple_extent_ndims(space) == 0;
+  if (!scalar) H5Sselect_elements(space, H5S_SELECT_SET, 1, first.data());
+  const Hdf5Id one = hdf5_space({});
+  double real = 0;
+  std::int64_t whole = 0;
+  H5Dread(dataset, H5T_NATIVE_DOUBLE, one, space, H5P_DEFAULT, &real);
+  if (H5Tget_class(type) == H5T_INTEGER) H5Dread(dataset, H5T_NATIVE_INT64, one, space, H5P_DEFAULT, &whole);
+  return {};
+}
+
+herr_t pass_over(hid_t, const char*, const H5L_info_t*, void*) { return 0; }
+
+herr_t walk_object(hid_t root, const char* name, const H5O_info_t*, void* data) {
+  const Hdf5Id object(H5Oopen(root, name, H5P_DEFAULT), H5Oclose);
+  if (!object.valid()) return 0;
+  H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, walk_attribute, data);
+  auto& walk = *static_cast<Walk*>(data);
+  if (walk.damaged.empty() && H5Iget_type(object) == H5I_DATASET) walk.damaged = walk_dataset(object);
+  if (H5Iget_type(object) == H5I_GROUP)
+    H5Literate(object, H5_INDEX_CRT_ORDER, H5_ITER_INC, nullptr, pass_over, nullptr);
+  return walk.damaged.empty() ? 0 : -1;
+}
+
+void walk(const std::string& path) {
+  const Hdf5Id access = access_properties();
+  const Hdf5Id file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose);
+  Walk found;
+  if (file.valid()) H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_NATIVE, walk_object, &found, H5O_INFO_BASIC);
+  if (!found.damaged.empty()) throw InputError(fmt::format("{}: is damaged: {}", path, found.damaged));
+}
+
+}  // namespace
+
+void check_sound(const std::string& path) {
+  static std::mutex guard;
+  static std::map<Identity, std::string> faults;  // of files that were walked through; none: ""
+  const Identity identity = identity_of(path);
+  const auto known = [&]() -> std::optional<std::string> {
+    const std::lock_guard lock(guard);
+    const auto found = faults.find(identity);
+    if (found == faults.end()) return {};
+    return found->second;
+  };
+  const auto learn = [&](const std::string& fault) {
+    const std::lock_guard lock(guard);
+    faults[identity] = fault;
+  };
+  if (const std::optional<std::string> fault = known()) {
+    if (!fault->empty()) throw InputError(*fault);
+    return;
+  }
+  try {
+    in_child_process(fmt::format("{}: is damaged: the HDF5 library crashes on it", path),
+                     limits_of_a_walk(static_cast<std::uint64_t>(identity[2])), [&] {
+                       walk(path);
+                       return std::string();
+                     });
+  } catch (const InputError& error) {
+    learn(error.what());
+    throw;
+  }
+  learn("");
+}
+
+}  // namespace bielle

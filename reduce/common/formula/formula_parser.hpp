@@ -1,0 +1,28 @@
+// From text to tree: muParser reads the grammar and calls back for every operator, function and number.
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "reduce/common/formula/formula_tree.hpp"
+
+namespace bielle {
+
+/// @param shown   what messages call the variables, one name for each
+/// @param folder  where `table('file.csv', t)` looks for relative file names
+/// @throws InputError: what is wrong, at which character (counted from 1)
+FormulaTree parse_formula(const std::string& text, const std::vector<std::string>& variables,
+                          const std::vector<std::string>& shown, const std::map<std::string, double>& constants,
+                          const std::string& folder);
+
+/// Functions and `pi`.
+const std::vector<std::string>& built_in_names();
+
+/// Whether a name is among others.
+inline bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace bielle

@@ -1,0 +1,205 @@
+#include "reduce/common/formula/formula_references.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "reduce/common/error.hpp"
+#include "reduce/common/formula/formula_parser.hpp"
+
+namespace bielle {
+
+namespace {
+
+/// muParser takes names of up to 255 characters.
+constexpr std::size_t longest_identifier = 100;
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+bool is_quote(char c) { return c == '\'' || c == '"'; }
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+
+/// A place where a reference is written.
+struct Occurrence {
+  std::size_t begin, end, reference;
+};
+
+class Scanner {
+ public:
+  Scanner(const std::string& text, const std::vector<std::string>& functions) : text_(text), functions_(functions) {}
+
+  void scan() {
+    while (at_ < text_.size()) {
+      const std::size_t begin = at_;
+      if (is_digit(here()) || (here() == '.' && is_digit(next(1))))
+        skip_number();
+      else if (is_quote(here()))
+        scan_quoted(begin);
+      else if (is_letter(here()))
+        scan_name(begin);
+      else
+        ++at_;
+    }
+  }
+
+  std::vector<FormulaReference> references;
+  std::vector<Occurrence> occurrences;
+  std::vector<std::string> plain;  ///< all other names
+
+ private:
+  char next(std::size_t ahead) const { return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0'; }
+  char here() const { return next(0); }
+  std::string since(std::size_t begin) const { return text_.substr(begin, at_ - begin); }
+  void skip_blanks() {
+    while (is_blank(here())) ++at_;
+  }
+  /// As the parser of formulas reads it.
+  void skip_number() {
+    double number = 0;
+    const char* begin = text_.data() + at_;
+    at_ += static_cast<std::size_t>(std::from_chars(begin, text_.data() + text_.size(), number).ptr - begin);
+  }
+  std::string name() {
+    const std::size_t begin = at_;
+    while (is_letter(here()) || is_digit(here())) ++at_;
+    return since(begin);
+  }
+  std::string quoted() {
+    const std::size_t end = text_.find(here(), at_ + 1);
+    if (end == std::string::npos) throw InputError(fmt::format("the quote at character {} is not closed", at_ + 1));
+    const std::string inside = text_.substr(at_ + 1, end - at_ - 1);
+    at_ = end + 1;
+    return inside;
+  }
+
+  void scan_quoted(std::size_t begin) {
+    const std::string subject = quoted();
+    const std::vector<std::string> words = path(begin);
+    if (words.empty()) return;  // the name of a file
+    if (subject.empty()) throw InputError(fmt::format("a name is missing in the quotes at character {}", begin + 1));
+    add(begin, "", {subject}, words);
+  }
+
+  void scan_name(std::size_t begin) {
+    const std::string word = name();
+    if (contains(functions_, word) && parenthesis_follows(begin, word)) {
+      const std::vector<std::string> subjects = names_in_parentheses(begin, word);
+      add(begin, word, subjects, path(begin));
+      return;
+    }
+    const std::vector<std::string> words = path(begin);
+    if (words.empty())
+      plain.push_back(word);
+    else
+      add(begin, "", {word}, words);
+  }
+
+  bool parenthesis_follows(std::size_t begin, const std::string& function) {
+    const std::size_t end = at_;
+    skip_blanks();
+    const bool parenthesis = here() == '(';
+    if (parenthesis && at_ > end)
+      throw InputError(fmt::format("the function '{}' at character {} must be followed by '('", function, begin + 1));
+    at_ = end;
+    return parenthesis;
+  }
+
+  /// What follows from here on, `.word.word`, of the reference that begins at `begin`.
+  std::vector<std::string> path(std::size_t begin) {
+    std::vector<std::string> words;
+    for (;;) {
+      const std::size_t end = at_;
+      skip_blanks();
+      // `t .5` are two numbers to the parser
+      const bool blanks_before = at_ > end, dot = here() == '.' && !(blanks_before && is_digit(next(1)));
+      if (!dot) {
+        at_ = end;
+        return words;
+      }
+      ++at_;
+      const bool blanks_behind = is_blank(here());
+      skip_blanks();
+      if (!is_letter(here()))
+        throw InputError(fmt::format("a name is missing after '{}' at character {}", since(begin), begin + 1));
+      words.push_back(name());
+      if (blanks_before || blanks_behind)
+        throw InputError(
+            fmt::format("'{}' at character {} is written without blanks at the dots", since(begin), begin + 1));
+    }
+  }
+
+  std::vector<std::string> names_in_parentheses(std::size_t begin, const std::string& function) {
+    std::vector<std::string> names;
+    do {
+      ++at_;
+      skip_blanks();
+      names.push_back(is_quote(here()) ? quoted() : name());
+      skip_blanks();
+    } while (here() == ',' && !names.back().empty());
+    if (here() != ')' || names.back().empty())
+      throw InputError(
+          fmt::format("'{0}' at character {1} takes names, in quotes if they are more than a word: "
+                      "{0}(one, 'number two')",
+                      function, begin + 1));
+    ++at_;
+    return names;
+  }
+
+  void add(std::size_t begin, const std::string& function, const std::vector<std::string>& subjects,
+           const std::vector<std::string>& words) {
+    const auto same = [&](const FormulaReference& known) {
+      return std::tie(known.function, known.subjects, known.path) == std::tie(function, subjects, words);
+    };
+    const auto known = std::find_if(references.begin(), references.end(), same);
+    occurrences.push_back({begin, at_, static_cast<std::size_t>(known - references.begin())});
+    if (known == references.end()) references.push_back({since(begin), function, subjects, words, "", begin});
+  }
+
+  const std::string& text_;
+  const std::vector<std::string>& functions_;
+  std::size_t at_ = 0;
+};
+
+/// The text as a name of at most the given length that is not among those taken. (It begins with a letter or a quote.)
+std::string free_name(const std::string& text, std::size_t length, const std::vector<std::string>& taken) {
+  std::string wanted = text.substr(0, length);
+  for (char& c : wanted)
+    if (!is_letter(c) && !is_digit(c)) c = '_';
+  std::string name = wanted;
+  for (int number = 0; contains(taken, name); ++number) {
+    const std::string digits = fmt::format("{}", number);
+    name = wanted.substr(0, std::max(wanted.size(), digits.size() + 1) - digits.size()) + digits;
+  }
+  return name;
+}
+
+}  // namespace
+
+FormulaText find_references(const std::string& text, const std::vector<std::string>& plain_names,
+                            const std::vector<std::string>& functions) {
+  Scanner scanner(text, functions);
+  scanner.scan();
+  FormulaText result{text, text, std::move(scanner.references)};
+
+  std::vector<std::string> taken = scanner.plain;
+  for (const auto* names : {&plain_names, &functions, &built_in_names()})
+    taken.insert(taken.end(), names->begin(), names->end());
+  for (std::size_t i = 0; i < result.references.size(); ++i) {
+    std::size_t length = longest_identifier;
+    for (const Occurrence& place : scanner.occurrences)
+      if (place.reference == i) length = std::min(length, place.end - place.begin);
+    FormulaReference& reference = result.references[i];
+    reference.identifier = free_name(reference.text, length, taken);
+    taken.push_back(reference.identifier);
+  }
+  for (auto place = scanner.occurrences.rbegin(); place != scanner.occurrences.rend(); ++place) {
+    const std::string& identifier = result.references[place->reference].identifier;
+    const std::size_t length = place->end - place->begin;
+    result.replaced.replace(place->begin, length, fmt::format("{:{}}", identifier, length));
+  }
+  return result;
+}
+
+}  // namespace bielle

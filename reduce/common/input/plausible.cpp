@@ -1,0 +1,59 @@
+#include "reduce/common/input/plausible.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace bielle {
+
+void doubt_outside(const YamlValue& place, double value, const PlausibleRange& range) {
+  if (value < range.low || value > range.high) place.doubt(fmt::format("is {:g} meant? {}", value, range.text));
+}
+
+namespace {
+
+/// The largest amount of a formula about its break points and between them: what its rounding goes by, also where it
+/// vanishes (a sine after a whole turn).
+double largest_about(const Expression& formula, const std::vector<double>& break_points) {
+  std::vector<double> times = break_points;
+  for (std::size_t k = 1; k < break_points.size(); ++k)
+    for (const double part : {0.13, 0.38, 0.62, 0.87})  // no zeros of sines and cosines of whole turns
+      times.push_back(break_points[k - 1] + part * (break_points[k] - break_points[k - 1]));
+  double largest = 0;
+  for (const double time : times) {
+    try {
+      largest = std::max(largest, std::abs(formula(time)));
+    } catch (const ComputationError&) {  // it has no value there
+    }
+  }
+  return largest;
+}
+
+}  // namespace
+
+void doubt_jumps(const YamlValue& place, const Expression& formula, const char* what) {
+  const double rounding = 1e-12 * largest_about(formula, formula.break_points());
+  for (const double time : formula.break_points()) {
+    // A jump stays as it is when looked at more closely; what a kink changes by becomes smaller.
+    const double near = 1e-8 * (1 + std::abs(time));
+    const auto change = [&](double step) { return std::abs(formula(time + step) - formula(time - step)); };
+    double wide = 0, narrow = 0;
+    try {
+      wide = change(near);
+      narrow = change(0.1 * near);
+    } catch (const ComputationError&) {  // on one side it has no value: a table begins or ends
+      continue;
+    }
+    if (wide > std::max(rounding, 1e-12 * std::abs(formula(time + near))) && narrow > 0.5 * wide) {
+      place.doubt(
+          fmt::format("{} jumps by {:.3g} at t = {:.6g} s; the motion there is what the steps make of it. `step` is "
+                      "a smooth transition",
+                      what, narrow, time));
+      return;
+    }
+  }
+}
+
+}  // namespace bielle

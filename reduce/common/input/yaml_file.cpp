@@ -1,0 +1,361 @@
+#include "reduce/common/input/yaml_file.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include "reduce/common/counted.hpp"
+#include "reduce/common/files/file_checks.hpp"
+#include "reduce/common/shortened.hpp"
+
+namespace bielle {
+
+struct YamlValue::Document {
+  std::string file, text;
+  Parameters parameters;
+  std::vector<std::string> doubts;
+};
+
+namespace {
+
+/// Deeper nesting is an error; an anchor that contains itself nests without end.
+constexpr int deepest = 50;
+
+std::string joined(const std::string& path, const std::string& key) { return path.empty() ? key : path + "." + key; }
+
+std::string located_at(const std::string& file, int line, const std::string& path, const std::string& message) {
+  return fmt::format("{}:{}: {}{}{}", file, line, path, path.empty() ? "" : ": ", message);
+}
+
+/// The parser complains of a tab in the indentation in words that do not mention it, at worst some lines after it.
+std::string hint_at_tabs(const std::string& text, int up_to_line) {
+  std::istringstream lines(text);
+  std::string line;
+  for (int number = 1; number <= up_to_line && std::getline(lines, line); ++number) {
+    const std::size_t word = line.find_first_not_of(" \t");
+    if (line.substr(0, word).find('\t') != std::string::npos)
+      return fmt::format(" (line {} begins with a tab; YAML wants spaces there)", number);
+  }
+  return "";
+}
+
+/// What an unknown key most likely is when it is a number: the second half of "1,5", or of a formula.
+std::string hint_at_comma(const std::string& key) {
+  const bool number = !key.empty() && key.find_first_not_of("0123456789.eE+-") == std::string::npos;
+  return number ? "; a comma separates keys: decimals are written with a point (1.5)" : "";
+}
+
+/// Aliases may repeat so many nodes; more is no input file but one that was made to fill the memory.
+constexpr std::size_t most_repeated = 100'000;
+
+/// yaml-cpp passes duplicate keys and keeps `<<` as a key like any other: refuse both, and keys that are no words.
+/// @param budget  nodes that may still come
+void check_keys_of_all_maps(const YAML::Node& node, const std::string& file, const std::string& path, int depth,
+                            std::size_t& budget) {
+  if (budget-- == 0)
+    throw InputError(located_at(file, node.Mark().line + 1, path.substr(0, 60),
+                                fmt::format("aliases (`*name`) repeat more than {} values", most_repeated)));
+  if (depth > deepest)
+    throw InputError(located_at(file, node.Mark().line + 1, path.substr(0, 60),
+                                fmt::format("nested more than {} levels deep, or an anchor contains itself", deepest)));
+  if (node.IsSequence()) {
+    int index = 0;
+    for (const YAML::Node& item : node)
+      check_keys_of_all_maps(item, file, fmt::format("{}[{}]", path, ++index), depth + 1, budget);
+  }
+  if (!node.IsMap()) return;
+  std::map<std::string, int> lines;
+  for (const auto& entry : node) {
+    const int line = entry.first.Mark().line + 1;
+    if (!entry.first.IsScalar())
+      throw InputError(located_at(file, line, path, "a key must be a word; is something missing in front of ':'?"));
+    const std::string& key = entry.first.Scalar();
+    if (key == "<<")
+      throw InputError(located_at(file, line, path, "'<<' (merging of maps) is not supported; write the keys out"));
+    const auto [first, is_new] = lines.emplace(key, line);
+    if (!is_new)
+      throw InputError(located_at(file, line, joined(path, key),
+                                  fmt::format("this key stands here twice; first on line {}", first->second)));
+    check_keys_of_all_maps(entry.second, file, joined(path, key), depth + 1, budget);
+  }
+}
+
+}  // namespace
+
+YamlValue::YamlValue(std::shared_ptr<Document> document, std::shared_ptr<YAML::Node> node, std::string path, int line)
+    : document_(std::move(document)), node_(std::move(node)), path_(std::move(path)), line_(line) {}
+
+YamlValue YamlValue::load(const std::string& path) {
+  check_input_file(path);
+  std::ifstream file(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (!file) throw InputError(fmt::format("{}: cannot be read", path));
+  return parse(text, path);
+}
+
+YamlValue YamlValue::parse(const std::string& text, const std::string& name) {
+  auto document = std::make_shared<Document>(Document{name, text, {}, {}});
+  std::vector<YAML::Node> roots;
+  try {
+    roots = YAML::LoadAll(text);
+  } catch (const YAML::Exception& error) {
+    const int line = std::max(error.mark.line, 0) + 1;
+    throw InputError(located_at(name, line, "", "no valid YAML: " + error.msg + hint_at_tabs(text, line)));
+  }
+  if (roots.empty()) throw InputError(fmt::format("{}: the file is empty", name));
+  if (roots.size() > 1)
+    throw InputError(located_at(name, roots[1].Mark().line + 1, "", "a second document begins; a file holds one"));
+  std::size_t budget = text.size() + most_repeated;  // without aliases each node has a letter of its own
+  check_keys_of_all_maps(roots[0], name, "", 0, budget);
+  const int line = roots[0].IsNull() ? 1 : roots[0].Mark().line + 1;
+  return {document, std::make_shared<YAML::Node>(roots[0]), "", line};
+}
+
+void YamlValue::set_parameters(Parameters parameters) { document_->parameters = std::move(parameters); }
+void YamlValue::set_parameter(const std::string& name, double value) { document_->parameters[name] = value; }
+const Parameters& YamlValue::parameters() const { return document_->parameters; }
+
+bool YamlValue::is_map() const { return node_->IsMap(); }
+bool YamlValue::is_sequence() const { return node_->IsSequence(); }
+bool YamlValue::is_scalar() const { return node_->IsScalar(); }
+bool YamlValue::is_null() const { return node_->IsNull(); }
+
+// -- maps
+
+bool YamlValue::has(const std::string& key) const { return find(key).has_value(); }
+
+YamlValue YamlValue::at(const std::string& key) const {
+  if (auto value = find(key)) return *value;
+  fail(fmt::format("the key '{}' is missing", key));
+}
+
+std::optional<YamlValue> YamlValue::find(const std::string& key) const {
+  check_map("keys with values (`key: value`)");
+  if (is_map())
+    for (const auto& entry : *node_)
+      if (entry.first.Scalar() == key) return child(entry.first, entry.second);
+  return std::nullopt;
+}
+
+std::vector<std::pair<std::string, YamlValue>> YamlValue::entries() const {
+  check_map("keys with values (`key: value`)");
+  std::vector<std::pair<std::string, YamlValue>> result;
+  if (is_map())
+    for (const auto& entry : *node_) result.emplace_back(entry.first.Scalar(), child(entry.first, entry.second));
+  return result;
+}
+
+YamlValue YamlValue::child(const YAML::Node& key, const YAML::Node& value) const {
+  // yaml-cpp gives a null value the place of what follows it.
+  const YAML::Mark mark = value.IsNull() ? key.Mark() : value.Mark();
+  return {document_, std::make_shared<YAML::Node>(value), joined(path_, key.Scalar()), mark.line + 1};
+}
+
+void YamlValue::check_map(const std::string& expected) const {
+  if (!is_map() && !is_null()) fail("expected " + expected);
+}
+
+void YamlValue::check_keys(const std::vector<std::string>& allowed, const std::string& of) const {
+  check_map(of + " as keys with values (`key: value`)");
+  if (is_null()) return;
+  for (const auto& entry : *node_) {
+    const std::string& key = entry.first.Scalar();
+    if (std::find(allowed.begin(), allowed.end(), key) != allowed.end()) continue;
+    const std::string comma = hint_at_comma(key);
+    throw InputError(located_at(document_->file, entry.first.Mark().line + 1, path_,
+                                fmt::format("'{}' is not a key of {}{}", shortened(key), of,
+                                            comma.empty() ? did_you_mean(key, allowed) : comma)));
+  }
+}
+
+// -- sequences
+
+std::size_t YamlValue::size() const {
+  if (!is_sequence()) fail("expected a list (`[a, b]`)");
+  return node_->size();
+}
+
+YamlValue YamlValue::at(std::size_t index) const {
+  const std::vector<YamlValue> all = items();
+  if (index >= all.size()) fail(fmt::format("expected at least {}, found {}", counted(index + 1, "item"), all.size()));
+  return all[index];
+}
+
+std::vector<YamlValue> YamlValue::items() const {
+  std::vector<YamlValue> result;
+  result.reserve(size());
+  for (const YAML::Node& item : *node_) {
+    const int line = item.IsNull() ? line_ : item.Mark().line + 1;
+    result.push_back(YamlValue(document_, std::make_shared<YAML::Node>(item),
+                               fmt::format("{}[{}]", path_, result.size() + 1), line));
+  }
+  return result;
+}
+
+// -- scalars
+
+double YamlValue::number() const {
+  if (!is_scalar()) fail(is_null() ? "expected a number, found nothing" : "expected a number");
+  const std::string& written = node_->Scalar();
+  double value = 0;
+  const char* begin = written.data() + (written.starts_with('+') ? 1 : 0);
+  const char* end = written.data() + written.size();
+  const auto [stopped, error] = std::from_chars(begin, end, value);
+  if (error == std::errc() && stopped == end && begin != end && std::isfinite(value)) return value;
+  if (written == ".inf" || written == "-.inf" || written == "inf" || written == "-inf" || written == ".nan" ||
+      written == "nan")
+    fail(fmt::format("expected a finite number, found '{}'", shortened(written)));
+  const Expression formula = expression({});
+  return formula(std::span<const double>());
+}
+
+double YamlValue::positive_number() const {
+  const double value = number();
+  if (!(value > 0)) fail(fmt::format("expected a number greater than 0, found {}", value));
+  return value;
+}
+
+double YamlValue::non_negative_number() const {
+  const double value = number();
+  if (!(value >= 0)) fail(fmt::format("expected a number of at least 0, found {}", value));
+  return value;
+}
+
+int YamlValue::integer() const {
+  const double value = number();
+  if (value != std::floor(value)) fail(fmt::format("expected a whole number, found {}", value));
+  constexpr int largest = std::numeric_limits<int>::max();
+  if (std::abs(value) > largest) fail(fmt::format("expected a whole number of at most {}, found {}", largest, value));
+  return static_cast<int>(value);
+}
+
+bool YamlValue::boolean() const {
+  if (is_scalar()) {
+    const std::string& written = node_->Scalar();
+    if (written == "true" || written == "True" || written == "TRUE") return true;
+    if (written == "false" || written == "False" || written == "FALSE") return false;
+    fail(fmt::format("expected true or false, found '{}'", shortened(written)));
+  }
+  fail("expected true or false");
+}
+
+std::string YamlValue::text() const {
+  if (!is_scalar()) fail("expected a text");
+  return node_->Scalar();
+}
+
+std::string YamlValue::word(const std::vector<std::string>& allowed, const std::string& what) const {
+  std::string found = is_scalar() ? text() : "";
+  if (std::find(allowed.begin(), allowed.end(), found) != allowed.end()) return found;
+  if (!is_scalar()) fail(fmt::format("expected {} as one word{}", what, did_you_mean("", allowed)));
+  fail(fmt::format("'{}' is not {}{}", shortened(found), what, did_you_mean(found, allowed)));
+}
+
+Eigen::VectorXd YamlValue::vector() const {
+  if (!is_sequence()) fail("expected a list of numbers (`[1, 2, 3]`)");
+  const std::vector<YamlValue> all = items();
+  Eigen::VectorXd result(static_cast<Eigen::Index>(all.size()));
+  for (std::size_t i = 0; i < all.size(); ++i) result(static_cast<Eigen::Index>(i)) = all[i].number();
+  return result;
+}
+
+Eigen::VectorXd YamlValue::positive_numbers(std::size_t count, const std::string& expected) const {
+  if (!is_sequence() || size() != count) fail("expected " + expected);
+  for (const YamlValue& item : items()) item.positive_number();
+  return vector();
+}
+
+Eigen::Vector3d YamlValue::vector3() const {
+  if (!is_sequence()) fail("expected a list of three numbers (`[x, y, z]`)");
+  if (size() != 3)
+    fail(fmt::format("expected a list of three numbers (`[x, y, z]`), found {}{}", size(),
+                     size() > 3 ? "; decimals are written with a point, formulas with commas in quotes" : ""));
+  return vector();
+}
+
+Eigen::Vector3d YamlValue::direction() const {
+  const Eigen::Vector3d given = vector3();
+  const double length = given.stableNorm();
+  if (length == 0) fail("a direction must not be zero");
+  return given / length;
+}
+
+Eigen::MatrixXd YamlValue::matrix(Eigen::Index rows, Eigen::Index columns) const {
+  const auto wrong = [&](const YamlValue& where) {
+    where.fail(fmt::format("expected {} rows of {} numbers (`[[..], [..]]`)", rows, columns));
+  };
+  if (!is_sequence() || static_cast<Eigen::Index>(size()) != rows) wrong(*this);
+  Eigen::MatrixXd result(rows, columns);
+  Eigen::Index i = 0;
+  for (const YamlValue& row : items()) {
+    if (!row.is_sequence() || static_cast<Eigen::Index>(row.size()) != columns) wrong(row);
+    result.row(i++) = row.vector().transpose();
+  }
+  return result;
+}
+
+Expression YamlValue::expression(const std::vector<std::string>& variables) const {
+  if (!is_scalar()) fail("expected a number or a formula");
+  return expression(variables, {node_->Scalar(), node_->Scalar(), {}});
+}
+
+FormulaText YamlValue::formula_text(const std::vector<std::string>& variables,
+                                    const std::vector<std::string>& functions) const {
+  if (!is_scalar()) fail("expected a number or a formula");
+  std::vector<std::string> plain_names = variables;
+  for (const auto& [name, value] : document_->parameters) plain_names.push_back(name);
+  try {
+    return find_references(node_->Scalar(), plain_names, functions);
+  } catch (const InputError& error) {
+    fail(fmt::format("in '{}': {}", shortened(node_->Scalar()), error.what()));
+  }
+}
+
+Expression YamlValue::expression(const std::vector<std::string>& variables, const FormulaText& formula) const {
+  const auto read = [&] {
+    try {
+      return Expression(formula, variables, document_->parameters,
+                        std::filesystem::path(document_->file).parent_path().string(),
+                        fmt::format("{}:{}: {}", document_->file, line_, path_));
+    } catch (const InputError& error) {
+      fail(error.what());
+    }
+  };
+  Expression result = read();
+  if (!result.is_constant()) return result;
+  try {
+    result(std::vector<double>(variables.size() + formula.references.size(), 0.0));
+  } catch (const ComputationError& error) {  // names the place
+    throw InputError(error.what());
+  }
+  return result;
+}
+
+std::string YamlValue::file_path() const {
+  const std::string written = text();
+  if (written.empty()) fail("expected the name of a file");
+  return (std::filesystem::path(document_->file).parent_path() / written).lexically_normal().string();
+}
+
+// -- place
+
+const std::string& YamlValue::file() const { return document_->file; }
+int YamlValue::line() const { return line_; }
+std::string YamlValue::path() const { return path_; }
+std::string YamlValue::source_text() const { return document_->text; }
+void YamlValue::fail(const std::string& message) const { throw InputError(located(message)); }
+void YamlValue::doubt(const std::string& message) const { document_->doubts.push_back(located(message)); }
+const std::vector<std::string>& YamlValue::doubts() const { return document_->doubts; }
+
+std::string YamlValue::located(const std::string& message) const {
+  return located_at(document_->file, line_, path_, message);
+}
+
+}  // namespace bielle

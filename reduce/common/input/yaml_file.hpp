@@ -1,0 +1,113 @@
+// Input files: yaml-cpp with file and line in every message, nearest names for unknown keys, and numbers that may be
+// expressions of the file's parameters.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "reduce/common/error.hpp"
+#include "reduce/common/formula/expression.hpp"
+#include "reduce/common/formula/formula_references.hpp"
+
+namespace YAML {
+class Node;
+}
+
+namespace bielle {
+
+/// A value in an input file that knows where it stands. Cheap to copy.
+///
+/// Every reader throws InputError `file:line: path.of.key: what was expected`. A map's unknown keys are refused by
+/// `check_keys`, which each reader of a map calls once: nothing in a file is silently ignored. Duplicate keys, merge
+/// keys (`<<`) and second documents are refused when the file is loaded.
+class YamlValue {
+ public:
+  /// Loads a file. @throws InputError when it is missing, unreadable or no valid YAML (with the line).
+  static YamlValue load(const std::string& path);
+  /// The same from text, `name` standing for the file in messages.
+  static YamlValue parse(const std::string& text, const std::string& name);
+
+  /// Parameters that numbers in this file may use (shared by all values of the file).
+  void set_parameters(Parameters parameters);
+  /// One more.
+  void set_parameter(const std::string& name, double value);
+  const Parameters& parameters() const;
+
+  bool is_map() const;
+  bool is_sequence() const;
+  bool is_scalar() const;
+  bool is_null() const;
+
+  // -- maps
+  bool has(const std::string& key) const;
+  YamlValue at(const std::string& key) const;                   ///< @throws when missing
+  std::optional<YamlValue> find(const std::string& key) const;  ///< empty when missing
+  /// Keys and values in the order of the file. @throws when this is no map; a null value is an empty map.
+  std::vector<std::pair<std::string, YamlValue>> entries() const;
+  /// @throws InputError at the first key not in `allowed`: `'dampng' is not a key of a hinge; did you mean 'damping'?`
+  /// @param of  the thing in words with its article: "a hinge", "the mesh"
+  void check_keys(const std::vector<std::string>& allowed, const std::string& of) const;
+
+  // -- sequences
+  std::size_t size() const;
+  YamlValue at(std::size_t index) const;
+  std::vector<YamlValue> items() const;  ///< @throws when this is no sequence
+
+  // -- scalars. Numbers may be expressions of the parameters; infinities and NaN are refused.
+  double number() const;
+  double positive_number() const;      ///< > 0
+  double non_negative_number() const;  ///< >= 0
+  int integer() const;
+  bool boolean() const;
+  std::string text() const;  ///< as it is written, numbers too
+  /// One of the given words; the message offers the nearest. @param what  in words with its article: "a joint type"
+  std::string word(const std::vector<std::string>& allowed, const std::string& what) const;
+  Eigen::VectorXd vector() const;
+  /// A list of `count` numbers greater than 0. @param expected  what they are: "[radius, length]"
+  Eigen::VectorXd positive_numbers(std::size_t count, const std::string& expected) const;
+  Eigen::Vector3d vector3() const;
+  Eigen::Vector3d direction() const;  ///< vector3, normalised. @throws when zero
+  Eigen::MatrixXd matrix(Eigen::Index rows, Eigen::Index columns) const;
+  /// A formula of the parameters and the given variables (e.g. {"t"}).
+  Expression expression(const std::vector<std::string>& variables) const;
+  /// The text of a number or formula with its references found; `variables` and the parameters are plain names.
+  FormulaText formula_text(const std::vector<std::string>& variables, const std::vector<std::string>& functions) const;
+  /// The formula of such a text of this value: of the variables, then of the references.
+  Expression expression(const std::vector<std::string>& variables, const FormulaText& formula) const;
+  /// Reads a file name: relative to the folder of this input file.
+  std::string file_path() const;
+
+  /// Every value below this one by its path, in the order of the file, as it counts: numbers by their values, formulas
+  /// with the values of the parameters in them ("2*k (k = 3)"), names of files with a sum over their contents. If two
+  /// digests are equal, the same is described. @param but  keys of this map to leave out
+  std::vector<std::pair<std::string, std::string>> digest(const std::vector<std::string>& but = {}) const;
+
+  // -- place
+  const std::string& file() const;
+  int line() const;                 ///< 1-based
+  std::string path() const;         ///< "joints.main.axis[1]"; items of lists are counted from 1
+  std::string source_text() const;  ///< the whole text of the file, for the results' /input
+  /// `file:line: path: message`
+  [[noreturn]] void fail(const std::string& message) const;
+  std::string located(const std::string& message) const;  ///< the text that `fail` throws
+  /// Notes a value that is possible and probably not meant, in the words of `fail`, for the user to be told.
+  void doubt(const std::string& message) const;
+  const std::vector<std::string>& doubts() const;  ///< of the whole file, in the order of reading
+
+ private:
+  struct Document;
+  YamlValue(std::shared_ptr<Document> document, std::shared_ptr<YAML::Node> node, std::string path, int line);
+  YamlValue child(const YAML::Node& key, const YAML::Node& value) const;
+  void check_map(const std::string& expected) const;
+  std::shared_ptr<Document> document_;
+  std::shared_ptr<YAML::Node> node_;
+  std::string path_;
+  int line_ = 0;
+};
+
+}  // namespace bielle

@@ -1,0 +1,96 @@
+#include "reduce/common/process/run_program.hpp"
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <new>
+#include <system_error>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sched.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "reduce/common/error.hpp"
+#include "reduce/common/process/address_space.hpp"
+
+namespace bielle {
+
+namespace {
+
+// -- before the libraries begin, those of the sanitizers included
+
+constexpr rlim_t other_libraries = rlim_t{64} << 20;
+
+[[gnu::no_sanitize("address", "undefined")]] rlim_t blas_threads() {
+  for (const char* name : {"OPENBLAS_NUM_THREADS", "GOTO_NUM_THREADS", "OMP_NUM_THREADS"})
+    if (const char* text = std::getenv(name); text != nullptr && std::atoi(text) > 0)
+      return static_cast<rlim_t>(std::atoi(text));
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  return sched_getaffinity(0, sizeof set, &set) == 0 ? static_cast<rlim_t>(CPU_COUNT(&set)) : 1;
+}
+
+[[gnu::no_sanitize("address", "undefined")]] void check_address_space(int, char**, char**) {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return;
+  if (limit.rlim_cur >= address_space() + blas_threads() * blas_buffer + other_libraries) return;
+  constexpr char sentence[] =
+      "error: out of memory: the limit of the address space (ulimit -v) leaves none to work with\n";
+  static_cast<void>(!write(STDERR_FILENO, sentence, sizeof sentence - 1));
+  _exit(2);
+}
+
+[[gnu::section(".preinit_array"), gnu::used]] void (*const before_the_libraries)(int, char**,
+                                                                                 char**) = check_address_space;
+
+// -- the standard streams
+
+/// The next file to be opened would get the number of a closed stream, and what is printed would go into it.
+void open_closed_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(stream, F_GETFD) < 0 && errno == EBADF) static_cast<void>(!open("/dev/null", O_RDWR));
+}
+
+void finish_standard_output() {
+  errno = 0;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+  throw ComputationError(errno == EPIPE ? "standard output was closed before all was printed"
+                                        : "standard output cannot be written; is the disk full?");
+}
+
+}  // namespace
+
+int run_program(const std::string& program, int (*body)(int argc, char** argv), int argc, char** argv) {
+  const auto report = [&](const std::string& message, int status) {
+    std::fputs(fmt::format("{}: error: {}\n", program, message).c_str(), stderr);
+    return status;
+  };
+  open_closed_streams();
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows beyond the user's limit is an error like a full disk
+  std::signal(SIGPIPE, SIG_IGN);
+  try {
+    const int status = body(argc, argv);
+    finish_standard_output();
+    return status;
+  } catch (const InputError& error) {
+    return report(error.what(), 1);
+  } catch (const ComputationError& error) {
+    return report(error.what(), 2);
+  } catch (const std::bad_alloc&) {
+    return report("out of memory", 2);
+  } catch (const std::system_error& error) {
+    if (error.code() == std::errc::resource_unavailable_try_again)
+      return report("out of memory: no further thread can be started", 2);
+    return report(std::string("unforeseen failure: ") + error.what(), 2);
+  } catch (const std::exception& error) {
+    return report(std::string("unforeseen failure: ") + error.what(), 2);
+  } catch (...) {
+    return report("unforeseen failure of unknown kind", 2);
+  }
+}
+
+}  // namespace bielle

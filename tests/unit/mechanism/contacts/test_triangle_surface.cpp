@@ -1,0 +1,67 @@
+// Surfaces of triangles: on which side of sharp edges a point is, and which corners are one.
+#include <algorithm>
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "mechanism/contacts/triangle_surface.hpp"
+
+using bielle::mechanism::TriangleSurface;
+using bielle::mechanism::Vector3;
+
+namespace {
+
+/// A wedge of 40 degrees with its ridge along y, closed but for its ends: two flanks and a bottom.
+/// @param seam  how far the left flank's upper corners are off those of the right one
+std::vector<Vector3> wedge(double seam = 0) {
+  const double half = 20 * M_PI / 180, x = std::tan(half);
+  const Vector3 a(0, -1, 0), b(0, 1, 0), right_a(x, -1, -1), right_b(x, 1, -1), left_a(-x, -1, -1), left_b(-x, 1, -1);
+  const Vector3 off(0, 0, seam);
+  return {a,       right_a, right_b, a,      right_b, b,       a + off, b + off, left_b,
+          a + off, left_b,  left_a,  left_a, left_b,  right_b, left_a,  right_b, right_a};
+}
+
+/// The same triangles from the last to the first.
+std::vector<Vector3> reversed(const std::vector<Vector3>& corners) {
+  std::vector<Vector3> result;
+  for (std::size_t k = corners.size(); k >= 3; k -= 3)
+    result.insert(result.end(), corners.begin() + static_cast<std::ptrdiff_t>(k - 3),
+                  corners.begin() + static_cast<std::ptrdiff_t>(k));
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("all around a sharp ridge a point is outside, whatever the order of the triangles") {
+  for (const auto& corners : {wedge(), reversed(wedge())}) {
+    const TriangleSurface surface(corners);
+    CHECK(surface.flipped_edges() == 0);
+    CHECK(surface.open_edges() == 6);  // three at either end
+    // From the normal of one flank over the top to that of the other.
+    for (double angle = -109; angle <= 109; angle += 1) {
+      const double a = angle * M_PI / 180;
+      const Vector3 point = 0.01 * Vector3(std::sin(a), 0, std::cos(a)) + Vector3(0, 0.3, 0);
+      std::vector<TriangleSurface::Place> places;
+      surface.find_nearest(point, 0.02, places);
+      CAPTURE(angle);
+      REQUIRE(places.size() == 1);
+      CHECK((point - places.front().foot).dot(places.front().normal) > 0);
+      // Inside, below the ridge.
+      places.clear();
+      surface.find_nearest({0.002 * std::sin(a), 0.3, -0.02}, 0.02, places);
+      for (const auto& place : places)
+        CHECK((Vector3(0.002 * std::sin(a), 0.3, -0.02) - place.foot).dot(place.normal) < 0);
+    }
+  }
+}
+
+TEST_CASE("corners that differ by rounding are one") {
+  CHECK(TriangleSurface(wedge(1e-7)).open_edges() == 6);
+  CHECK(TriangleSurface(wedge(1e-4)).open_edges() == 8);
+}
+
+TEST_CASE("a triangle that is listed the other way round is noticed") {
+  std::vector<Vector3> corners = wedge();
+  std::swap(corners[0], corners[1]);
+  CHECK(TriangleSurface(corners).flipped_edges() == 2);
+}

@@ -1,0 +1,73 @@
+// Laws of friction: their derivatives, their limits, and what they can take from a motion.
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "mechanism/laws/friction_law.hpp"
+#include "tests/support/finite_difference.hpp"
+
+using bielle::mechanism::FrictionLaw;
+using Catch::WithinAbs;
+using Catch::WithinRel;
+
+namespace {
+
+FrictionLaw law() {
+  FrictionLaw law;
+  law.kinetic = 0.3;
+  law.sticking = 0.5;
+  law.stribeck_velocity = 0.2;
+  law.viscous = 0.1;
+  law.velocity = 0.03;
+  law.bristle_stiffness = 40;
+  law.bristle_damping = 12;
+  return law;
+}
+
+}  // namespace
+
+TEST_CASE("Stribeck's curve falls from rest to sliding") {
+  CHECK(law().level(0).mu == 0.5);
+  CHECK_THAT(law().level(0.2).mu, WithinRel(0.3 + 0.2 * std::exp(-1), 1e-15));
+  CHECK_THAT(law().level(5).mu, WithinRel(0.3, 1e-15));
+  FrictionLaw plain = law();
+  plain.stribeck_velocity = 0;
+  CHECK(plain.level(0).mu == 0.3);
+}
+
+TEST_CASE("slopes are the derivatives of what they belong to, at rest as well") {
+  for (const double s : {0.0, 1e-6, 5.9e-4, 6.1e-4, 0.01, 0.05, 0.3, 2.0}) {
+    CAPTURE(s);
+    const double h = 0.02 * 0.03;
+    const auto slope = [&](auto f) { return bielle::test::derivative([&](double d) { return f(s + d); }, h); };
+    const auto sliding = law().sliding(s);
+    CHECK_THAT(slope([](double x) { return law().sliding(x).h; }), WithinAbs(sliding.slope_over_speed * s, 1e-7));
+    CHECK_THAT(slope([](double x) { return law().level(x).mu; }),
+               WithinAbs(law().level(s).slope_over_speed * s, 1e-10));
+    CHECK_THAT(slope([](double x) { return law().bristle_damping_at(x).mu; }),
+               WithinAbs(law().bristle_damping_at(s).slope_over_speed * s, 1e-8));
+  }
+}
+
+TEST_CASE("regularised friction creeps by the documented speed") {
+  FrictionLaw plain;
+  plain.kinetic = plain.sticking = 0.4;
+  plain.velocity = 1e-3;
+  for (const double share : {0.1, 0.5, 0.9, 0.99}) {
+    const double v = 1e-3 * std::atanh(share);
+    CHECK_THAT(plain.sliding(v).h * v, WithinRel(0.4 * share, 1e-13));
+  }
+  CHECK_THAT(plain.sliding(1).h, WithinRel(0.4, 1e-15));
+}
+
+TEST_CASE("bristles take power at any deflection and speed") {
+  for (double s = 1e-3; s < 10; s *= 1.7)
+    for (const double sign : {1.0, -1.0})
+      for (double z = 0; z < 1; z += 0.003) {
+        const double mu = law().level(s).mu, v = sign * s;
+        const double zdot = v - law().bristle_stiffness * s / mu * z;
+        const double lost = law().bristle_stiffness * z * (v - zdot) + law().bristle_damping_at(s).mu * zdot * v;
+        CAPTURE(v, z);
+        CHECK(lost >= 0);
+      }
+}

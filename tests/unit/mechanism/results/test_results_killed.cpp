@@ -1,0 +1,188 @@
+// What is left of a run that is killed by SIGKILL, at any moment.
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <thread>
+
+#include "results_sample.hpp"
+#include <catch2/catch.hpp>
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "reduce/common/files/hdf5_file.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+using namespace bielle;
+using namespace bielle::mechanism;
+using bielle::test::ResultsSample;
+using bielle::test::TemporaryFolder;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// Runs `action` in a child process and kills that after `delay`, counted from its first byte on the pipe it is given.
+void run_and_kill(std::chrono::microseconds delay, const std::function<void(int pipe)>& action) {
+  int ends[2];
+  REQUIRE(pipe(ends) == 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    close(ends[0]);
+    action(ends[1]);
+    _exit(0);
+  }
+  close(ends[1]);
+  char byte = 0;
+  const ssize_t told = read(ends[0], &byte, 1);
+  std::this_thread::sleep_for(delay);
+  kill(child, SIGKILL);
+  int status = 0;
+  waitpid(child, &status, 0);
+  close(ends[0]);
+  REQUIRE(told == 1);
+  REQUIRE(WIFSIGNALED(status));
+}
+
+void tell(int pipe) {
+  if (write(pipe, "x", 1) != 1) _exit(1);
+}
+
+/// The numbers of an entry, by the place that each layout gives them.
+std::vector<double> read(const Hdf5File& file, const std::string& named, const std::string& stacked,
+                         std::size_t number) {
+  if (file.read_text_attribute("/", "layout") == "named") return file.read(named);
+  const Shape shape = file.shape(stacked);
+  std::size_t size = 1;
+  for (std::size_t k = 2; k < shape.size(); ++k) size *= shape[k];
+  const std::vector<double> all = file.read(stacked);
+  std::vector<double> values;
+  for (std::size_t row = 0; row < shape[0]; ++row)
+    for (std::size_t k = 0; k < size; ++k) values.push_back(all[(row * shape[1] + number) * size + k]);
+  return values;
+}
+
+/// Every row that /time counts must be whole: sample row i has time 0.5 i.
+std::size_t check_rows(const std::string& path) {
+  const Hdf5File file = Hdf5File::open(path);
+  REQUIRE(file.read_integer_attribute("/", "complete") == 0);
+  if (!file.has("/time")) return 0;
+  const std::vector<double> time = file.read("/time"),
+                            position = read(file, "/nodes/tip/position", "/nodes/node/position", 1),
+                            strain = read(file, "/elements/shaft/strain", "/elements/beam/strain", 0),
+                            step = file.read("/solver/step");
+  REQUIRE(position.size() >= 3 * time.size());
+  REQUIRE(strain.size() >= 12 * time.size());
+  REQUIRE(step.size() >= time.size());
+  std::size_t whole = 0;
+  for (; whole < time.size(); ++whole) {
+    const double number = static_cast<double>(whole);
+    if (time[whole] != 0.5 * number || position[3 * whole + 1] != number) break;
+    if (strain[12 * whole + 11] != 3050 + 0.5 * number || step[whole] != 0.5) break;
+  }
+  REQUIRE(whole == time.size());
+  return time.size();
+}
+
+}  // namespace
+
+TEST_CASE("A killed run leaves a readable file with whole rows, whenever it is killed") {
+  const TemporaryFolder folder;
+  const auto layout = GENERATE(ResultsLayout::named, ResultsLayout::stacked);
+  CAPTURE(layout_name(layout));
+  std::size_t most = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    const std::string path = folder / "run.h5";
+    run_and_kill(trial * 5ms + trial * 37us, [&](int pipe) {
+      ResultsSample sample;
+      ResultsFile results(path, sample.model, "", layout);
+      constexpr int rows = 50'000;
+      results.begin_analysis("dynamic", rows);
+      sample.record(results, 0);
+      tell(pipe);
+      for (int i = 1; i < rows; ++i) sample.record(results, i);
+      std::this_thread::sleep_for(1h);
+    });
+    INFO("trial " << trial);
+    most = std::max(most, check_rows(path));
+  }
+  CHECK(most > 1000);
+}
+
+TEST_CASE("A run that is killed while it makes its datasets leaves a readable file") {
+  const TemporaryFolder folder;
+  const std::string path = folder / "run.h5";
+  // What is made takes some 100 ms, by names 16 000 datasets: kills are spread over all of it, and beyond.
+  const auto [layout, nodes] =
+      GENERATE(table<ResultsLayout, int>({{ResultsLayout::named, 4000}, {ResultsLayout::stacked, 40'000}}));
+  CAPTURE(layout_name(layout));
+  const auto sample_model = [nodes = nodes] {
+    Model model;
+    for (int k = 0; k < nodes; ++k) {
+      Node node;
+      node.name = "node number " + std::to_string(k);
+      node.frame.x = Vector3(k, 0, 0);
+      model.add_node(node);
+    }
+    return model;
+  };
+  const auto run = [&, layout = layout, nodes = nodes](const std::function<void()>& ready) {
+    const Model model = sample_model();
+    State state;
+    state.nodes.resize(static_cast<std::size_t>(nodes) + 1);
+    for (NodeState& node : state.nodes) node.R.setIdentity();
+    const std::vector<Slots> slots;
+    ResultsFile results(path, model, "the text of the model", layout);
+    results.begin_analysis("dynamic");
+    ready();
+    results.record(state, slots, model.environment, {});
+    results.file();
+  };
+  auto began = std::chrono::steady_clock::now();
+  run([&] { began = std::chrono::steady_clock::now(); });
+  const auto whole = std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - began);
+  constexpr int trials = 12;
+  for (int trial = 0; trial < trials; ++trial) {
+    CAPTURE(trial);
+    run_and_kill(whole * trial / (trials - 2), [&](int pipe) {
+      run([&] { tell(pipe); });
+      std::this_thread::sleep_for(1h);
+    });
+    const Hdf5File file = Hdf5File::open(path);
+    CHECK(file.read_integer_attribute("/", "complete") == 0);
+    CHECK(file.read_text("/input") == "the text of the model");
+    if (file.has("/time")) CHECK(file.shape("/time") == Shape{1});
+  }
+}
+
+TEST_CASE("Steps that were completed are in the file while a slow one runs") {
+  const TemporaryFolder folder;
+  run_and_kill(600ms, [&](int pipe) {
+    ResultsSample sample;
+    ResultsFile results(folder / "run.h5", sample.model, "");
+    results.begin_analysis("dynamic");
+    for (int i = 0; i < 5; ++i) sample.record(results, i);
+    tell(pipe);
+    std::this_thread::sleep_for(1h);  // the sixth step
+  });
+  CHECK(check_rows(folder / "run.h5") == 5);
+}
+
+TEST_CASE("An earlier analysis survives a kill in a later one") {
+  const TemporaryFolder folder;
+  run_and_kill(300ms, [&](int pipe) {
+    ResultsSample sample;
+    ResultsFile results(folder / "run.h5", sample.model, "");
+    results.begin_analysis("static");
+    for (int i = 0; i < 3; ++i) sample.record(results, i);
+    results.end_analysis();
+    constexpr int rows = 50'000;  // known, so that the file does not grow in the moment of the kill
+    results.begin_analysis("dynamic", rows);
+    tell(pipe);
+    for (int i = 0; i < rows; ++i) sample.record(results, i);
+    std::this_thread::sleep_for(1h);
+  });
+  const Hdf5File file = Hdf5File::open(folder / "run.h5");
+  CHECK(file.shape("/analysis_1/time").at(0) == 3);
+  CHECK(check_rows(folder / "run.h5") > 3);
+}
