@@ -72,7 +72,7 @@ class RotationMeasure final : public NodePairMeasure {
     return rate_ ? rotation.omega(state.node(0), state.node(1)).x() : rotation.psi().x();
   }
   double calc(const LocalState& state, MeasureGradient& gradient) const override {
-    thread_local CoordinateJet jet;
+    thread_local CoordinateDerivatives jet;
     gradient.prepare(state.slots().size());
     jet.prepare(12);
     PairRotation(state.node(0), state.node(1), A_, B_).calc(0, state.node(0), state.node(1), jet);

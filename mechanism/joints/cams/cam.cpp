@@ -71,7 +71,7 @@ LiftedCoordinate::LiftedCoordinate(std::string name, const NamedCoordinate& angl
 
 /// Both coordinates at a state; valid until the next call in this thread.
 struct LiftedCoordinate::Jets {
-  CoordinateJet angle, lifted;
+  CoordinateDerivatives angle, lifted;
 };
 
 void LiftedCoordinate::declare(Declaration& declaration) const {
