@@ -62,3 +62,17 @@ TEST_CASE("a mass leaves an impact with the restitution of the closed form, what
       CHECK_THAT(-before[1] / speed, WithinAbs(restitution_for_damping(d * speed), 1e-5));
     }
 }
+
+TEST_CASE("impacts slower than the slowest one are damped as this one") {
+  NormalLaw law;
+  law.restitution = 0.6;
+  law.slowest_impact = 0.02;
+  const double delta = damping_for_restitution(0.6);
+  CHECK_THAT(law.damping_after(0.5), WithinRel(delta / 0.5, 1e-15));
+  CHECK_THAT(law.damping_after(0.021), WithinRel(delta / 0.021, 1e-15));
+  for (const double speed : {0.0, 1e-9, 0.019}) CHECK_THAT(law.damping_after(speed), WithinRel(delta / 0.02, 1e-15));
+  CHECK(NormalLaw().slowest_impact == 1e-3);  // the manual's
+  law.restitution = 0;
+  law.damping = 7;
+  CHECK(law.damping_after(1e-9) == 7);
+}
