@@ -149,8 +149,9 @@ TEST_CASE("a run says when its joints turn too far in a step") {
              Contains("a joint turns by 0.2 rad in a step of 0.2 s") && Contains("may grow from 0.16 rad on"));
   CHECK_THAT(caution(ConstraintForm::position, Scheme::newmark(), 0.01), Contains("may grow from 0 rad on"));
   CHECK_THAT(caution(ConstraintForm::stabilised, Scheme::generalized_alpha(0.95), 0.3), Contains("may grow from"));
-  CHECK_THAT(caution(ConstraintForm::corrected, scheme, 0.5),
-             Contains("the path bends by 0.48 rad in a step of 0.5 s") && Contains("fall behind by about 0.02 of each turn"));
+  CHECK_THAT(
+      caution(ConstraintForm::corrected, scheme, 0.5),
+      Contains("the path bends by 0.48 rad in a step of 0.5 s") && Contains("fall behind by about 0.02 of each turn"));
   CHECK(caution(ConstraintForm::corrected, scheme, 0.3).empty());
   CHECK(caution(ConstraintForm::position, scheme, 0.1).empty());
 }

@@ -97,10 +97,10 @@ void check_coordinates(const Joints& joints, const Joint& joint, const State& st
           return at(s, [](CoordinateDerivatives& j) -> VectorX { return VectorX::Constant(1, j.value); });
         },
         n, h);
-    const MatrixX S =
-        jacobian([&](const VectorX& s) { return at(s, [](CoordinateDerivatives& j) -> VectorX { return j.g(); }); }, n, h);
-    const MatrixX W =
-        jacobian([&](const VectorX& s) { return at(s, [](CoordinateDerivatives& j) -> VectorX { return j.w(); }); }, n, h);
+    const MatrixX S = jacobian(
+        [&](const VectorX& s) { return at(s, [](CoordinateDerivatives& j) -> VectorX { return j.g(); }); }, n, h);
+    const MatrixX W = jacobian(
+        [&](const VectorX& s) { return at(s, [](CoordinateDerivatives& j) -> VectorX { return j.w(); }); }, n, h);
     CHECK((g.transpose() - jet.g()).cwiseAbs().maxCoeff() < accurate);
     CHECK((S - jet.S()).cwiseAbs().maxCoeff() < accurate * std::max(1.0, S.cwiseAbs().maxCoeff()));
     CHECK((W - jet.W()).cwiseAbs().maxCoeff() < accurate);

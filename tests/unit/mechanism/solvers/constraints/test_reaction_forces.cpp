@@ -198,8 +198,8 @@ TEST_CASE("above it the start is refused, by two solutions or by none") {
       return message_of<bielle::ComputationError>([&] { start(ReadyModel(rod.text())); });
     };
     CHECK_THAT(message(slow), Catch::Contains("more than one solution") && Catch::Contains("Painleve"));
-    CHECK_THAT(message(fast), Catch::Contains("no solution") && Catch::Contains("Painleve") &&
-                                    Catch::Contains("of joint '"));
+    CHECK_THAT(message(fast),
+               Catch::Contains("no solution") && Catch::Contains("Painleve") && Catch::Contains("of joint '"));
   }
   // A rod that leans backwards is never jammed by its own weight: k < 0, and N > 0 grows by 1/(1 - mu |k|).
 }

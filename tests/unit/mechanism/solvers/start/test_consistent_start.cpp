@@ -73,7 +73,8 @@ drives: {push: {joint: slide, displacement: "20"}}
                                                  "open.yaml");
   System system(file.model);
   State state = system.start(0);
-  CHECK_THROWS_WITH(make_consistent(system, file.model.environment, state), Catch::Contains("drive 'push' stays 20 m away from what it prescribes"));
+  CHECK_THROWS_WITH(make_consistent(system, file.model.environment, state),
+                    Catch::Contains("drive 'push' stays 20 m away from what it prescribes"));
 }
 
 TEST_CASE("a node without mass that nothing holds is named") {
