@@ -7,6 +7,8 @@
 
 namespace bielle::mechanism {
 
+using bielle::value_of;
+
 template <class T>
 struct Triple {
   T x{}, y{}, z{};

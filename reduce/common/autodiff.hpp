@@ -39,6 +39,10 @@ struct AutoDiff : std::conditional_t<order == 2, WithSecond<N, most>, NoSecond<N
   AutoDiff() = default;
   AutoDiff(double constant) : value(constant) {}  // NOLINT: constants are numbers
   AutoDiff(double v, const Gradient& g) : value(v), gradient(g) {}
+  template <class Matrix>
+  requires(order == 2) AutoDiff(double v, const Gradient& g, const Matrix& S) : value(v), gradient(g) {
+    this->second = S;
+  }
 
   /// Along a motion: fdot = g . v, and fddot = g . a + v . S v.
   double rate(const Gradient& v) const { return gradient.dot(v); }

@@ -166,7 +166,7 @@ struct FormulaTree::Evaluation {
       return index >= along && index < along + count ? argument_with_slopes(value, index - along, count)
                                                      : Slopes(value);
     else
-      return jet(value, index == along ? 1 : 0, 0);
+      return formula_number::jet(value, index == along ? 1 : 0, 0);
   }
 
   /// Sign of x - border on the right of the point of evaluation.
@@ -314,7 +314,7 @@ struct FormulaTree::Evaluation {
       // d angle = (x dy - y dx) / r2
       const Jet s = x * x + y * y;
       const double g = x.value * first(y) - y.value * first(x), g1 = x.value * second(y) - y.value * second(x);
-      return jet(angle, g / r2, (g1 - g * first(s) / r2) / r2);
+      return formula_number::jet(angle, g / r2, (g1 - g * first(s) / r2) / r2);
     }
   }
 
