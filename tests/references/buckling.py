@@ -1,7 +1,7 @@
-"""Critical loads out of their plane: a cantilever strip and right-angle frames, by shooting with the bending before.
+"""Critical loads out of the plane, with the bending before: a cantilever strip and right-angle frames, by shooting.
 
-Frames stretch and shear, strips do not. Out of the plane the equations are linear about the bent shape; the determinant of
-what is left at the far end vanishes at a critical load.
+Frames stretch and shear, strips do not. Out of the plane the equations are linear about the bent shape; the determinant
+of what is left at the far end vanishes at a critical load.
 """
 import numpy as np
 from scipy.optimize import brentq
