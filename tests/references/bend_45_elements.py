@@ -69,7 +69,7 @@ class Bend:
         return self.energy(u[..., None, :] + 1e-30j * np.eye(n), load).imag / 1e-30
 
     def solve(self, load):
-        """One load, from where the nodes are."""
+        """Under a load that is little more than before, from where the nodes are."""
         u = np.zeros(6 * self.n)
         for _ in range(60):
             h = 1e-5
@@ -90,7 +90,7 @@ class Bend:
 def fill(rows):
     for elements in (1, 2, 4, 8):
         bend = Bend(elements)
-        for load in np.linspace(0, 600, 7)[1:]:
+        for load in np.linspace(0, 600, 13)[1:]:
             bend.solve(load)
         rows.add_vector(f"{elements}.tip", bend.x[-1], 1e-6, f"of {elements} elements")
 
