@@ -2,9 +2,11 @@
 
 J. Simo, L. Vu-Quoc, J. Appl. Mech. 53 (1986) 855; S.-C. Wu, E. Haug, Int. J. Numer. Methods Eng. 26 (1988) 2211. The
 root turns by psi = Om/Ts (t^2/2 + (Ts/2 pi)^2 (cos(2 pi t/Ts) - 1)) up to Ts = 15 s, then at Om. Geometrically exact
-rods by a spectral element in axes that turn with the root, Gauss' collocation in time.
+rods by a spectral element in axes that turn with the root, Gauss' collocation in time; and the linear beam with the
+tension m Om^2 (L^2 - x^2)/2 of the turning root, by Ritz's method.
 """
 import numpy as np
+from numpy.polynomial import Legendre, Polynomial
 from scipy.interpolate import BarycentricInterpolator
 
 import dynamic_rods
@@ -55,6 +57,33 @@ class Arm:
         return np.array(times), np.array(across)
 
 
+def linear(arm, end, h=0.01, count=8):
+    """Tip of the linear beam with tension at the ends of steps."""
+    x, weight = np.polynomial.legendre.leggauss(40)
+    x, weight = 0.5 * arm.L * (x + 1), 0.5 * arm.L * weight
+    clamped = Polynomial([0, 0, 1 / arm.L**2])
+    basis = [clamped * Legendre.basis(k, domain=[0, arm.L]).convert(kind=Polynomial) for k in range(count)]
+    w, slope, curvature = (np.array([f.deriv(order)(x) if order else f(x) for f in basis]) for order in (0, 1, 2))
+    m, EI = arm.rod.mass[0].sum() / arm.L, arm.rod.EI
+    M = m * (w * weight) @ w.T
+    K = EI * (curvature * weight) @ curvature.T
+    # Per square of the rate: the tension, and the centrifugal force on the deflection.
+    G = m * (slope * weight * (arm.L**2 - x**2) / 2) @ slope.T - M
+    inverse, pushed = np.linalg.inv(M), m * w @ (weight * x)
+
+    def acceleration(t, q, _):
+        rate, change = arm.turn(t)
+        return -(q @ K + rate[:, None]**2 * (q @ G) + np.outer(change, pushed)) @ inverse
+    solver = dynamic_rods.Gauss(acceleration, h, 1e-8)
+    q, v = np.zeros(count), np.zeros(count)
+    tip = np.array([f(arm.L) for f in basis])
+    found = [0.0]
+    for k in range(round(end / h)):
+        q, v = solver.step(k * h, q, v)
+        found.append(tip @ q)
+    return h * np.arange(len(found)), np.array(found)
+
+
 def lowest(times, values):
     """By a polynomial through eleven points around the lowest."""
     k = values.argmin()
@@ -72,6 +101,7 @@ def fill(rows):
         least, when = lowest(times, across)
         rows.add(f"{name}.least", least, 1e-7, "largest deflection [m]")
         rows.add(f"{name}.time", when, 1e-3, "when it is reached [s]")
+        rows.add(f"{name}.linear_least", lowest(*linear(model, 8))[0], 1e-6, "of the linear beam with tension [m]")
         for t in (5, 10):
             rows.add(f"{name}.at_{t}", across[round(t / 0.01)], 1e-7, f"deflection at {t} s [m]")
         rows.add(f"{name}.swing", np.abs(across[times > Ts]).max(), 2e-5, "largest deflection of the steady turn [m]")
