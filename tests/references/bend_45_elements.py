@@ -1,8 +1,9 @@
 """The 45-degree bend of a few elements of constant strain: where the least energy is.
 
-An element of the length l between section frames A and B has the energy (d - d_0)^T C (d - d_0)/(2 l), d = log(A^-1 B),
-d_0 that at rest: EA = 1e7, GA = 5e6, GJ = 5e6/6, EI = 1e7/12. Its arc is the rest of the bend's, radius 100; a dead load
-of 600 acts at the tip. Gradients by an imaginary step, second derivatives by differences of them.
+An element of the length l between section frames A and B has the energy (d - d_0)^T C (d - d_0)/(2 l),
+d = log(A^-1 B), d_0 that at rest: EA = 1e7, GA = 5e6, GJ = 5e6/6, EI = 1e7/12. Its arc is the rest of the bend's, radius 100; a dead load
+of 600 acts at the tip. Gradients by an imaginary step, second derivatives by differences of
+them.
 """
 import numpy as np
 
@@ -53,38 +54,38 @@ class Bend:
         self.x = np.stack([100 - 100 * np.cos(a), 100 * np.sin(a), 0 * a], -1)
         self.rest = np.concatenate([[self.length, 0, 0, 0, 0, self.length / 100]])
 
-    def energy(self, u, load):
-        """@param u  increments of all nodes but the root, six each; more axes may stand before"""
-        u = u.reshape(*u.shape[:-1], self.n, 6)
-        first = np.zeros((*u.shape[:-2], 1, 3), u.dtype)
-        x = np.concatenate([first + self.x[0], self.x[1:] + u[..., :3]], -2)
-        R = np.concatenate([np.broadcast_to(self.R[0] + 0 * first[..., None], (*u.shape[:-2], 1, 3, 3)),
-                            self.R[1:] @ rotation(u[..., 3:])], -3)
-        A = np.swapaxes(R[..., :-1, :, :], -1, -2)
-        d = logarithm(A @ R[..., 1:, :, :], (A @ (x[..., 1:, :] - x[..., :-1, :])[..., None])[..., 0]) - self.rest
-        return (C * d * d).sum((-2, -1)) / (2 * self.length) - load * x[..., -1, 2]
+    def energies(self, u):
+        """Of each element, whose nodes have the increments u: six of A, six of B. More axes may stand before."""
+        x_A, x_B = self.x[:-1] + u[..., :3], self.x[1:] + u[..., 6:9]
+        A = np.swapaxes(self.R[:-1] @ rotation(u[..., 3:6]), -1, -2)
+        d = logarithm(A @ self.R[1:] @ rotation(u[..., 9:]), (A @ (x_B - x_A)[..., None])[..., 0]) - self.rest
+        return (C * d * d).sum(-1) / (2 * self.length)
 
-    def gradient(self, u, load):
-        n = u.shape[-1]
-        return self.energy(u[..., None, :] + 1e-30j * np.eye(n), load).imag / 1e-30
+    def gradients(self, u):
+        """Of each element by its twelve increments."""
+        steps = 1e-30j * np.eye(12)[:, None, :]
+        return np.moveaxis(self.energies(u[..., None, :, :] + steps).imag / 1e-30, -2, -1)
 
     def solve(self, load):
         """Under a load that is little more than before, from where the nodes are."""
-        u = np.zeros(6 * self.n)
-        for _ in range(60):
-            h = 1e-5
-            g = self.gradient(u, load)
-            H = (self.gradient(u + h * np.eye(len(u)), load) - self.gradient(u - h * np.eye(len(u)), load)) / (2 * h)
-            step = np.linalg.solve(0.5 * (H + H.T), -g)
+        for _ in range(200):
+            rest, h = np.zeros((self.n, 12)), 1e-5
+            g = self.gradients(rest)
+            steps = h * np.eye(12)[:, None, :]
+            H = (self.gradients(rest + steps) - self.gradients(rest - steps)) / (2 * h)  # [by, element, of]
+            total, matrix = np.zeros(6 * self.n + 6), np.zeros((6 * self.n + 6, 6 * self.n + 6))
+            for k in range(self.n):
+                total[6 * k:6 * k + 12] += g[k]
+                matrix[6 * k:6 * k + 12, 6 * k:6 * k + 12] += H[:, k]
+            total[-4] -= load
+            step = np.linalg.solve(0.5 * (matrix + matrix.T)[6:, 6:], -total[6:])
             largest = np.abs(step).max()
-            u = u + step * min(1, 2 / largest)  # rotations bend the way that the step goes
+            step = step.reshape(-1, 6) * min(1, 2 / largest)  # rotations bend the way that the step goes
+            self.x[1:] += step[:, :3]
+            self.R[1:] = self.R[1:] @ rotation(step[:, 3:])
             if largest < 1e-7:
-                break
-        else:
-            raise ArithmeticError("no equilibrium is found")
-        u = u.reshape(-1, 6)
-        self.x[1:] += u[:, :3]
-        self.R[1:] = self.R[1:] @ rotation(u[:, 3:])
+                return
+        raise ArithmeticError("no equilibrium is found")
 
 
 def fill(rows):
