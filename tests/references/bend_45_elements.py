@@ -1,8 +1,8 @@
 """The 45-degree bend of a few elements of constant strain: where the least energy is.
 
 An element of the length l between section frames A and B has the energy (d - d_0)^T C (d - d_0)/(2 l),
-d = log(A^-1 B), d_0 that at rest: EA = 1e7, GA = 5e6, GJ = 5e6/6, EI = 1e7/12. Its arc is the rest of the bend's, radius 100; a dead load
-of 600 acts at the tip. Gradients by an imaginary step, second derivatives by differences of
+d = log(A^-1 B), d_0 that at rest: EA = 1e7, GA = 5e6, GJ = 5e6/6, EI = 1e7/12. At rest the nodes stand on the arc,
+radius 100; a dead load of 600 acts at the tip. Gradients by an imaginary step, second derivatives by differences of
 them.
 """
 import numpy as np
