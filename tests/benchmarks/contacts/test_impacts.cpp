@@ -1,5 +1,6 @@
 // Impacts: restitution against the closed form of Hunt and Crossley's law, Newton's cradle against its differential
 // equation, momentum, and steps that shorten for impacts and let nothing pass.
+#include <algorithm>
 #include <cmath>
 
 #include <catch2/catch.hpp>
