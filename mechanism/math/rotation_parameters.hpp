@@ -83,8 +83,8 @@ struct RodriguesVector {
 };
 
 /// Wiener-Milenkovic: c = 4 tan(phi/4) e; principal: |c| <= 4 (phi <= pi). A motion that leaves this ball enters it
-/// again at the shadow -16 c/|c|^2 of the same rotation, its complement: with that rescaling it is free of singularities.
-/// The shadow of c = 0 is infinite, and `complement` throws.
+/// again at the shadow -16 c/|c|^2 of the same rotation, its complement: with that rescaling it is free of
+/// singularities. The shadow of c = 0 is infinite, and `complement` throws.
 struct ConformalVector {
   using Parameters = Vector3;
   using Tangent = Matrix3;

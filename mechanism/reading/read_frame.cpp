@@ -42,9 +42,10 @@ Matrix3 read_axes(const YamlValue& value) {
 Matrix3 read_matrix(const YamlValue& value) {
   const Matrix3 given = value.matrix(3, 3);
   if (const auto fault = rotation_fault(given))
-    value.fail(fmt::format("expected a rotation matrix, whose columns are the node's axes in inertial components: of "
-                           "length one, orthogonal and right-handed; {}",
-                           *fault));
+    value.fail(
+        fmt::format("expected a rotation matrix, whose columns are the node's axes in inertial components: of "
+                    "length one, orthogonal and right-handed; {}",
+                    *fault));
   return nearest_rotation(given);
 }
 
