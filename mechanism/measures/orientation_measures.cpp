@@ -27,7 +27,7 @@ class OrientationMeasure final : public Measure {
     gradient.prepare(state.slots().size());
     const Vector3 p = P::parameters(state.node(0).R);
     const Matrix3 T_inverse = inverse(p);
-    const Vector3 row = T_inverse.row(component_);
+    const Vector3 row = T_inverse.row(component_).transpose();
     if (!rate_) {
       gradient.position().segment<3>(first_turn) = row;
       return p[component_];

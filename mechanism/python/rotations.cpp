@@ -1,4 +1,5 @@
 // Functions of the rotation parametrisations on arrays: one call for all items, whose leading dimensions are kept.
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <map>

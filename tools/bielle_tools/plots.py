@@ -18,8 +18,9 @@ ENERGY_COLOURS = dict(zip(("kinetic", "elastic", "gravity", "dissipated", "input
 MOST_CURVES = 14  # per panel; more cannot be told apart
 
 
-def draw_all(results, folder, extension="png", nodes=None, joints=None, superelements=None):
-    """Draws every figure that the results allow. nodes, joints: names to show instead of all. @returns paths"""
+def draw_all(results, folder, extension="png", nodes=None, joints=None, superelements=None, rotation="rotation_vector"):
+    """Draws every figure that the results allow. nodes, joints: names to show instead of all; rotation: the quantity of
+    ROTATION_QUANTITIES in which rotations of nodes are shown. @returns paths"""
     os.makedirs(folder, exist_ok=True)
 
     def at(name):
@@ -33,6 +34,7 @@ def draw_all(results, folder, extension="png", nodes=None, joints=None, superele
             written += joint_reactions(results, at, joints)
             written += drives(results, at, joints)
             written += node_paths(results, at, nodes)
+            written += node_rotations(results, at, nodes, rotation)
             written += bodies(results, at, superelements or {})
             written += beams(results, at)
             written += circuit(results, at)
@@ -170,6 +172,30 @@ def node_paths(results, at, nodes=None):
     panel.set_title("a dot marks the start")
     style.legend(panel)
     return [style.save(fig, at("paths"))]
+
+
+def node_rotations(results, at, nodes=None, quantity="rotation_vector"):
+    """Orientations of nodes over time, continuous over turns: a panel per component. Unless nodes are named, those that turn by
+    less than a millionth of the largest turn, or than rounding, are left out."""
+    curves = {name: results.rows(f"nodes/{name}/{quantity}") for name in nodes or results.names("nodes")
+              if results.has(f"nodes/{name}/{quantity}")}
+    turned = {name: max(_reach(column) for column in values.T) for name, values in curves.items()}
+    most = max(turned.values(), default=0)
+    if nodes is None:
+        curves = {name: values for name, values in curves.items() if turned[name] > max(1e-6 * most, 1e-12)}
+    if not curves:
+        return []
+    words = quantity.replace("_", " ") if quantity == "rotation_vector" else f"{quantity.capitalize()} angles"
+    place = f"nodes/{next(iter(curves))}/{quantity}"
+    fig, axes = style.figure(3, f"{results.title}: {words} of nodes")
+    axes[0, 0].set_title(results.text(place, "description").partition(",")[0])
+    for k, (panel, component) in enumerate(zip(axes[:, 0], column_names(results, place))):
+        for name, values in list(curves.items())[:MOST_CURVES]:
+            panel.plot(results.time, values[:, k], label=name)
+        panel.set_ylabel(style.label(component, "rad"))
+    style.legend(axes[0, 0])
+    axes[-1, 0].set_xlabel(results.axis)
+    return [style.save(fig, at("rotations"))]
 
 
 def bodies(results, at, superelements):
