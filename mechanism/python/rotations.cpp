@@ -22,9 +22,9 @@ namespace {
 namespace py = pybind11;
 using mechanism::Matrix3;
 
-using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+using Items = py::array_t<double, py::array::c_style | py::array::forcecast>;
 using Shape = std::vector<std::size_t>;
-using OnArrays = std::function<py::array_t<double>(const std::vector<Numbers>&)>;
+using OnArrays = std::function<py::array_t<double>(const std::vector<Items>&)>;
 
 /// A vector or matrix as NumPy stores it, row by row.
 template <class M>
@@ -52,9 +52,9 @@ std::string place_of_item(std::size_t item, const Shape& leading) {
 
 /// The dimensions before those of an item of the first array. All arrays must have as many items.
 template <class First, class... Rest>
-Shape leading_shape(const std::vector<Numbers>& arrays) {
+Shape leading_shape(const std::vector<Items>& arrays) {
   if (arrays.size() != 1 + sizeof...(Rest)) throw py::value_error("another number of arrays is expected");
-  const Numbers& first = arrays.front();
+  const Items& first = arrays.front();
   const Shape of_item = item_shape<First>();
   Shape leading(first.shape(), first.shape() + first.ndim());
   if (leading.size() < of_item.size() || !std::equal(of_item.rbegin(), of_item.rend(), leading.rbegin()))
@@ -70,7 +70,7 @@ Shape leading_shape(const std::vector<Numbers>& arrays) {
 }
 
 template <class Out, class... In, std::size_t... k>
-py::array_t<double> on_each(Out (*function)(const In&...), const std::vector<Numbers>& arrays,
+py::array_t<double> on_each(Out (*function)(const In&...), const std::vector<Items>& arrays,
                             std::index_sequence<k...>) {
   Shape shape = leading_shape<In...>(arrays);
   std::size_t items = 1;
@@ -93,7 +93,7 @@ py::array_t<double> on_each(Out (*function)(const In&...), const std::vector<Num
 
 template <class Out, class... In>
 OnArrays on_arrays(Out (*function)(const In&...)) {
-  return [function](const std::vector<Numbers>& arrays) {
+  return [function](const std::vector<Items>& arrays) {
     return on_each(function, arrays, std::index_sequence_for<In...>());
   };
 }
@@ -141,7 +141,7 @@ const std::map<std::string, Functions>& parametrisations() {
 
 void bind_rotations(py::module_& module) {
   module.def("rotations",
-             [](const std::string& parametrisation, const std::string& function, const std::vector<Numbers>& arrays) {
+             [](const std::string& parametrisation, const std::string& function, const std::vector<Items>& arrays) {
                return parametrisations().at(parametrisation).at(function)(arrays);
              });
 }

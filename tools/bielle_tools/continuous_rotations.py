@@ -1,17 +1,18 @@
 """Parameters of rotations that follow each other, continued from row to row.
 
-A rotation has many rotation vectors, (phi + 2 pi n) e, two sets of Euler or Bryant angles up to whole turns, and two unit
-quaternions. These functions take rows of any of them and give those that continue the row before:
+A rotation has many rotation vectors, (phi + 2 pi n) e, two sets of Euler or Bryant angles up to whole turns, and two
+unit quaternions. These functions take rows of any of them and give those that continue the row before:
 
-- Angles count turns. Of the two sets that one is taken which is nearer to the row before, also where the middle angle goes
-  through its singularity. Within `LOCKED` of the singularity the first and last angle are not told apart: each takes half of
-  what their sum (or difference) changes. Rows that begin there take the values of the first row that tells them.
-- The rotation vector goes through half a turn and counts turns about an axis that moves by less than a right angle from row
-  to row. Within `LOCKED` of full turns the axis is not determined: that of the row before is kept.
+- Angles count turns. Of the two sets that one is taken which is nearer to the row before, also where the middle angle
+  goes through its singularity. Within `LOCKED` of the singularity the first and last angle are not told apart: each
+  takes half of what their sum (or difference) changes. Rows that begin there take the values of the first row that
+  tells them.
+- The rotation vector goes through half a turn and counts turns about an axis that moves by less than a right angle
+  from row to row. Within `LOCKED` of full turns the axis is not determined: that of the row before is kept.
 
-Where rows are more than half a turn apart no rule can tell the number of turns. Source: A. Cardona, An Integrated Approach
-to Mechanism Analysis (thesis, Liege, 1989), ch. 1, on complements of rotation vectors; what is done at the singularities of
-angles is this module's own.
+Where rows are more than half a turn apart no rule can tell the number of turns. Source: A. Cardona, An Integrated
+Approach to Mechanism Analysis (thesis, Liege, 1989), ch. 1, on complements of rotation vectors; what is done at the
+singularities of angles is this module's own.
 """
 
 import numpy as np
@@ -20,7 +21,8 @@ LOCKED = 1e-8  # [rad] half of the digits: below it rounding of R moves the unde
 
 
 def continuous_quaternions(q, keep_first=False):
-    """(rows, 4) w x y z of the sign that continues the row before. The first row stays, with w >= 0 unless keep_first."""
+    """(rows, 4) w x y z of the sign that continues the row before. The first row stays, with w >= 0 unless keep_first.
+    """
     q = np.asarray(q, float)
     if not len(q):
         return q.copy()
@@ -67,7 +69,9 @@ def continuous_bryant(angles, keep_first=False):
 
 
 def _continuous_angles(angles, zero, sign, mirror, keep_first):
-    """zero(b) = 0 is the singularity, where a + sign(b) c is determined; the complement is (a + pi, mirror - b, c + pi)."""
+    """zero(b) = 0 is the singularity, where a + sign(b) c is determined; the complement is (a + pi, mirror - b, c +
+    pi).
+    """
     angles = np.asarray(angles, float)
     if not len(angles):
         return angles.copy()
@@ -98,8 +102,8 @@ def _nearer_ones(angles, mirror, before):
     """Of each row the angles or their complement, whatever is nearer to the row before, plus turns."""
     rows = angles if before is None else np.vstack([before, angles])
     other = np.column_stack([rows[:, 0] + np.pi, mirror - rows[:, 1], rows[:, 2] + np.pi])
-    # Both sets of a row are as far from one of the row before as from its other one crosswise: who changes is known without
-    # knowing which of the two the row before was.
+    # The two sets of a row are as far from one set of the row before as, exchanged, from its other set: a change from one
+    # to the other is seen without knowing which of the two the row before has.
     change = _distance(other[1:], rows[:-1]) < _distance(rows[1:], rows[:-1])
     taken = np.concatenate([[False], np.cumsum(change) % 2 == 1])
     rows = np.unwrap(np.where(taken[:, None], other, rows), axis=0)

@@ -177,20 +177,20 @@ def node_paths(results, at, nodes=None):
 def node_rotations(results, at, nodes=None, quantity="rotation_vector"):
     """Orientations of nodes over time, continuous over turns: a panel per component. Unless nodes are named, those that turn by
     less than a millionth of the largest turn, or than rounding, are left out."""
-    curves = {name: results.rows(f"nodes/{name}/{quantity}") for name in nodes or results.names("nodes")
-              if results.has(f"nodes/{name}/{quantity}")}
-    turned = {name: max(_reach(column) for column in values.T) for name, values in curves.items()}
-    most = max(turned.values(), default=0)
-    if nodes is None:
-        curves = {name: values for name, values in curves.items() if turned[name] > max(1e-6 * most, 1e-12)}
-    if not curves:
+    places = {name: f"nodes/{name}/{quantity}" for name in nodes or results.names("nodes")}
+    places = {name: place for name, place in places.items() if results.has(place)}
+    turned = {name: max(_reach(column) for column in columns_of(results, place)) for name, place in places.items()}
+    least = -1 if nodes else max(1e-6 * max(turned.values(), default=0), 1e-12)
+    shown = [name for name in places if turned[name] > least][:MOST_CURVES]
+    if not shown:
         return []
-    words = quantity.replace("_", " ") if quantity == "rotation_vector" else f"{quantity.capitalize()} angles"
-    place = f"nodes/{next(iter(curves))}/{quantity}"
+    curves = {name: results.rows(places[name]) for name in shown}
+    words = "rotation vectors" if quantity == "rotation_vector" else f"{quantity.capitalize()} angles"
+    place = places[shown[0]]
     fig, axes = style.figure(3, f"{results.title}: {words} of nodes")
     axes[0, 0].set_title(results.text(place, "description").partition(",")[0])
     for k, (panel, component) in enumerate(zip(axes[:, 0], column_names(results, place))):
-        for name, values in list(curves.items())[:MOST_CURVES]:
+        for name, values in curves.items():
             panel.plot(results.time, values[:, k], label=name)
         panel.set_ylabel(style.label(component, "rad"))
     style.legend(axes[0, 0])

@@ -9,15 +9,18 @@ from .continuous_rotations import continuous_bryant, continuous_euler, continuou
 
 # Of nodes, made of their `rotation` and continuous over turns; with the attributes of a dataset.
 ROTATION_QUANTITIES = {
-    "rotation_vector": {"units": "rad", "description": "axis times angle of R (node axes -> inertial axes), over turns: x, y, z"},
-    "bryant": {"units": "rad", "description": "R = Rx(a) Ry(b) Rz(c) (node axes -> inertial axes), over turns: a, b, c"},
-    "euler": {"units": "rad", "description": "R = Rz(a) Rx(b) Rz(c) (node axes -> inertial axes), over turns: a, b, c"},
+    "rotation_vector": {"units": "rad",
+                        "description": "axis times angle of R (node -> inertial axes), over turns: x, y, z"},
+    "bryant": {"units": "rad", "description": "R = Rx(a) Ry(b) Rz(c) (node -> inertial axes), over turns: a, b, c"},
+    "euler": {"units": "rad", "description": "R = Rz(a) Rx(b) Rz(c) (node -> inertial axes), over turns: a, b, c"},
 }
 SMALLEST_SINE = 4e-16  # of the middle angle: below it nothing but rounding tells the first angle from the last
 
 
 def made_of(place):
-    """Which quantity is made of which dataset: ("bryant", "nodes/pin/rotation") of `nodes/pin/bryant`; ("", place) of others."""
+    """Which quantity is made of which dataset: ("bryant", "nodes/pin/rotation") of `nodes/pin/bryant`; ("", place) of
+    others.
+    """
     words = place.strip("/").split("/")
     if words[0] != "nodes" or len(words) < 3 or words[-1] not in ROTATION_QUANTITIES:
         return "", place
