@@ -412,7 +412,7 @@ class Quantities(unittest.TestCase):
             self.assertIn(f"nodes/body/{kind}", results)
             self.assertFalse(p.flags.writeable)
             np.testing.assert_allclose(rotations.to_matrix(kind, p), R, atol=1e-12)
-            # Turns are integrals of the rates, wherever these are determined.
+            # Between rows the body turns by 21 mrad, angles by up to 1/cos b = 58 times that: 1.2 rad, where a jump has 3.
             self.assertLess(np.abs(np.diff(p, axis=0)).max(), 2.0)
             self.assertGreater(np.ptp(p, axis=0).max(), 2 * math.pi)
             principal = session[f"nodes/body/{kind}"]
@@ -421,9 +421,10 @@ class Quantities(unittest.TestCase):
             np.testing.assert_allclose([session.measure(f"body.{kind}.{n}") for n in names], principal, atol=1e-12)
         np.testing.assert_allclose(results["measures/a"][0], 0.4, atol=1e-15)
         bryant = rotations.from_matrix("bryant", R)
-        np.testing.assert_allclose(results["measures/a"], bryant[:, 0], atol=1e-11)
+        # R is a product of 1600 rounded rotations, and next to the singularity cos b is 0.017: 2e-11.
+        np.testing.assert_allclose(results["measures/a"], bryant[:, 0], atol=1e-10)
         euler, Omega = rotations.from_matrix("euler", R), results["nodes/body/velocity"][:, 3:]
-        np.testing.assert_allclose(results["measures/rate"], rotations.parameter_rate("euler", euler, Omega)[:, 1], atol=1e-11)
+        np.testing.assert_allclose(results["measures/rate"], rotations.parameter_rate("euler", euler, Omega)[:, 1], atol=1e-10)
 
     def test_others_are_refused(self):
         session = bielle.read(MODEL).session()
