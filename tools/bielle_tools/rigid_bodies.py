@@ -6,7 +6,8 @@ a^2 = 5 (J_y + J_z - J_x) / (2 m): about the size of the body, a little larger w
 
 import numpy as np
 
-from .results_file import LARGEST, reading, rotation_matrices
+from .results_file import LARGEST, reading
+from .rotations import rotation_matrices
 
 
 class RigidBody:
