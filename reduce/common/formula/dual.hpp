@@ -2,8 +2,8 @@
 //
 //     d f(a, b) = f_a da + f_b db
 //
-// The counterpart of a Jet where second derivatives are not needed. What a border would decide (the sign of zero) needs
-// them, and is left to jets.
+// It replaces a Jet where second derivatives are not needed. Decisions at a border (the sign of zero) need second
+// derivatives and are made with jets.
 #pragma once
 
 #include <array>

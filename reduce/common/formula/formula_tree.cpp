@@ -52,7 +52,7 @@ double elementary_value(Operation operation, double v) {
   }
 }
 
-/// The same with derivatives. @param f  its value
+/// The same operations with derivatives. @param f  its value
 template <class Number>
 Number elementary_chain(Operation operation, const Number& x, double f) {
   const double v = value_of(x);
@@ -139,15 +139,15 @@ int FormulaTree::add(Operation operation, int first, int second, int third) {
 
 /// One evaluation of the tree; `Number` is double, Jet or Dual.
 ///
-/// With Duals, what stands exactly at a border is decided as it is for the value, and `at_kink` remembers that the
-/// slopes may belong to the wrong piece.
+/// With Duals, a comparison exactly at a border is decided by the value, and `at_kink` records that the slopes may
+/// belong to the wrong piece.
 template <class Number>
 struct FormulaTree::Evaluation {
   const FormulaTree& tree;
   std::span<const double> arguments;
   std::size_t along = 0;         ///< the argument that a Jet follows, or the first one that Duals do
-  std::size_t count = 0;         ///< how many arguments Duals follow
-  mutable bool at_kink = false;  ///< of Duals
+  std::size_t count = 0;         ///< number of arguments that Duals follow
+  mutable bool at_kink = false;  ///< set if a comparison of Duals was at a border
 
   Number of(int index) const {
     const Number result = unchecked(tree.term(index));
@@ -171,7 +171,7 @@ struct FormulaTree::Evaluation {
       return {value, index == along ? 1.0 : 0.0, 0};
   }
 
-  /// Sign of x - border on the right of the point of evaluation.
+  /// Sign of x - border immediately to the right of the point of evaluation.
   double side(const Number& x, const Number& border) const {
     if constexpr (is_dual) {
       at_kink |= x.value == border.value && (varies(x) || varies(border));
@@ -322,7 +322,7 @@ struct FormulaTree::Evaluation {
 
   Number transition(Operation operation, const Number& t, const Number& t0, const Number& t1) const {
     check_transition(value_of(t0), value_of(t1));
-    // On the border, the piece on the right of the argument decides.
+    // On the border, the piece to the right of the argument is chosen.
     const double after_start = side(t, t0), after_end = side(t, t1);
     if (operation == Operation::pulse) return truth(after_start >= 0 && after_end < 0);
     if (after_start <= 0) return constant(0);

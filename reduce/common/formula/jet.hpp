@@ -1,5 +1,5 @@
-// Arithmetic with a value and its first two derivatives along one argument, and the same with plain numbers, so that
-// one evaluation of a formula serves both.
+// Arithmetic with a value and its first two derivatives along one argument, and the same operations for plain numbers,
+// so that one template evaluates a formula with either.
 //
 //     (f g)'' = f'' g + 2 f' g' + f g'',   f(x)'' = f''(x) x'^2 + f'(x) x''
 #pragma once
@@ -10,7 +10,7 @@
 
 namespace bielle {
 
-/// What a formula cannot do at its arguments, e.g. "division by zero".
+/// An operation that is not defined for its arguments, e.g. "division by zero".
 class FormulaError : public std::domain_error {
  public:
   using std::domain_error::domain_error;
@@ -23,10 +23,10 @@ struct Jet {
 
 namespace jets {
 
-/// a * b where a zero wins against an infinite other factor: what does not vary contributes no derivative.
+/// a * b, where zero times infinity is zero: a term that does not vary contributes no derivative.
 inline double product(double a, double b) { return a == 0 || b == 0 ? 0 : a * b; }
 
-/// Sign of x on the right of the point of evaluation.
+/// Sign of x immediately to the right of the point of evaluation.
 inline double sign_of(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
 inline double sign_of(const Jet& x) {
   return x.value != 0 ? sign_of(x.value) : x.first != 0 ? sign_of(x.first) : sign_of(x.second);
@@ -35,11 +35,11 @@ inline double sign_of(const Jet& x) {
 inline double value_of(double x) { return x; }
 inline double value_of(const Jet& x) { return x.value; }
 
-/// x moves to the right of its value: then what is piecewise takes the piece on the right.
+/// Tells whether x is above its value immediately to the right; piecewise functions then take the piece on the right.
 inline bool rises(double) { return true; }
 inline bool rises(const Jet& x) { return x.first != 0 ? x.first > 0 : x.second >= 0; }
 
-// f(x) by the chain rule from f, f' and f'' at x.
+// f(x) by the chain rule, from f, f' and f'' at x.
 inline double chain(double, double f, double, double) { return f; }
 inline Jet chain(const Jet& x, double f, double f1, double f2) {
   return {f, product(f1, x.first), product(f2, x.first * x.first) + product(f1, x.second)};
@@ -69,7 +69,7 @@ inline Jet over(const Jet& a, const Jet& b) {
   return {q, q1, (a.second - 2 * q1 * b.first - q * b.second) / b.value};
 }
 
-/// Derivatives of x^n for a constant n; zero where the factor n (n - 1) ... is.
+/// Derivatives of x^n for a constant n; they are zero if the factor n (n - 1) ... is.
 template <class Number>
 Number power(const Number& x, double n) {
   const double v = value_of(x), f = std::pow(v, n);
@@ -80,7 +80,7 @@ Number power(const Number& x, double n) {
                  product(n * (n - 1), n == 2 ? 1 : std::pow(v, n - 2)));
 }
 
-/// floor of the value on the right of x
+/// floor of the value immediately to the right of x
 template <class Number>
 double floor_of(const Number& x) {
   const double v = std::floor(value_of(x));
