@@ -1,6 +1,7 @@
 // The pendulum as an index-3 problem: m = 1 kg, L = 1 m, g = 9.81 m/s^2, released at rest from the horizontal. Errors
 // at t = 1 s of an independent implementation in Python (two unknowns, one constraint (x^2 + y^2 - 1)/2, A_0 = a_0)
-// against the closed form. The body's rotation, which that one has not, carries no inertia here and changes nothing.
+// against the closed form. The body's rotation, which that implementation does not have, has no inertia here and
+// changes nothing.
 #include <catch2/catch.hpp>
 
 #include "tests/support/run_model.hpp"

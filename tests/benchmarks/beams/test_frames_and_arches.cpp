@@ -17,7 +17,7 @@ struct PathPoint {
   double P, u, v;  ///< load, displacements of its point: horizontal, down
 };
 
-/// Errors at the points of a path for three meshes: second order or better (where bending rules, of fourth).
+/// Errors at the points of a path for three meshes: second order or better (fourth, if bending dominates).
 template <class Model>
 void check_path(const Model& make, const std::vector<PathPoint>& path, const Vector3& start, double step,
                 double tolerance, double size) {
@@ -41,8 +41,8 @@ void check_path(const Model& make, const std::vector<PathPoint>& path, const Vec
   }
 }
 
-/// The extreme load between two positions of the loaded point along a direction, by parabolas through three points ever
-/// closer.
+/// The extreme load between two positions of the loaded point along a direction, by parabolas through three
+/// successively closer points.
 double extreme_load(StaticModel& model, int direction, double low, double high, double tolerance) {
   const auto P = [&](double u) { return model.control("load", direction, u, 8, tolerance); };
   for (int k = 0; k < 4; ++k) {

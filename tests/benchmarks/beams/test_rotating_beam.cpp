@@ -117,8 +117,8 @@ TEST_CASE("a rotating cantilever stiffens with its speed as it should") {
     const std::vector<double> across = RotatingBeam(16, row.eta, 0).frequencies(flap),
                               along = RotatingBeam(16, row.eta, 0).frequencies(lag);
     CAPTURE(row.eta, across[0], across[1], along[0], along[1]);
-    // 16 elements leave 2.5e-5 and 5.5e-5 at the highest speed, of fourth order; in the plane the first error grows
-    // six times where eta^2 is taken off.
+    // 16 elements leave errors of 2.5e-5 and 5.5e-5 at the highest speed, of fourth order; in the plane the first error
+    // grows six times, since eta^2 is subtracted.
     CHECK_THAT(across[0], Catch::WithinRel(row.mu1, 3e-5));
     CHECK_THAT(across[1], Catch::WithinRel(row.mu2, 7e-5));
     CHECK_THAT(along[0], Catch::WithinRel(std::sqrt(row.mu1 * row.mu1 - row.eta * row.eta), 2e-4));

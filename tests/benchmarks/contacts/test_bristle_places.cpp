@@ -1,5 +1,5 @@
-// Bristles (LuGre) and what must not matter to them: the order of a surface's triangles, and which of two shapes is
-// named first. Static analyses keep those of places that still touch.
+// Bristles (LuGre) must not depend on the order of a surface's triangles, nor on which of two shapes is named first.
+// Static analyses keep the bristles of places that still touch.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

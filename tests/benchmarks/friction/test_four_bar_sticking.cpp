@@ -1,8 +1,8 @@
 // A four-bar linkage whose four hinges are `stick_slip`, in space: its constraints repeat each other, so that reactions
 // are those of smallest norm, and more joints stick than it has degrees of freedom. Each hinge passes dead centres of
-// its own, where it comes to rest while the rest of the loop moves on; at reversals of the linkage all come to rest at
-// once; at last all stick. Thin bars of 1 kg/m as in tests/support/four_bar.hpp, released at rest. The reference is the
-// equation of the crank's angle,
+// its own, at which it comes to rest while the rest of the loop moves on; at reversals of the linkage all come to rest
+// at once; finally all stick. Thin bars of 1 kg/m as in tests/support/four_bar.hpp, released at rest. The reference is
+// the equation of the crank's angle,
 //     m_i a_i = sum F + m_i g,   I_i alpha_i = sum (r x F)_z -+ s_j mu r |F_j|,   a_i, alpha_i linear in the crank's,
 // integrated from one change of a sign s_j of the relative rates to the next, which are located to rounding.
 #include <algorithm>

@@ -116,7 +116,7 @@ TEST_CASE("a moving mass is stopped by its closing valve: peak and swing") {
 }
 
 TEST_CASE("trapped oil is a spring: period and turning points of a blocked cylinder") {
-  // p = p_0 - B ln(V/V_0) gives a potential, hence the turning points; the period by DOP853.
+  // p = p_0 - B ln(V/V_0) gives a potential, hence the turning points; the period is computed by DOP853.
   const std::string blocked = lift(double_acting_cylinder + ", pressures: [6e6, 10e6]", ", velocity: [0, 0, 0.1]");
   constexpr double period = .049304523, h = period / 800;
   double highest = -1, lowest = 1, before = 0, time_before = 0;

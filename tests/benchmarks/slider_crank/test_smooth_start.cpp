@@ -13,13 +13,13 @@ using bielle::test::ReadyModel;
 
 namespace {
 
-constexpr double turning = -74.9957670;  // of the line between the rod's ends [rad/s]
+constexpr double turning = -74.9957670;  // angular velocity of the line between the rod's ends [rad/s]
 
 double parabola(double x, double middle, double end) { return 4 * x * (1 - x) * middle + x * (2 * x - 1) * end; }
 
 double stretch(double x) { return parabola(x, 0.103339863e-4, 0.169327969e-4); }
 
-/// Of the deformation, relative to the turning line.
+/// Rate of the deformation relative to the turning line.
 Vector3 deformation_rate(double x) {
   return {parabola(x, -0.178591076e-5, -0.268938672e-5),
           turning * stretch(x) + 0.444896105 * std::sin(M_PI * x) + 0.463434311e-2 * std::sin(2 * M_PI * x), 0};
@@ -40,7 +40,7 @@ void move(NodeState& node, double x) {
   node.Omega.z() = turning + slope_rate(x);
 }
 
-/// The slider goes with the rod's end.
+/// Moves the slider with the rod's end.
 void move_slider(State& state, const ReadyModel& model) {
   const NodeState& end = node_of(state, model, "b");
   node_of(state, model, "slider").x = end.x;
@@ -96,7 +96,7 @@ Run run_of_superelement(const bielle::test::BeamSuperelement& rod, double h) {
   move(node_of(state, model, "a"), 0);
   move(node_of(state, model, "b"), 1);
   move_slider(state, model);
-  // Modal amplitudes: what the ends leave of the field, in the mean square.
+  // Modal amplitudes of the field minus the motion of the ends, in the mean square.
   const Eigen::Index modes = state.amplitude.size(), points = rod.points.cols();
   Eigen::Matrix<double, 12, 1> q = Eigen::Matrix<double, 12, 1>::Zero(), qdot = q;
   for (const int end : {0, 1}) {
@@ -118,8 +118,8 @@ Run run_of_superelement(const bielle::test::BeamSuperelement& rod, double h) {
 
 constexpr double response = 1.56e-3;  ///< size of the deflection [m]
 
-/// Of the geometrically exact rod (GA = 5/6 G A) by nodal spectral elements and Runge-Kutta: converged to 1e-8 m in the
-/// deflection and 3e-8 m at the slider.
+/// References of the geometrically exact rod (GA = 5/6 G A) by nodal spectral elements and Runge-Kutta: converged to
+/// 1e-8 m in the deflection and 3e-8 m at the slider.
 const std::vector<double> exact{6.0755e-5, -7.5596e-4, 1.55738e-4, -1.31570e-3, 2.3311e-4};
 
 /// q1 of the test set's own model, with linear elasticity and a consistent mass matrix, by DOP853 with rtol 1e-11.
@@ -140,8 +140,8 @@ TEST_CASE("from the test set's start the rod of beams deflects as the geometrica
 
 TEST_CASE(
     "from the test set's start a linear superelement deflects as its linear rod, a stiffened one as the exact rod") {
-  // Two sines and a parabola against eight modes, and another frame to measure small displacements in: 0.5 percent. The
-  // two references are 1.5e-4 m apart.
+  // Two sines and a parabola are compared with eight modes, and small displacements with another frame: 0.5 percent.
+  // The two references are 1.5e-4 m apart.
   const Run without = run_of_superelement(reduced_rod(false), 1e-5);
   CHECK(without.error(linear) < 5e-3 * response);
   CHECK(without.error(exact) > 9e-2 * response);

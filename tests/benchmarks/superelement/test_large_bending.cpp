@@ -1,8 +1,8 @@
-// Superelements that bend: against the geometrically exact beam that is as stiff, and against closed forms.
+// Superelements that bend: against the geometrically exact beam of the same stiffness, and against closed forms.
 //
-// The 45-degree bend of K.-J. Bathe, S. Bolourchi, IJNME 14 (1979) 961, radius 100, section 1 x 1, E = 1e7, nu = 0, load 600
-// across its plane: displacement of the tip (-23.818827836, 13.731507154, 53.607849529), the geometrically exact rod with
-// GJ = 0.140577 G and 5/6 of the shear areas, by shooting to 1e-9.
+// The 45-degree bend of K.-J. Bathe, S. Bolourchi, IJNME 14 (1979) 961, radius 100, section 1 x 1, E = 1e7, nu = 0,
+// load 600 across its plane: displacement of the tip (-23.818827836, 13.731507154, 53.607849529), the geometrically
+// exact rod with GJ = 0.140577 G and 5/6 of the shear areas, by shooting to 1e-9.
 #include <catch2/catch.hpp>
 
 #include "mechanism/solvers/statics/statics.hpp"
@@ -19,7 +19,7 @@ namespace {
 
 constexpr double floor_of_residual = 1e-5;  // EA epsilon |x| / L of the pieces is 1e-8 to 1e-7
 
-/// Where a model's node goes under its loads.
+/// Displacement of a model's node under its loads.
 Vector3 displacement(const std::string& model, const std::string& node, int steps) {
   StaticModel statics(model);
   const Vector3 start = statics.node(node).x;
@@ -43,15 +43,13 @@ struct Pieces {
   }
   Vector3 tip(const Vector3& force, const Vector3& moment, int steps = 2) { return tip(body, force, moment, steps); }
   Vector3 beam(const Vector3& force, const Vector3& moment, int elements = 64) const {
-    return displacement(exact_beam(bar.axis, bar.length * count, bar.fitted_section(body), elements) +
-                            tip_load("tip", force, moment),
-                        "tip", 8);
+    return displacement(
+        exact_beam(bar.axis, bar.length * count, bar.fitted_section(body), elements) + tip_load("tip", force, moment),
+        "tip", 8);
   }
 };
 
-Pieces bend_of(int pieces) {
-  return Pieces({BarAxis{100}, 25 * M_PI / pieces, 12, 120 / pieces}, pieces);
-}
+Pieces bend_of(int pieces) { return Pieces({BarAxis{100}, 25 * M_PI / pieces, 12, 120 / pieces}, pieces); }
 
 const Vector3 none = Vector3::Zero();
 
@@ -67,10 +65,10 @@ TEST_CASE("the 45-degree bend of superelements converges to the exact rod, in an
     CHECK((bend.tip(load, none, 1) - u).norm() < 1e-8 * exact.norm());
     CHECK((bend.tip(load, none, 17) - u).norm() < 1e-8 * exact.norm());
     if (pieces == 3) continue;
-    // Against the beam that is as stiff as the pieces, only large bending is left.
+    // Compared with the beam of the same stiffness, the difference is that of large bending.
     const Vector3 reference = bend.beam(load, none);
     CHECK((u - reference).norm() < 5e-4 * reference.norm());
-    // It takes the geometric stiffness.
+    // Without the geometric stiffness it is wrong.
     Superelement without = bend.body;
     without.load_stiffness.clear();
     CHECK((bend.tip(without, load, none, 6) - reference).norm() > 1e-3 * reference.norm());
@@ -94,7 +92,8 @@ TEST_CASE("the bend of superelements under forces and moments that turn with its
   struct Load {
     Vector3 force, moment;
   };
-  for (const Load& load : {Load{{0, 0, 300}, none}, {none, {0, 1e4, 0}}, {none, {6e3, 8e3, 8e3}}, {{50, 0, 200}, {5e3, 5e3, -5e3}}}) {
+  for (const Load& load :
+       {Load{{0, 0, 300}, none}, {none, {0, 1e4, 0}}, {none, {6e3, 8e3, 8e3}}, {{50, 0, 200}, {5e3, 5e3, -5e3}}}) {
     CAPTURE(load.force.transpose(), load.moment.transpose());
     Vector3 dead = none;
     for (const bool follower : {false, true}) {

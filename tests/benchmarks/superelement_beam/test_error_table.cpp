@@ -88,8 +88,8 @@ void check_table(const Superelement& body, const std::vector<int>& boundary, int
     for (std::size_t k = 0; k < row.errors.size(); ++k) {
       const double error = found(static_cast<Eigen::Index>(k)) / full(static_cast<Eigen::Index>(k)) - 1;
       INFO(row.modes << " modes, frequency " << k + 1 << ": error " << error << ", in closed form " << row.errors[k]);
-      // The full model bends in three dimensions: what the strip's plane leaves out (its twist by an unsymmetric mesh)
-      // comes to less than 1e-6.
+      // The full model bends in three dimensions: effects outside the strip's plane (its twist by an unsymmetric mesh)
+      // are below 1e-6.
       CHECK(error > -1e-9);
       CHECK(error == Approx(row.errors[k]).epsilon(0.03).margin(1e-6));
     }

@@ -1,4 +1,4 @@
-// What is left of a run that is killed by SIGKILL, at any moment.
+// The file of a run that is killed by SIGKILL, at any moment.
 #include <chrono>
 #include <cmath>
 #include <functional>

@@ -1,5 +1,5 @@
-// What a beam must represent exactly: constant strains on curved and twisted elements, rolling up, rigid rotation of a
-// bent beam, and the way back.
+// States that a beam must represent exactly: constant strains on curved and twisted elements, rolling up, rigid
+// rotation of a bent beam, and the way back.
 #include <cmath>
 #include <numbers>
 
@@ -22,7 +22,8 @@ using std::numbers::pi;
 namespace {
 
 /// Four elements of unequal length, free of stress on the helix of tangent e_x and curvature `K0`, brought to the
-/// strain eps. @returns the largest force left at their inner nodes, and how far the force in the first is from `f`
+/// strain eps. @returns the largest remaining force at their inner nodes, and the difference of the force in the first
+/// element from `f`
 double patch_error(const Vector3& K0, const Vector6& eps, const Matrix6& C, const Vector6& f, BeamBending bending) {
   Vector6 reference = Vector6::Unit(0);
   reference.tail<3>() = K0;
@@ -137,7 +138,7 @@ std::string loaded_arc(bool follower) {
          (follower ? "true" : "false") + "}\n";
 }
 
-/// Follows the loads from where the state is to `end` in steps of t.
+/// Follows the loads from the present state to `end` in steps of t.
 void follow(StaticModel& model, double end, int steps) {
   const double from = model.state.time;
   for (int k = 1; k <= steps; ++k) {
@@ -187,8 +188,8 @@ TEST_CASE("a bent beam that is carried around by its clamp keeps its strains (ob
 }
 
 TEST_CASE("a beam of slenderness 1e4 does not lock") {
-  // L = EI = 1, P = 1: the inextensible elastica by shooting (K. Mattiasson, IJNME 17 (1981) 145), u, w, theta. The
-  // thinner the beam, the nearer; 8 elements leave an error of second order which the thickness must not change.
+  // L = EI = 1, P = 1: the inextensible elastica by shooting (K. Mattiasson, IJNME 17 (1981) 145), u, w, theta. Thinner
+  // beams are nearer; 8 elements leave an error of second order, which must not depend on the thickness.
   const Vector3 exact(1 - 0.056433236283, 0.301720773800, 0.461351949712);
   const auto error = [&](double slenderness) {
     const double EA = 12 * slenderness * slenderness;

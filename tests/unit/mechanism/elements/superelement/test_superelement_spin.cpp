@@ -1,10 +1,10 @@
 // Frequencies of a superelement at rest and spinning: rotating frames are the touchstone of its inertia.
 //
-// The free-free beam of beam_superelement.hpp spins about z with Om; y is in the plane of rotation. Seen from a frame
-// that spins with it, the exact inertia of a linear field softens in-plane bending, omega^2 - Om^2, and leaves bending
-// across alone; tension of the centrifugal field stiffens both. References: 12 geometrically exact beam elements,
-// linearised about the spinning state by an independent prototype, give (omega^2(Om) - omega^2(0)) / Om^2
-// = 2.05, 3.04, 5.39, 6.38.
+// The free-free beam of beam_superelement.hpp spins about z with Om; y is in the plane of rotation. In a frame that
+// spins with it, the exact inertia of a linear field softens in-plane bending, omega^2 - Om^2, and does not affect
+// out-of-plane bending; tension of the centrifugal field stiffens both. References: 12 geometrically exact beam
+// elements, linearised about the spinning state by an independent prototype, give (omega^2(Om) - omega^2(0)) / Om^2 =
+// 2.05, 3.04, 5.39, 6.38.
 #include <cmath>
 
 #include <Eigen/Eigenvalues>
