@@ -32,7 +32,7 @@ from .study_runs import copy_results, facts, is_done, make_run, run_path
 
 @dataclasses.dataclass
 class Collected:
-    """Of all runs: status (-1: not run yet), messages, and gathered numbers by name, with units."""
+    """Data of all runs: status (-1: not run yet), messages, and gathered numbers by name, with units."""
 
     status: np.ndarray
     messages: list

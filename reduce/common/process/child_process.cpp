@@ -112,7 +112,7 @@ int wait_for(pid_t process) {
   return status;
 }
 
-/// @param status  of `waitpid`
+/// @param status  the status from `waitpid`
 const std::string& sentence_of(const ChildLoss& lost, int status) {
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGSYS) return lost.forbidden;
   return WIFEXITED(status) ? lost.ended : lost.crashed;

@@ -103,7 +103,7 @@ TEST_CASE("a ball that spins where it slides does not notice which shape is name
     return (one.first - other.first).norm() + 0.1 * (one.second - other.second).norm();
   };
   CHECK(apart(", fixed: [rx, ry]", 1e-3) < 1e-9);
-  // Where it also rolls, to the second order of its turns in each step.
+  // If it also rolls, the results agree to second order in its turns in each step.
   const double coarse = apart("", 1e-3), fine = apart("", 5e-4);
   CAPTURE(coarse, fine);
   CHECK(coarse < 1e-3);

@@ -82,7 +82,7 @@ double acceleration(const Crank& z, const Signs& s) {
   gamma[1] = swing(0, 1, alpha[0], rate[0] * rate[0]) + swing(1, 0.5, alpha[1], rate[1] * rate[1]);
   delta[1] = swing(0, 1, beta[0], 0) + swing(1, 0.5, beta[1], 0);
   // Unknown: alpha_crank; forces on the second body of a, b, c, d: ground-crank, crank-coupler, coupler-rocker,
-  // ground-rocker. Where the bars' first and last pins lead: crank a b, coupler b c, rocker d c.
+  // ground-rocker. Joints at the bars' first and last pins: crank a b, coupler b c, rocker d c.
   constexpr int first[3] = {0, 1, 3}, last[3] = {1, 2, 2};
   constexpr double first_sign[3] = {1, 1, 1}, last_sign[3] = {-1, -1, 1};
   Eigen::Matrix<double, 9, 9> A = Eigen::Matrix<double, 9, 9>::Zero();
