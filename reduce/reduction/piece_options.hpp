@@ -22,8 +22,7 @@ std::vector<CutSurface> cut_surfaces(const CutMesh& cut);
 /// interfaces at one place. The total of a `force` is distributed over all pieces that its surface touches. Damping by
 /// ratios is left out, since the ratios are those of the whole body.
 /// @throws InputError, with the place of the request, for an interface or point whose surface lies in several pieces,
-/// and
-///         for an interface with the name of a cut
+///         and for an interface with the name of a cut
 std::vector<ReductionOptions> piece_options(const Mesh& whole, const CutMesh& cut, const std::vector<CutPlane>& planes,
                                             const std::vector<CutSurface>& surfaces, const ReductionOptions& options,
                                             Tie tie);
