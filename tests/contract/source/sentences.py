@@ -1,4 +1,7 @@
-"""Finds sentences of comments and documents that begin with What, Where, Of or Who (CONTRIBUTING.md, "How comments are written")."""
+"""Finds sentences of comments and documents that begin with What, Where, Of or Who.
+
+CONTRIBUTING.md states the rule in "How comments are written".
+"""
 
 import ast
 import io
@@ -14,6 +17,8 @@ LATER = re.compile(r"(?<![\s.(][A-Z])[.!?]['\")]*\s+['\"(*]*(What|Where|Of|Who)\
 # Literals of C++, in which // begins no comment, and comments.
 CPP = re.compile(r'R"(?P<d>[^(\s]*)\((?:.|\n)*?\)(?P=d)"|"(?:\\.|[^"\\\n])*"|\b\d[\w\'.]*|\'(?:\\.|[^\'\\\n])*\''
                  r"|(?P<line>//[^\n]*)|/\*(?P<block>(?:.|\n)*?)\*/")
+# A cell of a table that quotes an example of a sentence.
+QUOTED = re.compile(r'\s*".*"\s*')
 MARKDOWN = (".md",)
 HASHES = (".cmake", ".txt", ".yaml", ".yml", ".in")
 SCRIPTS = ("bash", "sh", "python3")
@@ -26,7 +31,10 @@ def openers(text):
 
 
 def joined(lines):
-    """Texts of (line number, column, text) of comments: those in successive lines of one column are one text, except at tags and lists."""
+    """[line, text] of comments given as (line, column, text).
+
+    Comments in successive lines of one column are one text, which ends at tags and entries of lists.
+    """
     texts, last = [], None
     for number, column, text in lines:
         tag = re.match(r"\s*(@|- |\d+\. )", text)
@@ -87,7 +95,7 @@ def markdown_texts(source):
         elif fenced:
             texts += [[number, text] for _, text in hash_texts(line)]
         elif line.startswith("|"):
-            texts += [[number, cell] for cell in re.split(r"(?<!\\)\|", line)]
+            texts += [[number, cell] for cell in re.split(r"(?<!\\)\|", line) if not QUOTED.fullmatch(cell)]
         elif not line.startswith("#"):
             lines.append((number, 0, line))
     return joined(lines) + texts
@@ -109,7 +117,9 @@ def texts_of(path, source):
 def area_of(path):
     """The part of the project that has a limit of its own."""
     first = path.split(os.sep)[0]
-    return "mechanism (C++)" if first == "mechanism" and path.endswith((".cpp", ".hpp")) else first if os.sep in path else "."
+    if first == "mechanism" and path.endswith((".cpp", ".hpp")):
+        return "mechanism (C++)"
+    return first if os.sep in path else "."
 
 
 def faults(root):

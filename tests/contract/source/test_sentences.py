@@ -22,10 +22,11 @@ class Sentences(unittest.TestCase):
 
     def test_a_planted_sentence_is_found(self):
         planted = {
-            "a.hpp": "int a;  ///< of the body\n/// Adds a node. What is new is @returns its number.\n/// @returns what is left\n",
-            "b.py": '"""Reads a file.\n\nWhere it ends, nothing is read.\n"""\n\n\ndef f():\n    return 1  # who knows\n',
+            "a.hpp": "int a;  ///< of the body\n/// Adds a node. What is new is its number.\n/// @returns what is left\n",
+            "b.py": '"""Reads a file.\n\nWhere it ends, nothing is read.\n"""\n\n\ndef f():\n    return 1  # who\n',
             "c.cmake": "# Of the compiler.\nset(A 1)\n",
-            "d.md": "# What it does\n\nA text. Of these two the first.\n\n| key | what it is |\n|---|---|\n\n```yaml\na: 1  # of b\n```\n",
+            "d.md": "# What it does\n\nA text. Of these two the first.\n\n"
+                    "| key | what it is |\n|---|---|\n\n```yaml\na: 1  # of b\n```\n",
             "e": "#!/usr/bin/env bash\n# Where the results are.\n",
         }
         with tempfile.TemporaryDirectory() as folder:
@@ -40,10 +41,12 @@ class Sentences(unittest.TestCase):
     def test_other_texts_are_none(self):
         self.assertEqual(sentences.openers("The places where it ends. Whose they are, and what of it."), [])
         self.assertEqual(sentences.openers("@param what  the name of the thing"), [])
-        self.assertEqual(sentences.cpp_texts('const char* a = "// what";  // the text\nauto b = R"(// Of)";\nchar c = \'"\';'),
-                         [[1, "the text"]])
+        literals = 'const char* a = "// what";  // the text\nauto b = R"(// Of)";\nchar c = \'"\';'
+        self.assertEqual(sentences.cpp_texts(literals), [[1, "the text"]])
         self.assertEqual(sentences.python_texts('TEXT = """What it is."""\n'), [])
         self.assertEqual(sentences.hash_texts("a: 'x#what'\n"), [])
+        cells = [text for _, text in sentences.markdown_texts('| "Of a node." | b |\n') if text.strip()]
+        self.assertEqual(cells, [" b "])
 
 
 if __name__ == "__main__":
