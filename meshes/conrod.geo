@@ -4,7 +4,7 @@ SetFactory("OpenCASCADE");
 
 length = 200;                                                 // between the bores' centres
 big_bore = 24;    big_outer = 34;     big_half_width = 13;    // radii and half width of the big eye
-small_bore = 11;  small_outer = 17.5; small_half_width = 11;  // of the small eye
+small_bore = 11;  small_outer = 17.5; small_half_width = 11;  // dimensions of the small eye
 big_y = 21;       big_z = 9.5;                                // half depth and half flange width of the shank at x = 0
 small_y = 11.5;   small_z = 7;                                // and at x = length
 
@@ -43,7 +43,7 @@ small = newv;
 Cylinder(small) = {length, 0, -small_half_width, 0, 0, 2 * small_half_width, small_outer};
 body() = BooleanUnion{ Volume{shank}; Delete; }{ Volume{big, small}; Delete; };
 
-// Fillets where the shank meets the eyes: along its flat faces, and along its narrow sides.
+// Fillets between the shank and the eyes: along its flat faces, and along its narrow sides.
 flat() = Curve In BoundingBox {20, -22, -9.99, 34.5, 22, -8.5};
 flat() += Curve In BoundingBox {20, -22, 8.5, 34.5, 22, 9.99};
 flat() += Curve In BoundingBox {182, -13, -7.5, 190, 13, -7};

@@ -1,4 +1,4 @@
-// bielle-reduce: a body file in, a superelement out.
+// bielle-reduce: reads a body file and writes a superelement.
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
@@ -34,7 +34,7 @@ namespace {
 using namespace bielle;
 using namespace bielle::reduce;
 
-/// Refuses before the long work what would fail, or hurt, after it.
+/// Refuses output files, before the long work, that could not be written or would overwrite an input.
 void check_output(const std::string& path, const std::string& input, const std::string& geometry) {
   namespace fs = std::filesystem;
   check_output_file(path);
@@ -50,15 +50,15 @@ std::string written(const std::string& path) {
   return fmt::format("written: {} ({:.1f} MB)\n", path, 1e-6 * std::filesystem::file_size(path));
 }
 
-/// Where the mesh's matrices are kept: in this process, or on the ranks of bielle-reduce-mpi, which started it.
+/// The location of the mesh's matrices: in this process, or on the ranks of bielle-reduce-mpi, which started it.
 class Workplace {
  public:
-  /// @param ranks_at  number of the open socket to them; negative: there are none
+  /// @param ranks_at  file descriptor of the open socket to the ranks; negative if there are none
   explicit Workplace(int ranks_at) {
     if (ranks_at < 0) return;
     prctl(PR_SET_PDEATHSIG, SIGKILL);      // without the ranks nothing is left to do
     fcntl(ranks_at, F_SETFD, FD_CLOEXEC);  // no child of ours keeps the ranks waiting
-    mallopt(M_MMAP_THRESHOLD, 1 << 20);    // what is large goes back to the machine when it is done with
+    mallopt(M_MMAP_THRESHOLD, 1 << 20);    // large blocks are returned to the system when they are freed
     ranks_ = std::make_unique<Channel>(ranks_at, "the ranks");
     greeting_ = ranks_->receive_number<Greeting>();
   }
@@ -124,7 +124,7 @@ void reduce(const std::string& input, std::string output, bool system_calls, con
               : reduce_whole(mesh, file, output, progress, common, matrices);
 }
 
-/// @param title  what stands before the description
+/// @param title  text before the description
 /// @throws ComputationError when a check fails
 void inspect(const Superelement& body, const std::string& path, const std::string& title) {
   const std::vector<Check> checks = check_superelement(body);

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 """convert_mesh.py INPUT OUTPUT.msh: a tetrahedral mesh of another program becomes gmsh's MSH 4.1.
 
-Reads .inp (Abaqus, CalculiX), .bdf .nas (Nastran), .med (Salome), .vtu .vtk .mesh and what else meshio reads; keeps
-coordinates as they are, named sets as physical groups (node sets: the boundary faces whose nodes are all in the set).
-bielle-reduce calls it by itself for such files; call it to see what becomes of a file.
+Reads .inp (Abaqus, CalculiX), .bdf .nas (Nastran), .med (Salome), .vtu .vtk .mesh and all other formats of meshio;
+keeps coordinates unchanged, and named sets as physical groups (node sets: the boundary faces whose nodes are all in the
+set). bielle-reduce calls it by itself for such files; call it to see the result of the conversion.
 """
 
 from bielle_tools import messages

@@ -10,7 +10,7 @@ Eigen::Matrix3d read_axes(const YamlValue& value) {
   value.check_keys({"x", "y"}, "axes");
   const Eigen::Vector3d x = value.at("x").direction();
   const Eigen::Vector3d z = x.cross(value.at("y").direction());
-  // Nearer than that to parallel, y would say nothing reliable.
+  // Below this angle to z, the direction of y is too inaccurate to be used.
   if (z.norm() < 1e-6) value.fail("expected two directions that are not parallel");
   Eigen::Matrix3d axes;
   axes << x, z.normalized().cross(x), z.normalized();

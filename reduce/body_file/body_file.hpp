@@ -1,4 +1,4 @@
-// The body file: a YAML file that says of what a body consists and how it is to be reduced (format: reduce/README.md).
+// The body file: a YAML file that describes a body and how it is to be reduced (format: reduce/README.md).
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace bielle::reduce {
 
-/// What a body file asks for: first a mesh, then its reduction.
+/// The contents of a body file: the request for a mesh, then that for its reduction.
 struct BodyFile {
   MeshRequest mesh;
   ReductionOptions options;
@@ -20,9 +20,9 @@ struct BodyFile {
       doubts;  ///< sentences about values that are possible but probably not intended, each with its place
 };
 
-/// Reads and checks a body file: keys, types, ranges, names that the file itself must explain. What only the geometry
-/// knows (its groups, whether interfaces overlap) is checked by import_mesh and by the reduction, which get the place
-/// of each request in the file along with it.
+/// Reads and checks a body file: keys, types, ranges, names that the file itself must explain. Conditions that depend
+/// on the geometry (its groups, whether interfaces overlap) are checked by import_mesh and by the reduction; each
+/// request carries its place in the file for their messages.
 /// @throws InputError `file:line: key: what was expected; did you mean ...`
 BodyFile read_body_file(const std::string& path);
 

@@ -1,4 +1,4 @@
-// What interfaces have in common, those that the body file names and those that cuts make, and points with them.
+// Keys that interfaces of the body file, interfaces made by cuts and points have in common.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace bielle::reduce {
 /// "rod.yaml:17: interfaces.big_end"
 std::string place_of(const YamlValue& value);
 
-/// Names become paths in the superelement file. @throws InputError
+/// Checks a name that becomes a path in the superelement file. @throws InputError
 void check_name(const std::string& name, const YamlValue& value);
 
 /// `rigid`, `average` or `free`. @throws InputError for other words

@@ -65,7 +65,7 @@ Material read_material(const YamlValue& value) {
   try {
     material = full ? anisotropic(value) : engineering ? orthotropic(value) : isotropic(value);
   } catch (const InputError& error) {
-    // Reading a key names its place already; what the material as a whole violates does not.
+    // Messages about single keys contain the place already; messages about the material as a whole do not.
     const std::string message = error.what();
     if (message.starts_with(value.file() + ":")) throw;
     value.fail(message);

@@ -16,10 +16,11 @@ namespace bielle::reduce {
 /// isotropic `young`, `poisson`; orthotropic `E1 E2 E3 nu12 nu13 nu23 G12 G13 G23`; anisotropic `stiffness`, 6x6 in the
 /// order xx yy zz yz xz xy with engineering shear strains. All have a `density` [kg/m^3]; the latter two may have
 /// `axes`, the directions of the material's own axes in those of the body.
-/// @throws InputError with the place: keys of two kinds, moduli out of range, a material that is not stable
+/// @throws InputError with the place: keys of two kinds, moduli out of range, an unstable material
 Material read_material(const YamlValue& value);
 
-/// Doubts values that are possible but that no solid has, as another system of units gives them (plausible.hpp).
+/// Notes a doubt for constants that are possible but that no solid has; another system of units is the likely cause
+/// (plausible.hpp).
 /// @param value  a material that read_material has accepted
 void doubt_material(const YamlValue& value);
 

@@ -49,7 +49,7 @@ void add_planes(const YamlValue& value, std::vector<CutPlane>& cuts) {
   add_plane(value, value.at("point").vector3(), value.at("normal").direction(), cuts);
 }
 
-/// Equal parts of a straight line.
+/// Adds planes that divide a straight line into equal parts.
 void divide_line(const YamlValue& line, int count, std::vector<CutPlane>& cuts) {
   line.check_keys({"from", "to"}, "a line");
   const Eigen::Vector3d from = line.at("from").vector3(), way = line.at("to").vector3() - from;
@@ -58,7 +58,7 @@ void divide_line(const YamlValue& line, int count, std::vector<CutPlane>& cuts) 
     add_plane(line, from + (static_cast<double>(k) / count) * way, way.normalized(), cuts);
 }
 
-/// Equal parts of a circular arc: planes through its axis.
+/// Adds planes through the axis of a circular arc that divide it into equal parts.
 void divide_arc(const YamlValue& arc, int count, std::vector<CutPlane>& cuts) {
   arc.check_keys({"from", "centre", "axis", "angle"}, "an arc");
   const Eigen::Vector3d from = arc.at("from").vector3(), centre = arc.at("centre").vector3();

@@ -1,4 +1,4 @@
-// `pieces` in a body file: where a body is cut.
+// `pieces` in a body file: the planes at which a body is cut.
 //
 //   pieces: {planes: [{point: [..], normal: [..], name: ..}, {axis: x, at: 0.2}, {axis: x, at: [0.4, 0.6]}]}
 //   pieces: {count: 4, line: {from: [..], to: [..]}}

@@ -1,4 +1,4 @@
-// `points` in a body file: places inside that get a name, and residual vectors for loads on them.
+// `points` in a body file: named places inside the body, and residual vectors for loads on them.
 //
 //   points:
 //     pad: {group: pad}                              # the mean of a surface

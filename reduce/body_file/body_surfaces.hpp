@@ -12,10 +12,9 @@ class YamlValue;
 namespace bielle::reduce {
 
 /// Reads the surface of an interface, load or point and registers it.
-/// @param key  of the owner under which it stands
-/// @returns the name of its group in the mesh: that of the physical group, or "interfaces.<name>" where shapes make a
-/// new
-///          one
+/// @param key  key of the surface in its owner
+/// @returns the name of its group in the mesh: that of the physical group, or "interfaces.<name>" if
+///          shapes make a new one
 std::string read_surface(const YamlValue& owner, const std::string& key, MeshRequest& request);
 
 }  // namespace bielle::reduce

@@ -1,4 +1,4 @@
-// What the command lines of both programs have in common.
+// Options that the command lines of both programs share.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ struct CommonOptions {
 void add_common_options(CLI::App& app, CommonOptions& options);
 
 /// Parses the command line.
-/// @returns false when `--help` or `--version` was asked for and has been printed: the program is done, with status 0
+/// @returns false when `--help` or `--version` was given and has been printed: the program ends with status 0
 /// @throws InputError in one line, naming the nearest option where one is unknown
 bool parse_command_line(CLI::App& app, int argc, const char* const* argv);
 

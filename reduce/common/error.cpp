@@ -31,7 +31,7 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
   return last[b.size()];
 }
 
-/// Between 0 and 1, less than by a letter for what one begins with or holds of the other.
+/// Returns the edit distance relative to the length of the longer name, less 1 if one name contains the other.
 double unlikeness(const std::string& wanted, const std::string& candidate) {
   const std::string other = lower_case(candidate);
   const bool holds = wanted.size() > 1 && other.size() > 1 &&
@@ -64,7 +64,7 @@ std::string did_you_mean(const std::string& name, std::span<const std::string> c
   if (candidates.empty()) return "";
   std::vector<std::string> shown(candidates.begin(), candidates.end());
   if (shown.size() > most_shown && !name.empty()) {
-    // If there are many, those that are most like the name are shown, the nearest first.
+    // If there are many candidates, only the most similar ones are shown, the nearest first.
     const std::string wanted = lower_case(name);
     std::stable_sort(shown.begin(), shown.end(), [&](const std::string& a, const std::string& b) {
       return unlikeness(wanted, a) < unlikeness(wanted, b);

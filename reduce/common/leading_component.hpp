@@ -1,4 +1,4 @@
-// The component of a vector that decides its sign, where that is free: the same whatever rounding does.
+// The component of a vector that decides its sign if the sign is free: the choice does not depend on rounding.
 #pragma once
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 
 namespace bielle {
 
-/// The first of the components that are largest but for rounding: modes of symmetric bodies have several. 0 of an empty
-/// vector.
+/// Index of the first component that is largest up to rounding, since modes of symmetric bodies have several. It is 0
+/// for an empty vector.
 inline double leading_component(const Eigen::Ref<const Eigen::VectorXd>& vector) {
   constexpr double nearly = 1 - 1e-6;
   if (vector.size() == 0) return 0;

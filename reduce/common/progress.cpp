@@ -19,7 +19,7 @@ constexpr int bar_width = 24;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// Never throws: that progress cannot be shown is no reason to give up the work.
+/// It never throws: the work must go on even if its progress cannot be shown.
 void say(const std::string& text) { std::fputs(text.c_str(), stderr); }
 
 std::string duration(double seconds) {
@@ -35,7 +35,7 @@ std::string duration(double seconds) {
 Progress::Progress(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
 
 Progress::~Progress() {
-  // An exception may be on its way: leave the line that is being redrawn, so that the message starts on a new one.
+  // An exception may be in flight: end the line that is being redrawn, so that the message starts on a new one.
   if (running_ && terminal_ && !quiet_) std::fputc('\n', stderr);
 }
 

@@ -1,4 +1,4 @@
-// Long work shows progress: a bar with the time left on a terminal, plain lines elsewhere, nothing when quiet.
+// Display of progress: a bar with the remaining time on a terminal, plain lines elsewhere, nothing with `quiet`.
 #pragma once
 
 #include <chrono>
@@ -18,7 +18,8 @@ struct PhaseReport {
 /// Reports the phases of a run on standard error and keeps their times and memory for the summary.
 ///
 /// On a terminal a phase is one line that is redrawn (at most ten times a second); otherwise lines are printed at the
-/// start of a phase, when at least five seconds have passed, and at the end. Safe to call from the thread that works.
+/// start of a phase, when at least five seconds have passed, and at the end. It may be called from a thread that
+/// computes.
 class Progress {
  public:
   explicit Progress(bool quiet = false);
@@ -27,10 +28,10 @@ class Progress {
   /// @param fraction  done of this phase, 0..1; @param detail  shown after it ("t = 0.013 s")
   void update(double fraction, const std::string& detail = "");
   void finish();  ///< ends the running phase
-  /// A line that stays, e.g. a warning, printed in spite of `quiet`.
+  /// Prints a line that stays, e.g. a warning, in spite of `quiet`.
   void warn(const std::string& message);
   void note(const std::string& message);  ///< a line that stays, unless quiet
-  /// Ends the running phase: another process has shown all phases up to here.
+  /// Ends the running phase and takes over the phases that another process has shown.
   void adopt(std::vector<PhaseReport> phases);
   const std::vector<PhaseReport>& phases() const { return phases_; }
   bool quiet() const { return quiet_; }

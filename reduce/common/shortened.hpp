@@ -1,11 +1,11 @@
-// What users wrote, as much of it as a message bears.
+// Texts of users, shortened for messages.
 #pragma once
 
 #include <string>
 
 namespace bielle {
 
-/// The text itself, or its beginning and end where it has more than a hundred characters.
+/// The text itself, or its beginning and end if it has more than a hundred characters.
 inline std::string shortened(const std::string& text) {
   constexpr std::size_t most = 100, end = 30;
   if (text.size() <= most) return text;

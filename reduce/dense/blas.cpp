@@ -16,7 +16,7 @@ namespace bielle {
 
 namespace {
 
-/// Width of the vector instructions of a family of OpenBLAS kernels [bits]; 0 when unknown.
+/// Width of the vector instructions of a family of OpenBLAS kernels [bits]; 0 if unknown.
 int kernel_width(const std::string& core) {
   const auto is_one_of = [&](std::initializer_list<const char*> names) {
     return std::find(names.begin(), names.end(), core) != names.end();
@@ -34,7 +34,7 @@ int kernel_width(const std::string& core) {
   return 0;
 }
 
-/// Width of the vector instructions of this processor [bits]; 0 when unknown.
+/// Width of the vector instructions of this processor [bits]; 0 if unknown.
 int processor_width() {
 #if defined(__x86_64__) && defined(__GNUC__)
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) {
@@ -118,7 +118,8 @@ void start_blas(int threads) {
   check(count * blas_buffer);
   measure_dgemm(256, threads, 1);
   check((count - 1) * blas_buffer + count * of_thread);
-  // All at the same time: who comes after another uses the other's memory. Several times, since one may come late.
+  // All threads call at the same time: a thread that called after another one had finished would reuse its memory. The
+  // calls are repeated, since a thread may start late.
   const BlasThreads one(1);
   for (int time = 0; time < 10; ++time) {
 #pragma omp parallel num_threads(threads)

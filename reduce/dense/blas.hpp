@@ -1,5 +1,5 @@
-// The BLAS below the factorisations: its threads, products of dense matrices, and whether it runs the best kernels for
-// this processor.
+// The BLAS that the factorisations use: its threads, products of dense matrices, and a check that it runs the best
+// kernels for this processor.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace bielle {
 
-/// Sets the number of OpenBLAS threads while it lives. OpenBLAS threads spin, so they are never left on while threads
-/// of our own run.
+/// Sets the number of OpenBLAS threads while it lives. OpenBLAS threads spin while they wait, so they are never left
+/// enabled while Bielle's own threads run.
 class BlasThreads {
  public:
   explicit BlasThreads(int threads);
@@ -21,8 +21,8 @@ class BlasThreads {
   int before_;
 };
 
-/// Has OpenBLAS's threads and as many of OpenMP's call BLAS once where the address space is limited (ulimit -v): each
-/// gets the memory that OpenBLAS keeps for it, which it would ask for for ever where there is not enough later.
+/// Makes OpenBLAS's threads and as many OpenMP threads call BLAS once if the address space is limited (ulimit -v): each
+/// gets the buffer that OpenBLAS keeps for it. Later OpenBLAS would retry forever if there were not enough memory left.
 /// @throws std::bad_alloc when there is not enough
 void start_blas(int threads);
 
@@ -33,17 +33,17 @@ struct DenseBlock {
   bool row_major;
 };
 
-/// C += A B by dgemm, C stored by columns that are `stride` apart. Nothing happens where a dimension is zero.
+/// C += A B by dgemm, C stored by columns that are `stride` apart. The function does nothing if a dimension is zero.
 void add_dense_product(const DenseBlock& a, const DenseBlock& b, double* c, Eigen::Index stride);
 
 /// A B by dgemm.
 Eigen::MatrixXd dense_product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b);
 
-/// E.g. "OpenBLAS 0.3.21, kernels for SkylakeX".
+/// Version and kernels, e.g. "OpenBLAS 0.3.21, kernels for SkylakeX".
 std::string blas_description();
 
-/// A sentence when OpenBLAS runs slower kernels than this processor offers (forced by OPENBLAS_CORETYPE, or unknown to
-/// this OpenBLAS); empty otherwise.
+/// A sentence if OpenBLAS runs slower kernels than this processor offers (because of OPENBLAS_CORETYPE, or because this
+/// OpenBLAS does not know the processor); otherwise empty.
 std::string blas_warning();
 
 /// Speed of a product of two square matrices [GFLOP/s], the best of `repeats`.

@@ -7,7 +7,7 @@
 namespace bielle {
 namespace {
 
-/// Up to so many multiplications a call of BLAS costs more than its faster kernels save, as measured
+/// Below this number of multiplications the overhead of a BLAS call exceeds the gain of its faster kernels, as measured
 /// (performance_mechanism_superelements).
 constexpr Eigen::Index few = 500;
 

@@ -1,6 +1,6 @@
 // Products of dense matrices, compiled once: Eigen compiles a product for each combination of types anew, which takes
-// longer than anything else in sources that are full of them. Large ones run in BLAS, whose kernels are those of the
-// processor; small ones in Eigen. What adds to a matrix does not allocate.
+// longer than anything else in sources with many products. Large products run in BLAS, whose kernels are optimised for
+// the processor; small ones in Eigen. Functions that add to a matrix do not allocate.
 #pragma once
 
 #include <span>
@@ -22,7 +22,7 @@ struct WeightedMatrix {
   double weight;
 };
 
-/// X += sum of weight times matrix, all of X's size: reads and writes X once.
+/// X += sum of weight times matrix, all of X's size. X is read and written once.
 void add_weighted(MatrixRef X, std::span<const WeightedMatrix> terms);
 
 /// A B

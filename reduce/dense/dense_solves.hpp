@@ -13,10 +13,10 @@ namespace bielle {
 /// A^-1 B of a symmetric A that is positive semidefinite, by L D L^T with pivoting.
 Eigen::MatrixXd solve_symmetric(const ConstMatrixRef& A, const ConstMatrixRef& B);
 
-/// A^-1 by LU factorisation with full pivoting; nothing where A is singular to rounding.
+/// A^-1 by LU factorisation with full pivoting; nothing if A is singular to rounding.
 std::optional<Eigen::MatrixXd> regular_inverse(const ConstMatrixRef& A);
 
-/// P A = L U with partial pivoting. Only a change of size allocates.
+/// P A = L U with partial pivoting. Memory is allocated only if the size changes.
 class LUFactors {
  public:
   LUFactors();
@@ -32,7 +32,7 @@ class LUFactors {
   /// Pivots, whose product is the determinant up to its sign.
   Eigen::Ref<const Eigen::VectorXd, 0, Eigen::InnerStride<>> pivots() const;
   double determinant() const;
-  /// -1 or 1: of the determinant, which itself may overflow.
+  /// Sign of the determinant, -1 or 1; the determinant itself may overflow.
   int sign() const;
 
  private:

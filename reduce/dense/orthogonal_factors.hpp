@@ -1,4 +1,4 @@
-// What orthogonal factors of dense matrices are used for: complements, least squares, null spaces. Eigen's solvers are
+// Applications of orthogonal factors of dense matrices: complements, least squares, null spaces. Eigen's solvers are
 // heavy templates: they are compiled here only.
 #pragma once
 
@@ -12,22 +12,23 @@ namespace bielle {
 /// orthogonal complement.
 Eigen::MatrixXd orthogonal_basis(const Eigen::MatrixXd& A);
 
-/// All columns of A in the order of column pivoting: each is the one with the largest part normal to those before it.
+/// All columns of A in the order of column pivoting: each column has the largest part normal to the preceding ones.
 std::vector<Eigen::Index> pivoted_columns(const Eigen::MatrixXd& A);
 
-/// x of the least |A x - b|, and of these the one of least |x|: A may have any rank.
+/// x that minimises |A x - b|, and among these the one with the smallest |x|; A may have any rank.
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 
 /// A^+ (n,m) of A (m,n): A^+ b is the solution of `least_squares`.
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& A);
 
 /// An orthonormal basis (n,k) of the null space of A (m,n), by QR with column pivoting of A^T.
-/// @param dependent  rows whose part normal to those before is at most this share of the largest count as dependent
+/// @param dependent  a row counts as dependent if its part normal to the preceding rows is at most this share of the
+/// largest
 Eigen::MatrixXd null_space(const Eigen::MatrixXd& A, double dependent);
 
-/// V of A = U S V^T.
+/// Right singular vectors V of A = U S V^T.
 struct RightSingularVectors {
-  Eigen::VectorXd values;   ///< of S, descending: min(m,n)
+  Eigen::VectorXd values;   ///< singular values, descending: min(m,n)
   Eigen::MatrixXd vectors;  ///< V (n,n); the columns after those with a value span the rest of the null space of A
 };
 

@@ -17,7 +17,7 @@ namespace bielle {
 
 namespace {
 
-/// Eigenvalues of a block of D: of one row, or of two. @param second  whether there are two
+/// Eigenvalues of a block of D, which has one row or two. @param second  whether the block has two rows
 struct BlockValues {
   double low, high;
   BlockValues(const Eigen::MatrixXd& D, Eigen::Index k, bool two) : low(D(k, k)), high(D(k, k)) {
@@ -74,7 +74,7 @@ EigenvalueSigns eigenvalue_signs(Eigen::MatrixXd A, const Eigen::VectorXd& scale
   std::vector<double> work(static_cast<std::size_t>(std::max(1.0, best)));
   const int size = static_cast<int>(work.size());
   dsytrf_("L", &n, A.data(), &n, pivots.data(), work.data(), &size, &info);
-  // Rounding in n products of numbers of that size.
+  // Rounding error of n products of numbers of that size.
   const double negligible = n * std::numeric_limits<double>::epsilon() * largest;
   EigenvalueSigns signs;
   const auto count = [&](double value) {

@@ -1,5 +1,5 @@
-// Products of matrices with many rows and few columns: blocks of vectors against each other. Each thread takes a range
-// of rows, with one BLAS thread, so that they neither spin nor wait for each other's columns.
+// Products of matrices with many rows and few columns, such as blocks of vectors. Each thread takes a range of rows and
+// one BLAS thread, so that threads neither spin nor wait for each other.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,13 +8,13 @@
 
 namespace bielle {
 
-/// A^T B, A and B having the same rows. The same for the same number of threads.
+/// A^T B, A and B having the same rows. The result does not vary between runs with the same number of threads.
 Eigen::MatrixXd tall_inner_products(const ConstMatrixRef& A, const ConstMatrixRef& B, int threads);
 
-/// Y += scale A C, of the rows of A.
+/// Y += scale A C, where Y and A have the same rows.
 void add_tall_product(MatrixRef Y, const ConstMatrixRef& A, const Eigen::MatrixXd& C, double scale, int threads);
 
-/// The first columns of A become A C, C having no more columns than rows; no second A is needed.
+/// The first columns of A become A C, where C has at most as many columns as rows; no second A is needed.
 void combine_columns(MatrixRef A, const Eigen::MatrixXd& C, int threads);
 
 }  // namespace bielle

@@ -1,5 +1,5 @@
-// The connection between bielle-reduce and the ranks: a pair of sockets on one machine, numbers as they stand in
-// memory.
+// The connection between bielle-reduce and the ranks: a pair of sockets on one machine, through which numbers are sent
+// in their binary form in memory.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,8 @@
 
 namespace bielle::reduce {
 
-/// What the ranks are asked to do. Two numbers and what stands in parentheses go with it, an Outcome comes back, and
-/// after a good one what stands behind the arrow. "Per part": the length as a 64-bit number, then the block, for one
+/// Commands to the ranks. A command is sent with two numbers and the data in parentheses; the answer is an Outcome and,
+/// after success, the data behind the arrow. "Per part" means the length as a 64-bit number, then the block, for one
 /// part of the mesh after the other.
 enum class Command : std::int64_t {
   keep,       ///< a: threads; (per part: MeshShare packed)
@@ -25,20 +25,20 @@ enum class Command : std::int64_t {
   leave,      ///< a: exit status; among the ranks alone
 };
 
-/// What the ranks ask while they look for modes; a vector goes with it.
+/// Requests of the ranks during the search for modes; a vector is sent with each.
 enum class Question : std::int64_t { mass_times, solution, none };
 
-/// How a command ended.
+/// The result of a command.
 struct Outcome {
   enum Kind : std::int64_t { good, out_of_memory, failed, singular };
   Kind kind = good;
   std::string message;
 };
 
-/// One end. Whole messages are written and read; neither end closes the other's.
+/// One end of the connection. Whole messages are written and read; neither end closes the other's.
 class Channel {
  public:
-  /// @param peer  who is at the other end, for the message: "the ranks"
+  /// @param peer  name of the other end, for the message: "the ranks"
   Channel(int descriptor, std::string peer);
   ~Channel();
   Channel(const Channel&) = delete;
@@ -47,7 +47,7 @@ class Channel {
   /// @throws ComputationError when the other end is gone
   void send(const void* data, std::size_t bytes);
   void receive(void* data, std::size_t bytes);
-  /// false when the other end has closed in good order between two messages.
+  /// Returns false if the other end has closed the connection between two messages.
   bool receive_if_any(void* data, std::size_t bytes);
 
   template <class Number>

@@ -15,7 +15,8 @@ namespace bielle::reduce {
 
 namespace {
 
-constexpr Eigen::Index columns_at_a_time = 16;  // of fields on their way: what is in flight stays small
+constexpr Eigen::Index columns_at_a_time = 16;  // columns of a field that are sent at a time, which limits the memory
+                                                // of messages
 
 void order(Channel& channel, Command command, std::int64_t a = 0, std::int64_t b = 0) {
   channel.send_number(command);
@@ -36,7 +37,7 @@ void send_packed(Channel& channel, Share& share) {
   channel.send_text(packing.bytes());
 }
 
-/// Rows of some columns of a field that belong to points, `per_point` for each.
+/// Rows of some columns of a field that belong to the given points, `per_point` for each.
 RowMatrix rows_of(const std::vector<int>& points, Eigen::Index per_point, const RowMatrix& u, Eigen::Index first,
                   Eigen::Index width) {
   RowMatrix rows(per_point * static_cast<Eigen::Index>(points.size()), width);
@@ -165,7 +166,7 @@ class DistributedMatrices : public BodyMatrices {
 
   Channel& channel_;
   const Solid& solid_;
-  std::vector<std::vector<int>> points_;  // of each part
+  std::vector<std::vector<int>> points_;  // points of each part
 };
 
 InsideShare DistributedMatrices::inside_of(const std::vector<int>& points, const std::vector<int>& numbers,
@@ -219,7 +220,7 @@ std::unique_ptr<Factor> DistributedMatrices::factorise(const InsideUnknowns& ins
   return factor;
 }
 
-/// MUMPS goes on where a pivot is tiny or negative.
+/// MUMPS does not stop at a tiny or negative pivot.
 void DistributedMatrices::check_regular(const Factor& factor, const std::vector<std::int64_t>& kept,
                                         const SparseRows& carried, bool suspected) const {
   const Eigen::VectorXd of_points = stiffness_diagonal();

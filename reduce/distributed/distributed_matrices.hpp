@@ -1,5 +1,6 @@
 // The mesh's matrices in parts, one on each rank: each rank assembles those of its cells, and the factor of the whole
-// inside is MUMPS's, distributed. Fields on the mesh are here; rows of a part's points travel to its rank and back.
+// inside is MUMPS's, distributed. Fields on the mesh are kept in this process; rows of a part's points are sent to its
+// rank and back.
 #pragma once
 
 #include <memory>
@@ -11,8 +12,8 @@ namespace bielle::reduce {
 
 /// @param channel  to the ranks, which serve one body at a time; has to live longer than the matrices
 /// @param ranks    >= 1
-/// @param threads  of each rank
-/// @throws ComputationError as assembled_matrices, and when a rank fails
+/// @param threads  number of threads of each rank
+/// @throws ComputationError as assembled_matrices, and if a rank fails
 std::unique_ptr<BodyMatrices> distributed_matrices(Channel& channel, int ranks, const Solid& solid, int threads);
 
 }  // namespace bielle::reduce

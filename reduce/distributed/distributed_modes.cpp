@@ -10,7 +10,7 @@ namespace bielle::reduce {
 
 namespace {
 
-/// Answers until the ranks ask no more. @returns the number of solutions
+/// Answers until the ranks send no further request. @returns the number of solutions
 int answer_questions(Channel& channel, const ShiftInvertProblem& problem, const EigenpairOptions& options) {
   Eigen::MatrixXd x(problem.size, 1);
   const std::size_t bytes = sizeof(double) * static_cast<std::size_t>(problem.size);
@@ -46,7 +46,7 @@ Eigenpairs distributed_modes(Channel& channel, const ShiftInvertProblem& problem
   const auto found = static_cast<Eigen::Index>(channel.receive_number<std::int64_t>());
   Eigen::VectorXd values(found);
   channel.receive(values.data(), sizeof(double) * static_cast<std::size_t>(found));
-  // The lowest are taken from the stream, which brings them in ascending order.
+  // The lowest eigenpairs are read from the stream, which sends them in ascending order.
   const Eigen::Index wanted = std::min<Eigen::Index>(found, count);
   pairs.values = values.head(wanted);
   pairs.vectors.resize(problem.size, wanted);

@@ -1,11 +1,11 @@
-// How the ranks greet bielle-reduce.
+// The first message of the ranks to bielle-reduce.
 #pragma once
 
 #include <cstdint>
 
 namespace bielle::reduce {
 
-/// How many they are, and how many of them are on the machine of bielle-reduce.
+/// Number of ranks, and number of those on the machine of bielle-reduce.
 struct Greeting {
   std::int64_t ranks = 1, ranks_here = 1;
 };

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double share_of_first = 1.0 / 3;
 
-/// What parts `first` .. `first + count` get, where a part gets 1.
+/// Total share of the parts from `first` to `first + count - 1`, where a full part has the share 1.
 double weight(int first, int count) { return first == 0 ? count - 1 + share_of_first : count; }
 
 void divide(const Eigen::Matrix3Xd& centroids, std::span<int> cells, int first_part, int parts,
@@ -29,7 +29,7 @@ void divide(const Eigen::Matrix3Xd& centroids, std::span<int> cells, int first_p
   const int low = parts / 2;
   const double fraction = weight(first_part, low) / weight(first_part, parts);
   const auto middle = cells.begin() + static_cast<std::ptrdiff_t>(fraction * static_cast<double>(cells.size()));
-  // Equal places are told apart by the cells' numbers: the same mesh is divided in the same way each time.
+  // Equal places are ordered by the cells' numbers: the same mesh is divided in the same way each time.
   std::nth_element(cells.begin(), middle, cells.end(),
                    [&](int a, int b) { return std::pair(centroids(axis, a), a) < std::pair(centroids(axis, b), b); });
   divide(centroids, {cells.begin(), middle}, first_part, low, result);

@@ -1,6 +1,6 @@
-// Cells shared out among ranks: the body's cells are halved, by their centroids, along its longest direction, the
-// halves likewise (recursive coordinate bisection). Rank 0, on whose machine bielle-reduce keeps the fields,
-// gets fewer.
+// Distribution of cells among ranks: the body's cells are halved, by their centroids, along its longest direction, then
+// the halves likewise (recursive coordinate bisection). Rank 0, on whose machine bielle-reduce keeps the fields, gets
+// fewer cells.
 #pragma once
 
 #include <vector>
@@ -16,7 +16,7 @@ struct SolidPart {
   MeshShare share;
 };
 
-/// Cells of each part: the first gets a third of what each of the others does, which get the same up to a few.
+/// Cells of each part: the first part gets a third as many as each of the others, which differ by a few cells.
 /// @param parts  >= 1; there may be more than cells
 std::vector<std::vector<int>> divided_cells(const Solid& solid, int parts);
 

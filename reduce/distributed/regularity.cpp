@@ -6,7 +6,7 @@ namespace bielle::reduce {
 
 namespace {
 
-/// The inside's relative stiffness against some motion below which nothing but rounding holds it.
+/// If the relative stiffness of the inside against some motion is below this, only rounding resists the motion.
 constexpr double singular = 1e-15;
 
 }  // namespace

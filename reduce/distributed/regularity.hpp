@@ -1,4 +1,5 @@
-// Whether a matrix was positive definite, of which MUMPS made a factor: it goes on where a pivot is tiny or negative.
+// A check that a matrix that MUMPS has factorised was positive definite: MUMPS does not stop at a tiny or negative
+// pivot.
 #pragma once
 
 #include <optional>
@@ -8,9 +9,9 @@
 namespace bielle::reduce {
 
 /// Two steps of inverse iteration on S^-1 A S^-1 find the motion that A resists least.
-/// @param scale      (size) the diagonal of S: of each unknown, the root of the size of its diagonal entry
-/// @param suspected  whether something else shows that A is not positive definite
-/// @returns the unknown that moves most, where A is singular to working precision or suspected
+/// @param scale      (size) the diagonal of S: for each unknown, the root of the absolute value of its diagonal entry
+/// @param suspected  whether there is other evidence that A is not positive definite
+/// @returns the unknown that moves most, if A is singular to working precision or suspected
 std::optional<Eigen::Index> unresisted_unknown(const Factor& factor, const Eigen::VectorXd& scale, bool suspected);
 
 }  // namespace bielle::reduce

@@ -1,4 +1,4 @@
-// What one rank gets: a part of the mesh, and how its points belong to the unknowns of the inside.
+// The data of one rank: a part of the mesh, and the relation of its points to the unknowns of the inside.
 #pragma once
 
 #include <cstdint>
@@ -34,16 +34,16 @@ struct InsideShare {
 
 void exchange(Packing& packing, InsideShare& share);
 
-/// First unknown of each block, then the number of unknowns: those of a point stand together.
+/// First unknown of each block, then the number of unknowns; the unknowns of a point are consecutive.
 struct BlockStarts {
   std::vector<int> starts;
 };
 
 void exchange(Packing& packing, BlockStarts& blocks);
 
-/// What a distributed factorisation tells.
+/// Statistics of a distributed factorisation.
 struct SharedFactorStatistics {
-  double nonzeros = 0, flops = 0, estimated_MB = 0;  ///< of all ranks
+  double nonzeros = 0, flops = 0, estimated_MB = 0;  ///< sums over all ranks
   double analysis_seconds = 0, factorisation_seconds = 0;
   std::int64_t negative_pivots = 0;
 };

@@ -15,7 +15,7 @@ namespace bielle::reduce {
 
 namespace {
 
-/// Remembers the inverted cell with the lowest number, from any thread.
+/// Records the inverted cell with the lowest number; any thread may call it.
 class InvertedCells {
  public:
   void note(Eigen::Index cell) {
@@ -37,7 +37,8 @@ class InvertedCells {
   std::atomic<Eigen::Index> lowest_{-1};
 };
 
-/// Pattern of K: columns of node b hold the rest of its own block, then the blocks of its higher neighbours.
+/// Pattern of K: columns of node b hold the rest of its own block, then the blocks of its neighbours with higher
+/// numbers.
 SymmetricMatrix stiffness_pattern(const NodeGraph& graph) {
   SymmetricMatrix k;
   k.size = 3 * graph.size();
@@ -60,7 +61,7 @@ SymmetricMatrix stiffness_pattern(const NodeGraph& graph) {
   return k;
 }
 
-/// Column of blocks b, and how many neighbours after b itself the block's row is.
+/// Column of blocks b, and the position of the block's row among the neighbours after b itself.
 struct BlockPlace {
   int b;
   std::int64_t behind;

@@ -13,11 +13,11 @@ namespace bielle::reduce {
 
 /// K (3 points, 3 points) [N/m], unknowns x y z of node 0, of node 1, ...; rows of points outside the solid are zero
 /// except for a zero on the diagonal.
-/// @throws ComputationError when a cell is turned inside out: which, and where
+/// @throws ComputationError if a cell is inverted: its number and its place
 SymmetricMatrix assemble_stiffness(const Solid& solid, const NodeGraph& graph, int threads = 1);
 
 /// Scalar mass matrix m [kg]: the mass matrix of the solid is m (x) I3.
-/// @throws ComputationError as above
+/// @throws ComputationError as assemble_stiffness
 NodeMatrix assemble_mass(const Solid& solid, const NodeGraph& graph, int threads = 1);
 
 }  // namespace bielle::reduce

@@ -1,8 +1,8 @@
 // Strain-like quantities of several fields at points of one cell, as a product of dense matrices. Internal to
 // reduce/fe.
 //
-// A field of displacements has A eps(x_p) = B u, u the 3 N displacements of the cell's nodes: B does not know the
-// field, and a product with the displacements of all fields is where a processor is fastest.
+// A field of displacements has A eps(x_p) = B u with u the 3 N displacements of the cell's nodes. B does not depend on
+// the field, and a product with the displacements of all fields is the fastest operation of a processor.
 #pragma once
 
 #include <algorithm>
@@ -15,15 +15,16 @@
 
 namespace bielle::reduce {
 
-/// Room for the matrix B of a cell with N nodes and the displacements that it is applied to; one for each thread.
+/// Memory for the matrix B of a cell with N nodes and the displacements to which it is applied; one object for each
+/// thread.
 template <int N>
 class CellFields {
  public:
-  /// @param points  of the cell at most; @param fields  at a time
+  /// @param points  largest number in a cell; @param fields  largest number at a time
   CellFields(Eigen::Index points, Eigen::Index fields)
       : transposed_(3 * N, 6 * points), displacements_(fields, 3 * N) {}
 
-  /// A eps at point p of the cell, A (6,6). @param gradients  of the shape functions there
+  /// A eps at point p of the cell, A (6,6). @param gradients  gradients of the shape functions at that point
   void set_point(Eigen::Index p, const Eigen::Matrix<double, 6, 6>& A, const Eigen::Matrix<double, N, 3>& gradients) {
     for (int s = 0; s < 6; ++s) {
       auto column = transposed_.col(6 * p + s);
@@ -35,7 +36,7 @@ class CellFields {
     }
   }
 
-  /// Takes columns `first`, `first` + 1, ... of the fields, as many as there is room for.
+  /// Takes columns `first`, `first` + 1, ... of the fields, up to the capacity.
   void take(const RowMatrix& fields, const Eigen::MatrixXi& nodes, Eigen::Index cell, Eigen::Index first = 0) {
     const Eigen::Index width = displacements_.rows();
     for (int a = 0; a < N; ++a)

@@ -61,12 +61,12 @@ bool is_straight(const CellPoints<N>& x) {
   }
 }
 
-/// Degrees of the rules that integrate exactly on a straight cell, and on a curved one what is polynomial there.
+/// Degrees of the rules that integrate exactly on a straight cell, and polynomial integrands exactly on a curved one.
 struct CellDegrees {
   int straight, curved;
 };
 
-/// Both rules for one purpose.
+/// The rules for straight and for curved cells for one purpose.
 template <int N>
 struct CellRules {
   CellRule<N> straight, curved;
@@ -75,7 +75,7 @@ struct CellRules {
   const CellRule<N>& of(const CellPoints<N>& x) const { return is_straight<N>(x) ? straight : curved; }
 };
 
-/// work(cell) for every cell, those of one colour at the same time.
+/// Calls work(cell) for every cell; cells of one colour run at the same time.
 template <typename Work>
 void for_each_cell(const Eigen::MatrixXi& nodes, Eigen::Index points, int threads, const Work& work) {
   for (const std::vector<int>& cells : colour_cells(nodes, points)) {

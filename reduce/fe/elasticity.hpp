@@ -1,4 +1,4 @@
-// Between tensors and their six components in the order xx yy zz yz xz xy.
+// Conversion between tensors and their six components in the order xx yy zz yz xz xy.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,7 +7,7 @@ namespace bielle::reduce {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-/// Place of component ij in the order xx yy zz yz xz xy.
+/// Index of component ij in the order xx yy zz yz xz xy.
 constexpr int voigt(int i, int j) { return i == j ? i : 6 - i - j; }
 
 /// Engineering strain of the displacement gradient du_i/dx_j.
@@ -20,7 +20,7 @@ inline Eigen::Matrix3d tensor_of(const Vector6& s) {
   return (Eigen::Matrix3d() << s(0), s(5), s(4), s(5), s(1), s(3), s(4), s(3), s(2)).finished();
 }
 
-/// C_ijkl in row i + 3 k, column j + 3 l: turns int dN_a/dx_j dN_b/dx_l into the stiffness block K_ab,ik.
+/// C_ijkl in row i + 3 k, column j + 3 l, which maps int dN_a/dx_j dN_b/dx_l to the stiffness block K_ab,ik.
 inline Eigen::Matrix<double, 9, 9> elasticity_tensor(const Eigen::Matrix<double, 6, 6>& c) {
   Eigen::Matrix<double, 9, 9> tensor;
   for (int i = 0; i < 3; ++i) {

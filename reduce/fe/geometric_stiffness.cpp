@@ -37,8 +37,8 @@ struct FieldMatrices {
   const double* column(std::int64_t pair) const { return values.get() + pair * fields; }
 };
 
-/// Exact to degree 3, as P. Keast, Comput. Methods Appl. Mech. Eng. 55 (1986) 339, gives it: the product of a linear
-/// stress and two linear gradients.
+/// A rule that is exact to degree 3 (P. Keast, Comput. Methods Appl. Mech. Eng. 55 (1986) 339), for the product of a
+/// linear stress and two linear gradients.
 Quadrature five_points() {
   Quadrature rule{Eigen::MatrixXd::Constant(3, 5, 1.0 / 6), Eigen::VectorXd::Constant(5, 3.0 / 40)};
   rule.points.leftCols<3>().diagonal().setConstant(0.5);
@@ -47,8 +47,9 @@ Quadrature five_points() {
   return rule;
 }
 
-/// What stress component xx yy zz yz xz xy, in one field, is multiplied by in g_ab: products of gradients, those off
-/// the diagonal for two. Rows 6 p + s of a column for each pair a <= b of nodes; the diagonal of g is halved.
+/// Factors of the stress components xx yy zz yz xz xy of one field in g_ab: products of gradients, and sums of two
+/// products for the shear components. Rows 6 p + s of a column for each pair a <= b of nodes; the diagonal of g is
+/// halved.
 template <int N>
 void set_products(const Eigen::Matrix<double, N, 3>& d, Index p, MatrixXd& products) {
   double* column = &products(6 * p, 0);
@@ -112,7 +113,8 @@ void add_cells(const Solid& solid, const NodeGraph& graph, const RowMatrix& fiel
   }
 }
 
-/// The numbers g_ab of all fields for node a and all its neighbours b: (fields, neighbours), a's own whole.
+/// The numbers g_ab of all fields for node a and all its neighbours b: (fields, neighbours); the block of a itself is
+/// complete.
 void gather(const NodeGraph& graph, const FieldMatrices& g, int a, double* row) {
   for (std::int64_t place = graph.starts[a]; place < graph.starts[a + 1]; ++place, row += g.fields) {
     const int b = graph.neighbours[place];
@@ -122,7 +124,7 @@ void gather(const NodeGraph& graph, const FieldMatrices& g, int a, double* row) 
   }
 }
 
-/// For one thread: the sum over nodes a, neighbours b and components i of T_ai^T g_ab T_bi, lower triangles.
+/// One thread's sum over nodes a, neighbours b and components i of T_ai^T g_ab T_bi, lower triangles.
 class ReducedSum {
  public:
   ReducedSum(const NodeGraph& graph, const FieldMatrices& g, const RowMatrix& shapes)
@@ -139,8 +141,8 @@ class ReducedSum {
 
   void add_nodes(Index begin, Index end) {
     for (Index a = begin; a < end; ++a) make(static_cast<int>(a), made_.data() + (a - begin) * width_ * fields_);
-    // Rows of T, and of what was made, are each node's x, y and z. Of symmetric matrices, nothing above blocks on the
-    // diagonal is needed.
+    // Rows of T and of the product g T are x, y and z of each node. Symmetric matrices need no block above the
+    // diagonal.
     const Index rows = 3 * (end - begin);
     for (Index j = 0; j < n_; j += block) {
       const Index columns = fields_ * std::min(block, n_ - j);
@@ -148,7 +150,7 @@ class ReducedSum {
                         {made_.data() + j * fields_, rows, columns, n_ * fields_, true}, &sum_(j, j * fields_), n_);
     }
   }
-  /// (n, n fields), columns of field f at f, f + fields, ...; nothing is right above the diagonals.
+  /// (n, n fields), columns of field f at f, f + fields, ...; entries above the diagonals are not valid.
   const MatrixXd& sum() const { return sum_; }
 
  private:
@@ -174,11 +176,11 @@ class ReducedSum {
   const RowMatrix& shapes_;
   Index fields_, n_, width_;
   std::vector<double> around_, weights_;  // rows of T of a node's neighbours; numbers g_ab
-  std::vector<double> made_;              // of each node: (fields, 3 n)
+  std::vector<double> made_;              // rows of each node: (fields, 3 n)
   MatrixXd sum_;
 };
 
-/// T^T (g (x) I3) T of all fields: (n, n fields), as ReducedSum has it.
+/// T^T (g (x) I3) T of all fields: (n, n fields), in the layout of ReducedSum.
 MatrixXd reduce(const NodeGraph& graph, const FieldMatrices& g, const RowMatrix& shapes, int threads) {
   std::vector<MatrixXd> sums(static_cast<std::size_t>(threads));
 #pragma omp parallel num_threads(threads)

@@ -12,7 +12,7 @@
 
 namespace bielle::reduce {
 
-/// @param fields  (3 points, k) displacements u0 whose linear elastic stress acts
+/// @param fields  (3 points, k) displacements u0, whose linear elastic stress is used
 /// @param shapes  T (3 points, n)
 /// @returns T^T (g (x) I3) T (n, n) for each field [N/m for shapes of displacements]
 /// @note needs 8 k bytes for each pair of neighbouring nodes

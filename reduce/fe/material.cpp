@@ -16,7 +16,7 @@ void check_density(double density) {
   }
 }
 
-/// Refuses constants with which some strain would release energy.
+/// Refuses constants with which some strain would have negative energy.
 void check_positive_definite(const Eigen::Matrix<double, 6, 6>& elasticity, const char* constants) {
   if (!elasticity.allFinite() || !is_positive_definite(elasticity)) {
     throw InputError(fmt::format(

@@ -6,7 +6,7 @@ namespace bielle::reduce {
 
 namespace {
 
-/// The mean of the gradient of each node's shape function: (3, points).
+/// Integral mean of the gradient of each node's shape function: (3, points).
 template <int N>
 Eigen::Matrix3Xd mean_gradients(const Solid& solid) {
   // Gradient times Jacobian is a product of local gradients, three of them on a curved cell.

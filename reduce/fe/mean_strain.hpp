@@ -1,4 +1,5 @@
-// The mean strain of a body: what of its deformation does not cancel over the whole, as bending and twist do.
+// The mean strain of a body: the part of its strain that does not cancel over the volume, as that of bending and twist
+// does.
 #pragma once
 
 #include "reduce/fe/solid.hpp"
@@ -6,7 +7,7 @@
 
 namespace bielle::reduce {
 
-/// The integral of the strain xx yy zz yz xz xy (engineering shears) over the volume, divided by it.
+/// The integral of the strain xx yy zz yz xz xy (engineering shears) over the volume, divided by the volume.
 /// @param fields  (3 points, k) displacements @returns (6, k)
 Eigen::MatrixXd mean_strain(const Solid& solid, const RowMatrix& fields);
 

@@ -28,14 +28,15 @@ Numbers numbers(Eigen::Index count) {
   return std::make_unique_for_overwrite<double[]>(static_cast<std::size_t>(count));
 }
 
-/// W of C = W W.
+/// The square root W of C = W W.
 Matrix6 root_of(const Matrix6& elasticity) {
   const SymmetricEigenpairs pairs = symmetric_eigenpairs(elasticity);
   const Matrix6 vectors = pairs.vectors;
   return vectors * pairs.values.cwiseMax(0).cwiseSqrt().asDiagonal() * vectors.transpose();
 }
 
-/// What depends on the type of cell: points at which stress is most accurate, and the polynomial fitted to them.
+/// Data that depend on the type of cell: points at which stress is most accurate, and the polynomial that is fitted to
+/// them.
 template <int N>
 struct Fit {
   static constexpr int terms = N == 4 ? 4 : 10;
@@ -59,8 +60,8 @@ struct FittedStress {
   std::vector<double> scale;  // [m]
 };
 
-/// The estimate for some fields. Stress is that of unit compliance, W^-1 s = W eps: its square is twice the energy, and
-/// fits do not care, since each component has its own.
+/// The estimate for some fields. Stresses are those for unit compliance, W^-1 s = W eps: their square is twice the
+/// energy. The fits are not affected, since each component has its own.
 template <int N>
 class Estimate {
  public:
@@ -88,7 +89,7 @@ class Estimate {
 
  private:
   static constexpr int terms = Fit<N>::terms;
-  static constexpr int most_points = 8;  // of `rule_`
+  static constexpr int most_points = 8;  // number of points of `rule_`
 
   static std::vector<Surroundings> all_surroundings(const Solid& solid) {
     std::vector<Surroundings> result;
@@ -106,7 +107,7 @@ class Estimate {
   CellPoints<N> points_of(Eigen::Index cell) const { return cell_points<N>(solid_.mesh.points, solid_.nodes, cell); }
   double* samples_of(Eigen::Index cell) { return samples_.get() + cell * size_of_samples(width_); }
 
-  /// What a linear function of the cell takes from the sampling points to those of `rule_`.
+  /// Sets the interpolation of a linear function of the cell from the sampling points to the points of `rule_`.
   void set_interpolation() {
     const auto columns = static_cast<Eigen::Index>(sampling_.size());
     interpolation_ = Eigen::MatrixXd::Ones(columns, rule_.weights.size());
@@ -119,8 +120,8 @@ class Estimate {
     interpolation_ = Eigen::Matrix4d(barycentric(sampling_.points)).inverse() * barycentric(rule_.points);
   }
 
-  /// Stress at the sampling points, and its energy in each cell; these points integrate the square of a linear stress
-  /// exactly. Curved cells take their energy from `rule_`.
+  /// Computes the stress at the sampling points, and its energy in each cell; these points integrate the square of a
+  /// linear stress exactly. The energy of curved cells is integrated with `rule_`.
   void sample(RowArray& energy) {
     const auto points = static_cast<Eigen::Index>(sampling_.size());
 #pragma omp parallel num_threads(threads_)
@@ -150,7 +151,7 @@ class Estimate {
         sum += volumes(p) * Eigen::Map<const Eigen::ArrayXd>(stress + (6 * p + s) * width_, width_).square();
   }
 
-  /// The places of a patch's sampling points seen from a vertex, in units of the distance of the farthest.
+  /// Sets the positions of a patch's sampling points relative to a vertex, in units of the largest distance.
   double set_places(const std::vector<int>& patch, const Eigen::Vector3d& centre, Eigen::Matrix3Xd& places) const {
     const auto points = static_cast<Eigen::Index>(sampling_.size());
     places.resize(3, static_cast<Eigen::Index>(patch.size()) * points);
@@ -168,7 +169,7 @@ class Estimate {
   FittedStress fit(const Surroundings& around) {
     const auto points = static_cast<Eigen::Index>(sampling_.size());
     const auto count = static_cast<Eigen::Index>(around.vertices.size());
-    const Eigen::Index size = 6 * width_;  // of a sample
+    const Eigen::Index size = 6 * width_;  // length of a sample
     FittedStress result{coefficients_.get(), std::vector<double>(count)};
     const std::size_t least = 2 * terms / sampling_.size() + 1;  // cells: two samples for each term
 #pragma omp parallel num_threads(threads_)
@@ -190,7 +191,8 @@ class Estimate {
         const DenseBlock of_terms{polynomials.data(), terms, places.cols(), terms, false};
         add_dense_product(of_terms, {polynomials.data(), places.cols(), terms, terms, true}, normal.data(), terms);
         add_dense_product(of_terms, {values.data(), places.cols(), size, size, true}, right.data(), terms);
-        // Regular meshes and small bodies leave terms undetermined: the high ones are zero then, not the low ones.
+        // Regular meshes and small bodies leave terms undetermined; the terms of high degree are then set to zero, not
+        // those of low degree.
         const double trace = normal.trace();
         normal.diagonal().tail(terms - 1).array() += 1e-12 * trace;
         if constexpr (N == 10) normal.diagonal().tail(terms - 4).array() += 1e-9 * trace;
@@ -260,11 +262,11 @@ class Estimate {
   const RowMatrix& fields_;
   int threads_;
   CellRule<N> sampling_, rule_;
-  std::vector<Surroundings> around_;  // of each material
+  std::vector<Surroundings> around_;  // patches of each material
   std::vector<Matrix6> roots_;        // W of each material
   Eigen::MatrixXd interpolation_;     // (sampling points, points of `rule_`)
-  Numbers samples_;                   // of each cell (fields, 6 points), one column after the other
-  Numbers coefficients_;              // of `FittedStress`
+  Numbers samples_;                   // stresses of each cell (fields, 6 points), one column after the other
+  Numbers coefficients_;              // coefficients of `FittedStress`
   Eigen::Index first_ = 0, width_ = 0;
 };
 

@@ -35,7 +35,8 @@ CellsOfNodes cells_of_nodes(const Eigen::MatrixXi& nodes, Eigen::Index points) {
   return result;
 }
 
-/// y = sum_k factors[k] x_k for some of the numbers of each row x_k. @param rows  numbers of the rows, `stride` apart
+/// y = sum_k factors[k] x_k, for some of the entries of each row x_k. @param rows  numbers of the rows, which are
+/// `stride` apart
 template <int width>
 void set_sum_of_rows(std::span<const double> factors, const int* rows, const double* x, Eigen::Index stride,
                      double* y) {
@@ -115,7 +116,7 @@ RowMatrix NodeMatrix::multiply(const RowMatrix& x, int rows_per_node, int thread
 
 void NodeMatrix::multiply_into(const RowMatrix& x, int rows_per_node, RowMatrix& y, int threads) const {
   const Eigen::Index width = rows_per_node * x.cols();  // numbers that a node owns, consecutive in memory
-  constexpr int many = 8;                               // as many stay in registers
+  constexpr int many = 8;                               // this many numbers stay in registers
 #pragma omp parallel for num_threads(threads) schedule(static)
   for (Eigen::Index a = 0; a < graph->size(); ++a) {
     const auto first = static_cast<std::size_t>(graph->starts[a]),

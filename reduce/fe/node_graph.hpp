@@ -1,4 +1,4 @@
-// Which nodes share a cell: the pattern of every matrix of the finite elements.
+// The graph of nodes that share a cell: the pattern of every finite-element matrix.
 #pragma once
 
 #include <cstdint>
@@ -12,17 +12,17 @@
 namespace bielle::reduce {
 
 /// Neighbours of node a, itself included, ascending: `neighbours[starts[a] .. starts[a+1])`. Nodes without cells have
-/// none.
+/// no neighbours.
 struct NodeGraph {
   std::vector<std::int64_t> starts{0};
   std::vector<int> neighbours;
 
   Eigen::Index size() const { return static_cast<Eigen::Index>(starts.size()) - 1; }
-  /// Place of node b in the list of node a, which must be its neighbour.
+  /// Position of node b in the list of node a, which must be its neighbour.
   std::int64_t place(int a, int b) const;
 };
 
-/// Where the blocks of one cell stand: places in the graph of pairs of its nodes, found by one walk along the
+/// Positions of the blocks of one cell: positions in the graph of pairs of its nodes, found by one pass over the
 /// neighbours of each node.
 template <int N>
 class CellPlaces {
@@ -36,8 +36,9 @@ class CellPlaces {
       order_[k] = a;
     }
   }
-  /// Place of node b, for those at least as high as node a (local numbers), among the neighbours of node a.
-  /// @param own  place of node a itself @param visit  (b, place)
+  /// Visits each node b of the cell that has at least the number of node a (local numbers), with its position among the
+  /// neighbours of node a.
+  /// @param own  position of node a itself @param visit  (b, position)
   template <class Visit>
   void from(int a, std::int64_t own, const Visit& visit) const {
     walk(own, nodes_[a], visit);
@@ -60,21 +61,21 @@ class CellPlaces {
   }
 
   const NodeGraph& graph_;
-  int nodes_[N], order_[N];  // of the cell; local numbers, ascending by node
+  int nodes_[N], order_[N];  // nodes of the cell, and their local numbers in ascending order of the nodes
 };
 
 /// @param nodes  (nodes of a cell, cells)
 NodeGraph node_graph(const Eigen::MatrixXi& nodes, Eigen::Index points, int threads = 1);
 
-/// Cells sorted into colours so that no two cells of a colour share a node: those of one colour are assembled at the
-/// same time, and sums come out the same for any number of threads.
+/// Cells sorted into colours so that no two cells of a colour share a node: cells of one colour are assembled at the
+/// same time, and sums do not depend on the number of threads.
 std::vector<std::vector<int>> colour_cells(const Eigen::MatrixXi& nodes, Eigen::Index points);
 
 /// A symmetric matrix with one number per pair of neighbours (both triangles); stands for `m (x) I3` on vectors of
 /// three components per node.
 struct NodeMatrix {
   const NodeGraph* graph = nullptr;
-  std::vector<double> values;  ///< as `graph->neighbours`
+  std::vector<double> values;  ///< in the order of `graph->neighbours`
 
   /// (m (x) I_k) x: node a owns k consecutive rows of x. @param x  (k points, any)
   RowMatrix multiply(const RowMatrix& x, int rows_per_node, int threads = 1) const;

@@ -48,7 +48,7 @@ Quadrature simplex_quadrature(int dimension, int degree) {
   const int n = degree / 2 + 1;
   // x = u, y = v (1 - u), z = w (1 - u)(1 - v): the Jacobian (1 - u)^(d-1) (1 - v)^(d-2) goes into the rules' weights.
   Quadrature rule{Eigen::MatrixXd::Zero(dimension, 1), Eigen::VectorXd::Ones(1)};
-  Eigen::VectorXd left = Eigen::VectorXd::Ones(1);  // what the coordinates so far leave of 1
+  Eigen::VectorXd left = Eigen::VectorXd::Ones(1);  // 1 minus the coordinates so far
   for (int k = 0; k < dimension; ++k) {
     const Rule line = gauss_jacobi(n, dimension - 1 - k);
     const Eigen::Index points = rule.weights.size();

@@ -51,7 +51,7 @@ struct Moments {
   }
 };
 
-/// Of the solid, r being taken from `origin`. Cells are summed up in groups, which do not depend on the number of
+/// Moments of the solid, with r from `origin`. Cells are summed up in groups, which do not depend on the number of
 /// threads.
 template <int N>
 Moments moments(const Solid& solid, CellDegrees degrees, const Eigen::Vector3d& origin, int threads) {

@@ -12,22 +12,24 @@
 
 namespace bielle::reduce {
 
-/// Tetrahedra (tet4, or isoparametric tet10 whose edges may be curved) of linear elastic material. Refers to its mesh.
+/// Tetrahedra (tet4, or isoparametric tet10 with straight or curved edges) of linear elastic material. It refers to its
+/// mesh.
 struct Solid {
   const Mesh& mesh;
-  CellType type;                 ///< of all its cells
+  CellType type;                 ///< type of all its cells
   const Eigen::MatrixXi& nodes;  ///< (nodes of a cell, cells)
   std::vector<Material> materials;
-  std::vector<int> material_of;  ///< of each cell, number in `materials`
+  std::vector<int> material_of;  ///< number of each cell's material in `materials`
 
   Eigen::Index cells() const { return nodes.cols(); }
   Eigen::Index points() const { return mesh.points.cols(); }
 };
 
 /// Gives every solid cell its material.
-/// @param regions  volume group -> name of a material; the key "all" stands for every cell that no other group claims
-/// @throws InputError for a group that the mesh has not or that is no volume, a material that is not defined, cells
-///         claimed twice or by nobody
+/// @param regions  volume group -> name of a material; the key "all" stands for every cell that belongs to no other
+/// listed group
+/// @throws InputError for a group that the mesh does not have or that is no volume, a material that is not defined,
+///         cells in two listed groups or in none
 Solid make_solid(const Mesh& mesh, const std::map<std::string, Material>& materials,
                  const std::map<std::string, std::string>& regions);
 
@@ -41,7 +43,7 @@ struct MassProperties {
 
 MassProperties mass_properties(const Solid& solid, int threads = 1);
 
-/// Points that belong to solid cells, by point.
+/// Tells of each point whether it belongs to a solid cell.
 std::vector<bool> points_of_solid(const Solid& solid);
 
 }  // namespace bielle::reduce

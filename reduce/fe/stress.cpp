@@ -71,7 +71,7 @@ std::vector<double> cell_volumes(const Solid& solid, const CellRule<N>& rule, in
   return volumes;
 }
 
-/// The points of a cell at which stress is sampled.
+/// The sampling points for stress in a cell.
 template <int N>
 Quadrature sampling() {
   return simplex_quadrature(3, N == 4 ? 0 : 2);
@@ -96,7 +96,7 @@ RowMatrix stress_at(const Solid& solid, const RowMatrix& fields, const std::vect
   const auto wanted = [&](Eigen::Index e, int a) {
     return row_of[solid.nodes(a, e)] >= 0 && shares.material[solid.nodes(a, e)] == solid.material_of[e];
   };
-  std::vector<int> cells;  // that have a share in what is wanted
+  std::vector<int> cells;  // cells that contribute to the requested nodes
   for (Eigen::Index e = 0; e < solid.cells(); ++e)
     for (int a = 0; a < N; ++a)
       if (wanted(e, a)) {
@@ -107,7 +107,7 @@ RowMatrix stress_at(const Solid& solid, const RowMatrix& fields, const std::vect
   const auto points = static_cast<Eigen::Index>(rule.size());
   RowMatrix result(6 * static_cast<Eigen::Index>(nodes.size()), k);
   if (result.size() == 0) return result;
-    // Written, not merely zero as new memory is: pages that are read first are given out twice.
+    // The memory is written, since pages that are read before they are written are allocated twice.
 #pragma omp parallel for num_threads(threads) schedule(static)
   for (Eigen::Index row = 0; row < result.rows(); ++row) result.row(row).setZero();
   const BlasThreads one(1);

@@ -1,8 +1,9 @@
 // Stress at nodes.
 //
-// Sampled at the four points of the degree 2 rule, where quadratic cells are most accurate, extrapolated linearly to
-// the nodes of the cell and averaged over the cells around a node, weighted by their volume. At a node between two
-// materials only the cells of one count: the one with more volume around the node (stress jumps there).
+// Stress is sampled at the four points of the degree 2 rule, where quadratic cells are most accurate, extrapolated
+// linearly to the nodes of the cell and averaged over the cells around a node, weighted by their volume. At a node
+// between two materials only the cells of one material count: the one with more volume around the node (stress jumps
+// there).
 #pragma once
 
 #include <vector>
@@ -13,11 +14,11 @@
 namespace bielle::reduce {
 
 /// @param fields  (3 points, k) displacements
-/// @param nodes   at which stress is wanted, ascending, all of them in the solid
+/// @param nodes   nodes of the requested stresses, ascending, all of them in the solid
 /// @returns (6 nodes, k): xx yy zz yz xz xy [Pa] of the first node, of the second, ...
 RowMatrix nodal_stress(const Solid& solid, const RowMatrix& fields, const std::vector<int>& nodes, int threads = 1);
 
-/// Whose stress `nodal_stress` gives at these nodes: the number of the material in `solid.materials`.
+/// Numbers in `solid.materials` of the materials whose stress `nodal_stress` gives at these nodes.
 std::vector<int> nodal_materials(const Solid& solid, const std::vector<int>& nodes);
 
 /// Nodes on the faces of cells that belong to one cell only, ascending.

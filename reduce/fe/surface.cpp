@@ -23,8 +23,8 @@ std::vector<std::string> surface_groups(const Mesh& mesh) {
   return result;
 }
 
-/// visit(nodes of the triangle, N_a, x, int n dA of the point) at every point of a rule of degree 7, which is exact for
-/// N_a n on curved tri6 (degree 4) and N_a x |n| on plane ones, and nearly so where |n| is no polynomial.
+/// Calls visit(nodes of the triangle, N_a, x, int n dA of the point) at every point of a rule of degree 7, which is
+/// exact for N_a n on curved tri6 (degree 4) and N_a x |n| on plane ones, and nearly exact if |n| is no polynomial.
 template <typename Visitor>
 void integrate(const Mesh& mesh, const Group& group, const Visitor& visit) {
   const Quadrature rule = simplex_quadrature(2, 7);

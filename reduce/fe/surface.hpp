@@ -21,8 +21,8 @@ struct SurfaceIntegrals {
   Eigen::Matrix3Xd normals;  ///< int N_a n dA, n the normal of the faces as oriented in the mesh [m^2]
 };
 
-/// @throws InputError when the mesh has no such surface group (nearest name) or its area is zero; the message names the
-///         group, the caller puts the place in the input file before it
+/// @throws InputError if the mesh has no such surface group (nearest name) or its area is zero; the message names the
+///         group, and the caller puts the place in the input file before it
 SurfaceIntegrals integrate_surface(const Mesh& mesh, const std::string& group);
 
 /// Forces on the nodes of a surface [N], one column per node of `surface.nodes`.

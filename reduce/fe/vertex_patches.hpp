@@ -10,14 +10,14 @@ namespace bielle::reduce {
 /// Cells of one material around each of its vertices.
 struct Surroundings {
   std::vector<int> vertices;            // points
-  std::vector<int> number;              // of each point, in `vertices`; -1: no vertex of the material
+  std::vector<int> number;              // number in `vertices` of each point; -1: no vertex of the material
   std::vector<std::vector<int>> cells;  // around each vertex
 };
 
 /// @param material  number in `solid.materials`
 Surroundings surroundings(const Solid& solid, int material);
 
-/// The cells around a vertex, and around their vertices until there are as many as asked for or no more.
+/// The cells around a vertex, and further around their vertices until there are as many as requested or no more.
 /// @param vertex  number in `around.vertices`; @param least  cells
 std::vector<int> patch_of(const Solid& solid, const Surroundings& around, std::size_t vertex, std::size_t least);
 

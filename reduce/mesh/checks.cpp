@@ -36,7 +36,7 @@ struct Piece {
   Eigen::AlignedBox3d box;
 };
 
-// The solid cells by the number that `number_of` gives them; largest first.
+// Sorts the solid cells by the number that `number_of` gives them; the largest piece comes first.
 template <class Number>
 std::vector<Piece> pieces_of(const Mesh& mesh, const Number& number_of) {
   const CellBlock& block = mesh.solids();
@@ -65,10 +65,10 @@ std::string piece_names(const std::vector<Piece>& pieces) {
   return names;
 }
 
-// Pairs of points nearer to each other than `distance`, of those listed; a point is the first of one pair at most.
+// Pairs of the listed points nearer to each other than `distance`; a point is the first of one pair at most.
 std::vector<std::pair<int, int>> near_pairs(const Eigen::Matrix3Xd& points, const std::vector<int>& listed,
                                             double distance) {
-  // Sorted along an oblique direction, along which the nodes of no face of a machine part coincide.
+  // Points are sorted along an oblique direction, along which the nodes of no face of a machine part coincide.
   const Eigen::RowVector3d direction(0.6154, 0.3581, 0.7022);
   std::vector<std::pair<double, int>> sorted;
   for (int node : listed) sorted.emplace_back(direction * points.col(node), node);

@@ -1,4 +1,4 @@
-// Is a mesh one that can be reduced? What is wrong is said with element and place.
+// Checks that a mesh can be reduced. Messages name the element and its place.
 #pragma once
 
 #include <string>
@@ -10,26 +10,25 @@
 namespace bielle::reduce {
 
 /// Every straight tetrahedron of the corners must have positive volume, and more than 1e-12 of its longest edge cubed.
-/// @param cell_tags  numbers of the cells in the user's file; may be empty (then from 1)
+/// @param cell_tags  numbers of the cells in the user's file; may be empty (cells are then numbered from 1)
 /// @throws InputError: inverted or flat elements, the first by number and place
 void check_elements(const Mesh& mesh, const std::vector<std::size_t>& cell_tags);
 
 /// The solid must be one piece: its cells connected by common nodes.
-/// @throws InputError: how many pieces, how large and where; whether they touch without sharing nodes
+/// @throws InputError: number, size and place of the pieces, and whether they touch without sharing nodes
 void check_connected(const Mesh& mesh);
 
-/// A sentence when parts of the body hang together by single nodes or edges only, about which they can turn; else
-/// empty.
+/// A sentence if parts of the body are connected by single nodes or edges only, about which they can turn; else empty.
 std::string loose_joints(const Mesh& mesh, const FaceTable& faces);
 
-/// Pairs of boundary nodes that lie at one place, nearer than 1e-6 of the shortest edge: a crack, or an unmerged mesh.
+/// Pairs of boundary nodes at one place, nearer than 1e-6 of the shortest edge: a crack, or an unmerged mesh.
 struct CoincidentNodes {
   int pairs = 0;
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< of the first [m]
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< place of the first pair [m]
 };
 CoincidentNodes coincident_nodes(const Mesh& mesh, const FaceTable& faces);
 
-/// A sentence when the body is longer than 150 m or smaller than 1 mm, which a wrong unit of length explains; else
+/// A sentence if the body is longer than 150 m or smaller than 1 mm, probably because of a wrong unit of length; else
 /// empty.
 std::string doubtful_size(const Mesh& mesh);
 std::string doubtful_length(double metres);  ///< the same of its largest extent
@@ -37,7 +36,7 @@ std::string doubtful_length(double metres);  ///< the same of its largest extent
 /// Quality of the solid cells.
 struct MeshQuality {
   double shortest_edge = 0, longest_edge = 0;             ///< [m], straight
-  double least_scaled_jacobian = 0;                       ///< of the straight cells: 1 regular, 0 flat
+  double least_scaled_jacobian = 0;                       ///< quality of the straight cells: 1 regular, 0 flat
   Eigen::Vector3d worst_place = Eigen::Vector3d::Zero();  ///< [m]
 };
 MeshQuality mesh_quality(const Mesh& mesh);

@@ -16,7 +16,7 @@ namespace {
 
 using Entity = std::pair<int, int>;  // dimension, tag
 
-// A physical group as gmsh numbers it.
+// A physical group with its number in gmsh.
 struct NumberedGroup {
   Entity group;
   std::string name;
@@ -46,7 +46,7 @@ bool is_open_cascade() {
   return std::all_of(volumes.begin(), volumes.end(), [&](const Entity& volume) { return solids.contains(volume); });
 }
 
-// A square in the plane that reaches beyond the body on all sides; lengths in the unit of the model.
+// Adds a square in the plane that extends beyond the body on all sides; lengths in the unit of the model.
 Entity add_square(const CutPlane& plane, double metres) {
   double low[3], high[3];
   gmsh::model::getBoundingBox(-1, -1, low[0], low[1], low[2], high[0], high[1], high[2]);
@@ -63,8 +63,8 @@ Entity add_square(const CutPlane& plane, double metres) {
   return {2, gmsh::model::occ::addPlaneSurface({gmsh::model::occ::addCurveLoop(lines)})};
 }
 
-// The volumes that were divided, and every face of no volume: those of divided volumes, and what of the squares lies
-// outside of the body.
+// Removes the divided volumes and every face that bounds no volume: those of divided volumes, and the parts of the
+// squares outside the body.
 void remove_leftovers(const std::map<Entity, gmsh::vectorpair>& parts_of) {
   gmsh::vectorpair divided;
   for (const auto& [entity, parts] : parts_of)
@@ -82,7 +82,7 @@ void remove_leftovers(const std::map<Entity, gmsh::vectorpair>& parts_of) {
   gmsh::model::occ::synchronize();
 }
 
-// Volumes and surfaces before the cuts -> those that they have become.
+// Maps the volumes and surfaces before the cuts to their parts.
 std::map<Entity, gmsh::vectorpair> divide(const std::vector<CutPlane>& planes, double metres) {
   gmsh::vectorpair body, surfaces, squares, result;
   gmsh::model::getEntities(body, 3);
@@ -90,7 +90,7 @@ std::map<Entity, gmsh::vectorpair> divide(const std::vector<CutPlane>& planes, d
   body.insert(body.end(), surfaces.begin(), surfaces.end());  // to learn what becomes of them
   for (const CutPlane& plane : planes) squares.push_back(add_square(plane, metres));
   std::vector<gmsh::vectorpair> parts;
-  // gmsh 4.8 tells wrong parts where it removes what it divides in the same call.
+  // gmsh 4.8 returns wrong parts if the same call removes the divided entities.
   gmsh::model::occ::fragment(body, squares, result, parts, -1, false, false);
   gmsh::model::occ::synchronize();
   std::map<Entity, gmsh::vectorpair> parts_of;

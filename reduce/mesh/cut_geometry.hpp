@@ -14,7 +14,8 @@ class Progress;
 namespace bielle::reduce {
 
 /// Divides the volumes at the planes `request.cuts`. Physical groups keep their names: a divided surface or volume is
-/// replaced in them by its parts. A geometry of gmsh's own kernel cannot be cut; it is left as it is, with a note.
+/// replaced in the group by its parts. A geometry of gmsh's own kernel cannot be cut; it is not changed, and a note is
+/// given.
 /// @returns the physical groups of the divided geometry
 /// @throws InputError when OpenCASCADE cannot cut it
 std::vector<PhysicalGroup> cut_geometry(GmshSession& session, const MeshRequest& request, const SourceFile& source,

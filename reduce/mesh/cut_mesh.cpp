@@ -18,7 +18,7 @@ namespace bielle::reduce {
 
 namespace {
 
-using Sides = std::vector<bool>;  // of each plane: whether on the side of its normal
+using Sides = std::vector<bool>;  // for each plane, whether a cell is on the side of its normal
 
 std::vector<Sides> sides_of_cells(const Mesh& mesh, const std::vector<CutPlane>& planes) {
   const Eigen::MatrixXi& nodes = mesh.solids().nodes;
@@ -33,12 +33,12 @@ std::vector<Sides> sides_of_cells(const Mesh& mesh, const std::vector<CutPlane>&
   return sides;
 }
 
-// The piece of each cell, numbered from 0: cells on the same sides that hang together by nodes.
+// Number of the piece of each cell, from 0: a piece consists of cells on the same sides that are connected by nodes.
 std::vector<int> connected_pieces(const Mesh& mesh, const std::vector<Sides>& sides) {
   const Eigen::MatrixXi& nodes = mesh.solids().nodes;
   const int count = static_cast<int>(nodes.cols());
   DisjointSets sets(count);
-  std::map<Sides, std::vector<int>> first_cells;  // of each node, on these sides
+  std::map<Sides, std::vector<int>> first_cells;  // first cells of each node, by their sides
   for (int e = 0; e < count; ++e) {
     std::vector<int>& first = first_cells.try_emplace(sides[e], mesh.point_count(), -1).first->second;
     for (int k = 0; k < 4; ++k) {
@@ -53,8 +53,8 @@ std::vector<int> connected_pieces(const Mesh& mesh, const std::vector<Sides>& si
   return pieces;
 }
 
-// Cells that reach over a plane at its rim may stand alone on their side: a set of cells all of whose corners belong to
-// one neighbour as well is no piece, but a part of that neighbour.
+// Cells that cross a plane near its rim may be isolated on their side: a set of cells all of whose corners also belong
+// to one neighbour is no piece and is joined to that neighbour.
 void join_islands(const Mesh& mesh, std::vector<int>& pieces) {
   const Eigen::MatrixXi& nodes = mesh.solids().nodes;
   std::vector<std::set<int>> at_node(mesh.point_count());
@@ -96,7 +96,7 @@ std::size_t plane_between(const Mesh& mesh, const std::array<int, 2>& cells, con
                   place_name(mesh.points.col(mesh.solids().nodes(0, cells[0]))))));
 }
 
-// Sides of each piece: those of most of its cells, since islands have joined others.
+// Sides of each piece: the sides of most of its cells, since isolated cells of other sides may have been joined.
 std::map<int, Sides> sides_of_pieces(const std::vector<Sides>& sides, const std::vector<int>& pieces) {
   std::map<int, std::map<Sides, int>> votes;
   for (std::size_t e = 0; e < sides.size(); ++e) ++votes[pieces[e]][sides[e]];
@@ -123,7 +123,7 @@ std::vector<CutFace> faces_between(const Mesh& mesh, const FaceTable& faces, con
   return result;
 }
 
-// Numbers the pieces anew, from that of the first cell outwards, neighbours in the order of the planes.
+// Numbers the pieces anew, starting from the piece of the first cell, neighbours in the order of the planes.
 std::vector<int> order_of_pieces(const std::vector<CutFace>& between, int start, int count) {
   std::vector<std::set<std::tuple<std::size_t, int>>> neighbours(count);
   for (const CutFace& cut : between) {
@@ -143,7 +143,7 @@ std::vector<int> order_of_pieces(const std::vector<CutFace>& between, int start,
   return number;
 }
 
-// Numbers without gaps. @returns how many
+// Renumbers without gaps. @returns the number of pieces
 int renumber(std::vector<int>& pieces) {
   std::map<int, int> numbers;
   for (int& piece : pieces) piece = numbers.try_emplace(piece, numbers.size()).first->second;
@@ -175,7 +175,7 @@ void check_planes_cut(const Mesh& mesh, const std::vector<CutFace>& between, con
 // Connected surfaces of one plane between two pieces, with their faces in the whole mesh.
 struct CutSurfaces {
   std::vector<MeshCut> cuts;
-  std::vector<std::vector<int>> faces;  // of each cut
+  std::vector<std::vector<int>> faces;  // faces of each cut
 };
 
 double farthest_corner(const Mesh& mesh, const FaceTable& faces, const std::vector<int>& of_cut,

@@ -33,7 +33,7 @@ using Eigen::Vector3d;
 struct SurfaceEntry {
   std::string name;  // "surface 12", "patch 3"
   Shape shape;
-  std::string kind;  // where the shape is none that we recognise: what the geometry calls it
+  std::string kind;  // the geometry's name of the shape, if it is not a recognised one
   bool hollow = false;
   std::optional<double> area;      // [m^2]
   std::optional<Vector3d> centre;  // [m]
@@ -47,7 +47,7 @@ std::string numbers(const Vector3d& v) {
   return fmt::format("[{:.9g}, {:.9g}, {:.9g}]", shown(v.x()), shown(v.y()), shown(v.z()));
 }
 
-// What selects this surface in a body file. @param in_box  restricts a plane or cylinder to this surface alone
+// The line of a body file that selects this surface. @param in_box  restricts a plane or cylinder to this surface alone
 std::string selector_line(const SurfaceEntry& entry, bool in_box, double margin) {
   std::string shape;
   if (const auto* c = std::get_if<CylinderShape>(&entry.shape))
@@ -62,7 +62,7 @@ std::string selector_line(const SurfaceEntry& entry, bool in_box, double margin)
   return fmt::format("surface: {{{}}}", shape);
 }
 
-// Whether both lie on the same infinite plane or cylinder, as far as selection can tell.
+// Tells whether both lie on the same infinite plane or cylinder, within the tolerance of selection.
 bool same_shape(const SurfaceEntry& one, const SurfaceEntry& other, double tolerance) {
   if (const auto* a = std::get_if<PlaneShape>(&one.shape), *b = std::get_if<PlaneShape>(&other.shape); a && b)
     return a->normal.cross(b->normal).norm() < 1e-4 && std::abs(a->normal.dot(b->point - a->point)) < tolerance;
@@ -98,7 +98,7 @@ std::vector<std::pair<int, int>> entities(int dimension) {
   return pairs;
 }
 
-// Values of a parameter, evenly spread, both ends included.
+// Value number i of a parameter, evenly spaced, both ends included.
 double spread(double low, double high, int i, int count) { return low + (high - low) * i / (count - 1); }
 
 // Points on a curve of the geometry.
@@ -111,7 +111,7 @@ Matrix3Xd curve_points(int tag, double metres) {
   return metres * Eigen::Map<Matrix3Xd>(points.data(), 3, points.size() / 3);
 }
 
-// Points of a surface of the geometry, normals there, and which of the points belong to its trimmed part.
+// Points of a surface of the geometry, the normals there, and a flag for points that belong to its trimmed part.
 struct SurfacePoints {
   Matrix3Xd x, n;
   std::vector<char> inside;
@@ -145,7 +145,8 @@ std::string groups_of(const std::vector<PhysicalGroup>& groups, int dimension, i
   return names;
 }
 
-// Shape and box of a surface. (OpenCASCADE's own boxes of free forms enclose their control points, which lie outside.)
+// Measures the shape and the box of a surface. (OpenCASCADE's own boxes of free-form surfaces enclose their control
+// points, which lie outside.)
 void measure_surface(int tag, double metres, SurfaceEntry& entry) {
   gmsh::vectorpair curves;
   gmsh::model::getBoundary({{2, tag}}, curves, false, false, false);

@@ -1,4 +1,4 @@
-// What a geometry or mesh offers: `bielle-reduce --list`.
+// The description of a geometry or mesh that `bielle-reduce --list` prints.
 #pragma once
 
 #include <optional>
@@ -10,13 +10,13 @@ class Progress;
 
 namespace bielle::reduce {
 
-/// Volumes, surfaces with their shapes, physical groups and units of a file, as text for the terminal, with lines that
-/// can be copied into a body file to select each surface.
+/// Volumes, surfaces with their shapes, physical groups and units of a file, as text for the terminal, with lines for a
+/// body file that select each surface.
 ///
-/// A geometry is not meshed: its shapes come from points on its surfaces, areas and volumes from OpenCASCADE
-/// (geometries of gmsh's own kernel have none). The boundary of a mesh is divided at edges where it turns by more than
-/// 40 degrees.
-/// @param length_unit   of a file that carries none; absent: m
+/// A geometry is not meshed: its shapes are recognised from points on its surfaces, areas and volumes come from
+/// OpenCASCADE (geometries of gmsh's own kernel have none). The boundary of a mesh is divided at edges at which its
+/// normal turns by more than 40 degrees.
+/// @param length_unit   unit of a file that declares none; absent: m
 /// @param system_calls  whether a script (.geo) may run shell commands
 /// @throws InputError when the file cannot be read
 std::string describe_geometry(const std::string& path, const std::optional<std::string>& length_unit,

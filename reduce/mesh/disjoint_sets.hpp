@@ -1,4 +1,4 @@
-// Which things hang together: sets that grow by joining.
+// Sets of connected objects, which are joined step by step.
 #pragma once
 
 #include <numeric>
@@ -10,7 +10,7 @@ namespace bielle::reduce {
 class DisjointSets {
  public:
   explicit DisjointSets(int count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
-  /// One number of the set to which i belongs, the same for all of them.
+  /// Returns a number that represents the set of i; it is the same for all members.
   int of(int i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;

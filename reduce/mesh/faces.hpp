@@ -1,4 +1,4 @@
-// Faces of solid cells: which lie on the surface of the body, and which face a triangle of a file is.
+// Faces of solid cells: the faces on the surface of the body, and the face that belongs to a triangle of a file.
 #pragma once
 
 #include <array>
@@ -13,20 +13,20 @@ namespace bielle::reduce {
 
 /// The faces of the solid cells of a mesh, each once, numbered from 0 in ascending order of their corner nodes.
 ///
-/// A face is oriented outward of its solid cell; one between two cells, outward of the one with the lower number.
+/// A face is oriented outward of its solid cell; a face between two cells, outward of the cell with the lower number.
 class FaceTable {
  public:
-  /// Of the solid cells of a mesh. @throws InputError when three or more cells share a face
+  /// Makes the faces of the solid cells of a mesh. @throws InputError when three or more cells share a face
   explicit FaceTable(const Mesh& mesh);
 
   int size() const { return static_cast<int>(faces_.size()); }
-  CellType type() const;  ///< of its faces: tri3 or tri6
+  CellType type() const;  ///< type of its faces: tri3 or tri6
   bool on_boundary(int face) const { return faces_[face].other < 0; }
   int cell(int face) const { return faces_[face].cell; }         ///< its (first) solid cell
   int other_cell(int face) const { return faces_[face].other; }  ///< its second one; -1 on the boundary
   Eigen::VectorXi nodes(int face) const;       ///< corners and mid-side nodes in gmsh's order, (3) or (6)
   std::array<int, 3> corners(int face) const;  ///< outward
-  /// The face with these corners in any order.
+  /// Returns the face with these corners in any order.
   std::optional<int> find(std::array<int, 3> corners) const;
   std::vector<int> boundary() const;  ///< faces of one cell only, ascending
 
@@ -34,7 +34,7 @@ class FaceTable {
   struct Face {
     std::array<int, 3> key;  // corner nodes, ascending
     int cell, other;
-    int side;  // of the first cell, 0..3
+    int side;  // side of the first cell, 0..3
   };
   CellBlock solids_;
   std::vector<Face> faces_;

@@ -42,7 +42,8 @@ std::filesystem::path find_converter() {
                                      converter, folders[0].string(), folders[1].string()));
 }
 
-// Runs a program without a shell, standard output dropped, standard error into a file. Returns its exit status.
+// Runs a program without a shell; its standard output is discarded, its standard error written to a file. Returns its
+// exit status.
 int run(const std::vector<std::string>& command, const std::string& error_file) {
   std::vector<char*> arguments;
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
@@ -70,7 +71,7 @@ std::vector<std::string> lines_of(const std::string& path) {
   return lines;
 }
 
-// The sentence without the label of who says it: "convert_mesh.py: ..." or "note: ...".
+// Removes the label of the program that printed the sentence: "convert_mesh.py: ..." or "note: ...".
 std::string without_label(const std::string& line) {
   for (const std::string& label : {std::string(converter) + ": ", std::string("note: ")})
     if (line.starts_with(label)) return line.substr(label.size());

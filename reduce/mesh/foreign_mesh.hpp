@@ -1,4 +1,4 @@
-// Meshes that gmsh cannot read, or of which it loses the groups: tools/convert_mesh.py turns them into MSH files.
+// Meshes that gmsh cannot read, or whose groups it loses: tools/convert_mesh.py converts them to MSH files.
 #pragma once
 
 #include <filesystem>
@@ -23,11 +23,11 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
-/// Whether gmsh reads this kind of file without loss, by the ending of its name.
+/// Tells by the ending of its name whether gmsh reads this kind of file without loss.
 bool gmsh_reads(const std::string& path);
 
-/// Converts a foreign mesh to `target`. The converter is looked for in the folder that the environment variable
-/// BIELLE_TOOLS names, then where Bielle is installed, then in its sources. Its notes are passed on.
+/// Converts a foreign mesh to `target`. The converter is sought in the folder that the environment variable
+/// BIELLE_TOOLS names, then where Bielle is installed, then in its sources. Its notes are shown.
 /// @throws InputError with the converter's own sentence; ComputationError when there is no converter
 void convert_mesh(const std::string& source, const std::string& target, Progress& progress);
 

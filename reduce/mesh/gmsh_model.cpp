@@ -22,10 +22,10 @@ struct Nodes {
   Eigen::Matrix3Xd points;
 };
 
-// No body reaches farther. [m]
+// Upper bound of coordinates; larger ones are errors [m].
 constexpr double farthest = 1e12;
 
-// @throws InputError for coordinates that are no numbers
+// @throws InputError for coordinates that are not finite numbers
 Nodes read_nodes(double metres, const std::string& name) {
   Tags tags;
   std::vector<double> coordinates, parametric;
@@ -70,8 +70,8 @@ void visit_elements(int dim, const Visit& visit) {
   }
 }
 
-// gmsh delivers of the cells of one entity and shape those of the first one's order only, silently: its own count
-// tells.
+// gmsh returns, for one entity and shape, only the cells of the first one's order, without a message; its own count
+// reveals it.
 bool all_delivered(const char* shape, std::size_t delivered) {
   double all = 0;
   gmsh::option::getNumber(std::string("Mesh.Nb") + shape, all);
@@ -99,7 +99,7 @@ std::map<int, std::vector<Triangle>> read_triangles(const Nodes& nodes, const st
   return surfaces;
 }
 
-// Reads the solid cells with the nodes' first numbers. @throws InputError
+// Reads the solid cells with the original numbers of their nodes. @throws InputError
 void read_solids(const Nodes& nodes, const std::string& name, ExtractedModel& model) {
   std::map<int, std::size_t> counts;
   visit_elements(3, [&](int, int type, const Tags& elements, const Tags&) { counts[type] += elements.size(); });
@@ -135,7 +135,7 @@ void read_solids(const Nodes& nodes, const std::string& name, ExtractedModel& mo
   });
 }
 
-// Renumbers so that exactly the nodes of solid cells remain, in their order.
+// Renumbers so that exactly the nodes of solid cells remain, in their original order.
 void drop_unused_nodes(const Eigen::Matrix3Xd& points, ExtractedModel& model) {
   std::vector<int> number(points.cols(), -1);
   for (Eigen::Index i = 0; i < model.solids.nodes.size(); ++i) number[model.solids.nodes.data()[i]] = 0;
@@ -157,7 +157,8 @@ void drop_unused_nodes(const Eigen::Matrix3Xd& points, ExtractedModel& model) {
 
 void open_model(GmshSession& session, const SourceFile& source) {
   session.read(fmt::format("'{}' cannot be read", source.name), [&] {
-    // OpenCASCADE's unit outlives a session. What a .geo reads by itself comes in mm, as gmsh has it by default.
+    // OpenCASCADE's unit is not reset at the end of a session. Files that a .geo merges are read in mm, which is gmsh's
+    // default.
     gmsh::option::setString("Geometry.OCCTargetUnit", source.carries_unit ? "M" : "MM");
     gmsh::open(source.path);
     if (entities(0).empty() && entities(2).empty() && entities(3).empty())

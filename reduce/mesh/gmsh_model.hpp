@@ -1,4 +1,4 @@
-// What gmsh holds after it has read a file or meshed a geometry, as plain numbers in metres.
+// The content of gmsh after it has read a file or meshed a geometry, as plain numbers in metres.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace bielle::reduce {
 
-/// A physical group as gmsh has it.
+/// A physical group of gmsh.
 struct PhysicalGroup {
   std::string name;           ///< "surface_7", "volume_7" where the file gives a number only
   int dimension = 0;          ///< 2 or 3
@@ -24,7 +24,7 @@ struct PhysicalGroup {
 
 using Triangle = std::array<int, 3>;  ///< corner nodes
 
-/// A meshed model. Nodes are numbered from 0 without gaps; those that no solid cell uses are left out.
+/// A meshed model. Nodes are numbered from 0 without gaps; nodes that no solid cell uses are left out.
 struct ExtractedModel {
   Eigen::Matrix3Xd points;  ///< [m]
   CellBlock solids{CellType::tet4, {}};
@@ -35,11 +35,11 @@ struct ExtractedModel {
   std::size_t dropped_nodes = 0;
 };
 
-/// Opens a geometry or mesh that gmsh reads. STEP and IGES come in metres, whatever their unit.
-/// @throws InputError "<name>: ..." when gmsh cannot read it, or nothing is in it
+/// Opens a geometry or mesh that gmsh reads. STEP and IGES are read in metres, whatever their unit.
+/// @throws InputError "<name>: ..." if gmsh cannot read it, or if it is empty
 void open_model(GmshSession& session, const SourceFile& source);
 
-// What follows calls gmsh without translating its exceptions: within session.read() only.
+// The following functions call gmsh without translating its exceptions and may be used within session.read() only.
 
 bool model_has_cells(int dimension);  ///< whether there are meshed cells: 2 surface, 3 solid
 bool model_has_volumes();
@@ -50,14 +50,14 @@ std::vector<std::pair<std::string, std::size_t>> cell_counts();
 /// Physical groups of surfaces and volumes. A surface group with the name of a volume group gets `_surface` appended.
 std::vector<PhysicalGroup> physical_groups();
 
-// What follows translates.
+// The following functions translate exceptions.
 
 /// Largest side of the model's box, in its own unit.
 double model_extent(GmshSession& session);
 
-/// @param metres  per unit of the model
-/// @throws InputError for cells that are no tetrahedra (no triangles on surfaces), for none at all, for linear and
-///         quadratic ones side by side
+/// @param metres  metres per unit of the model
+/// @throws InputError for cells that are no tetrahedra (no triangles on surfaces), for a model without cells, for
+///         linear and quadratic cells in one model
 ExtractedModel extract_model(GmshSession& session, const std::string& name, double metres);
 
 /// Triangles of the surfaces of a model meshed in dimension 2, and all their nodes.

@@ -21,7 +21,7 @@ std::mutex& gmsh_mutex() {
   return mutex;
 }
 
-// Sends the file descriptor of standard output to nowhere: OpenCASCADE writes to std::cout and to stdout alike.
+// Redirects the file descriptor of standard output to /dev/null: OpenCASCADE writes to std::cout and to stdout.
 class SilentStandardOutput {
  public:
   SilentStandardOutput() {
@@ -48,7 +48,7 @@ class SilentStandardOutput {
   int saved_ = -1;
 };
 
-// The errors that gmsh logged since the log was started, without their label.
+// The errors that gmsh has logged since the log was started, without their label.
 std::string logged_errors() {
   std::vector<std::string> log;
   gmsh::logger::get(log);
@@ -59,7 +59,8 @@ std::string logged_errors() {
   return errors;
 }
 
-// Calls `work`. Returns gmsh's reason (": ...", or nothing known) when it throws something of its own; our errors pass.
+// Calls `work`. Returns gmsh's reason (": ...", or empty if unknown) if it throws an exception of its own; exceptions
+// of Bielle pass through.
 std::optional<std::string> failure(const std::function<void()>& work) {
   std::string reason;
   try {
@@ -94,7 +95,7 @@ GmshSession::~GmshSession() {
   try {
     gmsh::logger::stop();
     gmsh::finalize();
-  } catch (...) {  // nothing can be done about it, and a destructor must not throw
+  } catch (...) {  // a destructor must not throw, and nothing can be done about the error
   }
 }
 

@@ -44,7 +44,7 @@ namespace {
   throw InputError(at_place(located, fmt::format("'{}' is not a physical {} of the geometry{}", name, kind, advice)));
 }
 
-// The faces of solid cells on which the triangles of an entity lie.
+// Faces of solid cells that are the triangles of an entity.
 std::vector<int> faces_of(const std::vector<Triangle>& triangles, const FaceTable& faces, const std::string& group) {
   std::vector<int> found;
   for (const Triangle& triangle : triangles) {
@@ -65,7 +65,7 @@ void sort_unique(std::vector<int>& numbers) {
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
-// Faces of every surface group that the mesh shall have, by name.
+// Faces of every surface group of the requested mesh, by name.
 std::map<std::string, std::vector<int>> surface_groups(const MeshRequest& request, const ExtractedModel& model,
                                                        const Mesh& mesh, const FaceTable& faces, bool geometry) {
   std::map<std::string, std::vector<int>> result;

@@ -15,24 +15,24 @@ namespace bielle::reduce {
 /// Names of the physical groups of one dimension.
 std::vector<std::string> group_names(const std::vector<PhysicalGroup>& groups, int dimension);
 
-/// nullptr when there is none of that name.
+/// Returns nullptr if there is none of that name.
 const PhysicalGroup* find_group(const std::vector<PhysicalGroup>& groups, const std::string& name);
 
-/// Every physical group that the user names must be there, with the right dimension.
+/// Checks that every physical group that the user names exists with the right dimension.
 /// @throws InputError with the place in the input file and the nearest name
 void check_groups(const MeshRequest& request, const std::vector<PhysicalGroup>& groups);
 
-/// Volume groups of the model; `all` when it has none.
+/// Adds the volume groups of the model; `all` if it has none.
 void add_volume_groups(const ExtractedModel& model, Mesh& mesh);
 
 /// A group of cells of one block.
 Group group_of(const CellBlock& block, std::vector<int> cells);
 
-/// Gives the mesh surface groups: each is made of faces, which may belong to several. Empty ones are left out.
+/// Gives the mesh surface groups: each is made of faces, which may belong to several. Empty groups are left out.
 void add_surface_cells(const std::map<std::string, std::vector<int>>& groups, const FaceTable& faces, Mesh& mesh);
 
-/// Surface groups of the model and those that the user selects, and the surface cells that they consist of.
-/// @param geometry  whether the model's surfaces are those of a geometry, which shapes then select as wholes
+/// Adds the surface groups of the model and those that the user selects, and their surface cells.
+/// @param geometry  whether the model's surfaces are those of a geometry, which shapes then select as a whole
 /// @throws InputError when a group is empty, holds loose triangles, or no surface lies on a shape
 void add_surface_groups(const MeshRequest& request, const ExtractedModel& model, bool geometry, const FaceTable& faces,
                         Mesh& mesh);

@@ -24,7 +24,7 @@ namespace bielle::reduce {
 
 namespace {
 
-// Second-order elements are made sound, everything else must be.
+// Second-order elements are repaired; all other faults are errors.
 void check_mesh(const MeshRequest& request, const ExtractedModel& model, const FaceTable& faces, Mesh& mesh,
                 Progress& progress) {
   check_connected(mesh);

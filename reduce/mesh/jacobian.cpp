@@ -48,9 +48,9 @@ double straight_determinant(const Eigen::Ref<const Eigen::Matrix3Xd>& x) {
 
 Eigen::Matrix<double, 20, 1> determinant_coefficients(const Eigen::Ref<const Eigen::Matrix3Xd>& x) {
   const std::array<Eigen::Matrix3d, 4> g = corner_gradients(x);
-  // det = sum over corners p, q, r of L_p L_q L_r det(g1_p, g2_q, g3_r). The products that give one monomial are as
-  // many as its multinomial coefficient 3!/(i! j! k! l!), which belongs to the Bernstein polynomial: their mean is
-  // wanted.
+  // det = sum over corners p, q, r of L_p L_q L_r det(g1_p, g2_q, g3_r). The number of products that give one monomial
+  // is its multinomial coefficient 3!/(i! j! k! l!), which is a factor of the Bernstein polynomial: its coefficient is
+  // therefore the mean of these products.
   std::array<double, 64> sum{};
   std::array<int, 64> products{};
   for (int p = 0; p < 4; ++p)

@@ -1,4 +1,4 @@
-// The Jacobian of second-order tetrahedra: is a curved element the right way round everywhere?
+// The Jacobian of second-order tetrahedra, which tells whether a curved element is inverted anywhere.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,11 +14,10 @@ double straight_determinant(const Eigen::Ref<const Eigen::Matrix3Xd>& nodes);
 
 /// Bernstein coefficients of det(dx/dxi) of a tet10, a cubic polynomial [m^3].
 ///
-/// The Bernstein polynomials are non-negative, add up to one and have equal integrals. So the least coefficient is a
-/// lower bound of the determinant (the element is the right way round everywhere when it is positive), and the mean one
-/// is six times the volume of the curved element. All are equal when the element is straight. Reference: A. Johnen,
-/// J.-F. Remacle, C. Geuzaine, Geometrical validity of curvilinear finite elements, J. Comput. Phys. 233 (2013)
-/// 359-372.
+/// The Bernstein polynomials are non-negative, add up to one and have equal integrals. The least coefficient is
+/// therefore a lower bound of the determinant (the element is nowhere inverted if it is positive), and the mean one is
+/// six times the volume of the curved element. All are equal when the element is straight. Reference: A. Johnen, J.-F.
+/// Remacle, C. Geuzaine, Geometrical validity of curvilinear finite elements, J. Comput. Phys. 233 (2013) 359-372.
 /// @param nodes  (3,10) in gmsh's order
 Eigen::Matrix<double, 20, 1> determinant_coefficients(const Eigen::Ref<const Eigen::Matrix3Xd>& nodes);
 

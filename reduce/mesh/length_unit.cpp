@@ -82,8 +82,8 @@ std::string unit_name(double metres) {
 std::optional<double> step_length_unit(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
-  // A conversion-based unit (inch) is defined by an SI unit of length that must not count: only the units which a
-  // context assigns do.
+  // A conversion-based unit (inch) is defined by an SI unit of length, which must not count: only units that a context
+  // assigns do.
   std::string assigned;
   for (const std::string& context : statements_with(text, "GLOBAL_UNIT_ASSIGNED_CONTEXT")) assigned += context;
   std::optional<double> unit;

@@ -1,4 +1,4 @@
-// Volumes of meshes and of the geometries from which they come.
+// Volumes of meshes and of the geometries from which they are made.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace bielle::reduce {
 
-/// Volume of the solid cells as they are, curved or straight; exact up to rounding [m^3].
+/// Volume of the solid cells, curved or straight; exact up to rounding [m^3].
 double mesh_volume(const Mesh& mesh);
 
 /// Volume of a geometry of the OpenCASCADE kernel, without meshing it [m^3].

@@ -1,4 +1,4 @@
-// A solid mesh in metres: what gmsh, or a foreign file, became on import.
+// A solid mesh in metres, imported from gmsh or from another format.
 #pragma once
 
 #include <map>
@@ -32,13 +32,13 @@ struct GroupPart {
 struct Group {
   int dimension = 0;
   std::vector<GroupPart> parts;
-  std::vector<int> nodes;  ///< of all its cells, ascending, each once
+  std::vector<int> nodes;  ///< nodes of all its cells, ascending, each once
 };
 
 /// Points and cells in SI. Each CellType occurs in at most one block, and an imported mesh has one type of solid cells.
 ///
 /// Surface cells are the faces of solid cells that belong to a group, each once, with the face's outward orientation
-/// (on a face between two solids: out of the one with the lower number).
+/// (for a face between two solids: outward of the one with the lower number).
 struct Mesh {
   Eigen::Matrix3Xd points;  ///< [m]
   std::vector<CellBlock> blocks;

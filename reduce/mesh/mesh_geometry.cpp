@@ -17,11 +17,11 @@ namespace bielle::reduce {
 
 namespace {
 
-// Far above what a large machine can factorise, and what takes an hour and tens of gigabytes.
+// The first number is far above the capacity of a large machine; the second takes an hour and tens of gigabytes.
 constexpr double most_cells = 20e6, many_cells = 3e6;
-constexpr double freedoms_per_cell = 4.3;  // of tet10
+constexpr double freedoms_per_cell = 4.3;  // degrees of freedom per cell of tet10
 
-// Refuses, or announces, meshes that are larger than anyone wants.
+// Refuses meshes that are too large for any machine, and announces meshes that take long.
 void check_cell_count(GmshSession& session, const MeshRequest& request, const SourceFile& source,
                       const MeshSizes& sizes, Progress& progress) {
   const double cells = expected_cells(session, source.name, sizes);
@@ -43,7 +43,8 @@ void check_cell_count(GmshSession& session, const MeshRequest& request, const So
                                      cells, freedoms_per_cell * cells, body)));
 }
 
-// Says which sizes are larger than the body, and therefore mean nothing: millimetres, most likely.
+// Names mesh sizes that are larger than the body and therefore have no effect, probably because they are in
+// millimetres.
 void doubt_sizes(GmshSession& session, const MeshRequest& request, const SourceFile& source, Progress& progress) {
   const double extent = source.metres * model_extent(session);
   const auto doubt = [&](const std::string& located, double size) {
@@ -79,7 +80,7 @@ bool selects_by_shape(const SurfaceSelection& selection) {
                      [](const SurfaceSelector& s) { return std::holds_alternative<ShapeSelector>(s); });
 }
 
-// Throws for selections by shape that find nothing on the surface mesh.
+// Throws if a selection by shape contains no surface of the surface mesh.
 void check_selections(GmshSession& session, const MeshRequest& request, const SourceFile& source,
                       const std::vector<PhysicalGroup>& groups) {
   if (std::none_of(request.surfaces.begin(), request.surfaces.end(), selects_by_shape)) return;
@@ -88,7 +89,7 @@ void check_selections(GmshSession& session, const MeshRequest& request, const So
   for (const SurfaceSelection& selection : request.surfaces) selected_entities(selection, groups, points, surface);
 }
 
-// Entities of the geometry on which `sizes` asks for another edge length than elsewhere.
+// Entities of the geometry for which `sizes` requests another edge length than elsewhere.
 std::vector<EntitySize> entity_sizes(GmshSession& session, const MeshRequest& request, const SourceFile& source,
                                      const std::vector<PhysicalGroup>& groups, const MeshSizes& plain) {
   std::vector<EntitySize> result;

@@ -1,4 +1,4 @@
-// From the geometry that gmsh has open to its mesh, as the body file asks for it.
+// Meshing of the geometry that gmsh has open, as the body file requests it.
 #pragma once
 
 #include <vector>
@@ -13,9 +13,8 @@ class Progress;
 
 namespace bielle::reduce {
 
-/// Meshes surfaces, then volumes. Mistakes that would show only after a long time are found early: that the mesh
-/// would be too large (a forgotten unit of length, a size in the wrong unit) before anything is meshed, that
-/// a shape selects no surface when the surfaces are.
+/// Meshes surfaces, then volumes. Mistakes are found early: a mesh that would be too large (a forgotten unit of length,
+/// a size in the wrong unit) before anything is meshed, a shape that selects no surface after the surfaces are meshed.
 /// @param groups  physical groups of the geometry
 /// @throws InputError naming the place in the input file; ComputationError when gmsh fails
 void mesh_geometry(GmshSession& session, const MeshRequest& request, const SourceFile& source,

@@ -1,4 +1,4 @@
-// A mesh, and the phases of its import, on their way from one process to another.
+// Packing of a mesh and of the phases of its import, to send them from one process to another.
 #pragma once
 
 #include "reduce/common/files/packing.hpp"

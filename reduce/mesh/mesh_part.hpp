@@ -10,7 +10,7 @@
 
 namespace bielle::reduce {
 
-/// Some cells of a mesh, with the groups of the whole that reach into them.
+/// Some cells of a mesh, with the parts of the mesh's groups that they contain.
 struct MeshPart {
   Mesh mesh;
   std::vector<int> nodes;  ///< number in the whole mesh of each of its points, ascending
@@ -19,17 +19,17 @@ struct MeshPart {
 /// Faces of the solid cells by surface group.
 using SurfaceFaces = std::map<std::string, std::vector<int>>;
 
-/// The surface groups of a mesh as its faces.
+/// The surface groups of a mesh as faces.
 SurfaceFaces surface_faces(const Mesh& mesh, const FaceTable& faces);
 
-/// Takes cells with their points out of a mesh. Refers to the mesh.
+/// Takes cells with their points out of a mesh. It refers to the mesh.
 class MeshExtraction {
  public:
-  /// @param parts  number of the part to which each solid cell belongs; those of `part` are taken
+  /// @param parts  number of the part to which each solid cell belongs; the cells of `part` are extracted
   MeshExtraction(const Mesh& whole, const std::vector<int>& parts, int part);
 
   void add_volumes();
-  /// @param faces  of the whole mesh
+  /// @param faces  faces of the whole mesh
   /// @param surfaces  each face goes to the part of its (first) cell
   /// @param cuts  each face goes to the parts on both sides
   void add_surfaces(const FaceTable& faces, const SurfaceFaces& surfaces, const SurfaceFaces& cuts);

@@ -1,4 +1,4 @@
-// What the user asks of the mesh of a body: which geometry, how fine, and which surfaces by what name.
+// The user's request for the mesh of a body: the geometry, the sizes of elements, and the surfaces with their names.
 #pragma once
 
 #include <map>
@@ -23,12 +23,12 @@ struct PlaneSelector {
   Eigen::Vector3d normal;  ///< any length but zero, either sense
 };
 
-/// An axis-parallel box, its faces included.
+/// An axis-parallel box, including its faces.
 struct BoxSelector {
   Eigen::Vector3d low, high;  ///< opposite corners [m]
 };
 
-/// Where a surface lies: on or in all of the shapes that are given, of which there is at least one.
+/// Position of a surface: on or in all of the given shapes, at least one.
 struct ShapeSelector {
   ShapeSelector(const CylinderSelector& shape) : cylinder(shape) {}
   ShapeSelector(const PlaneSelector& shape) : plane(shape) {}
@@ -58,7 +58,7 @@ struct VolumeSelection {
   std::string located;  ///< "rod.yaml:14: regions.rod"
 };
 
-/// Edge length on one group of a geometry, finer or coarser than elsewhere.
+/// Edge length on one group of a geometry that differs from the general one.
 struct GroupSize {
   double size = 0;      ///< [m]
   std::string located;  ///< "rod.yaml:9: mesh.sizes.bore_big"
@@ -66,17 +66,17 @@ struct GroupSize {
 
 /// A plane along which the body is cut into pieces.
 struct CutPlane {
-  std::string name;        ///< of the cut: "cut_1"
+  std::string name;        ///< name of the cut: "cut_1"
   Eigen::Vector3d point;   ///< in the plane [m]
-  Eigen::Vector3d normal;  ///< of length 1, either sense
+  Eigen::Vector3d normal;  ///< unit normal, either sense
   std::string located;     ///< "rod.yaml:14: pieces.planes[1]"
 };
 
-/// Everything that import_mesh needs. Lengths in SI but for the geometry's own numbers.
+/// All data that import_mesh needs. Lengths are in SI except for the geometry's own numbers.
 struct MeshRequest {
   std::string path;                        ///< geometry or mesh
   std::string located;                     ///< "rod.yaml:2: geometry", put before messages about the file
-  std::optional<std::string> length_unit;  ///< of a file that carries none; absent: m
+  std::optional<std::string> length_unit;  ///< unit of a file that declares none; absent: m
   std::string length_unit_located;
   std::optional<double> size;              ///< largest edge of the elements [m]; absent: the geometry's own
   std::optional<int> order;                ///< 1 or 2; absent: 2 for a geometry, as it is for a mesh
@@ -84,8 +84,8 @@ struct MeshRequest {
   std::string mesh_located;                ///< "rod.yaml:8: mesh"
   std::vector<SurfaceSelection> surfaces;
   std::vector<VolumeSelection> volumes;
-  bool system_calls = false;   ///< whether the file, where it is a script (.geo), may run shell commands
-  std::vector<CutPlane> cuts;  ///< that faces of the elements shall lie in, where the geometry can be cut
+  bool system_calls = false;   ///< whether a file that is a script (.geo) may run shell commands
+  std::vector<CutPlane> cuts;  ///< planes in which faces of the elements shall lie if the geometry can be cut
 };
 
 }  // namespace bielle::reduce

@@ -14,7 +14,7 @@ namespace bielle::reduce {
 
 namespace {
 
-// Size on an entity of any dimension: the least of those of the groups to whose closure it belongs.
+// Size on an entity of any dimension: the smallest size of the groups whose closure contains it.
 std::map<std::pair<int, int>, double> sizes_of_closures(const std::vector<EntitySize>& sizes) {
   std::map<std::pair<int, int>, double> size_of;
   for (const EntitySize& wish : sizes) {
@@ -33,7 +33,7 @@ std::map<std::pair<int, int>, double> sizes_of_closures(const std::vector<Entity
   return size_of;
 }
 
-// gmsh may leave a volume without cells and only say so in its log.
+// gmsh may leave a volume without cells and report it only in its log.
 void check_volumes_meshed(const std::string& name) {
   gmsh::vectorpair volumes;
   gmsh::model::getEntities(volumes, 3);
@@ -47,7 +47,7 @@ void check_volumes_meshed(const std::string& name) {
   }
 }
 
-// Edge lengths by place, until the end of a scope: gmsh would keep them beyond its own finalisation.
+// Edge lengths by place, set until the end of a scope, since gmsh would keep them beyond its own finalisation.
 struct SizeCallback {
   explicit SizeCallback(std::function<double(int, int, double, double, double)> size) {
     gmsh::model::mesh::setSizeCallback(std::move(size));
@@ -73,13 +73,13 @@ void generate(int dimension, const MeshSizes& sizes) {
       const auto found = size_of.find({dim, tag});
       return found != size_of.end() ? found->second : size.value_or(1e22);
     });
-  // The geometry may ask for order 2 itself: it is raised later, when the straight cells are known to be sound.
+  // The geometry may request order 2 itself: the order is raised later, when the straight cells are known to be valid.
   gmsh::option::setNumber("Mesh.ElementOrder", 1);
   gmsh::option::setNumber("Mesh.RecombineAll", 0);
   gmsh::model::mesh::generate(dimension);
 }
 
-// Volumes and areas of the geometry, where its kernel knows them.
+// Volumes and areas of the geometry, if its kernel computes them.
 class Measures {
  public:
   Measures() {
@@ -87,7 +87,7 @@ class Measures {
     std::sort(exact_.begin(), exact_.end());
   }
 
-  // Volume, area or, of gmsh's own kernel, a hundredth of the box.
+  // Volume or area; for gmsh's own kernel a hundredth of the box.
   double of(int dim, int tag) const {
     double measure = 0;
     if (std::binary_search(exact_.begin(), exact_.end(), std::pair(dim, tag))) {
@@ -112,8 +112,8 @@ class Measures {
   gmsh::vectorpair exact_;
 };
 
-// Tetrahedra per cube of the edge length inside, and per square on a surface at which the edges are shorter than
-// elsewhere; at least so many per square of any surface, which tells in thin sheets.
+// Tetrahedra per cube of the edge length inside, and per square on a surface with shorter edges than elsewhere; the
+// last number is a lower bound per square of any surface, which matters for thin sheets.
 constexpr double cells_per_cube = 8, cells_per_fine_square = 10, cells_per_square = 3;
 
 }  // namespace
@@ -149,7 +149,7 @@ void mesh_volumes(GmshSession& session, const std::string& name, const MeshSizes
 
 void make_second_order(GmshSession& session, const std::string& name) {
   session.compute(fmt::format("'{}' cannot be meshed with second-order elements", name), [&] {
-    // gmsh's own repair of curved elements throws on real parts (4.8): ours follows in straighten.cpp.
+    // gmsh's own repair of curved elements throws on real parts (4.8); straighten.cpp repairs them later.
     gmsh::option::setNumber("Mesh.HighOrderOptimize", 0);
     gmsh::option::setNumber("Mesh.SecondOrderLinear", 0);
     gmsh::option::setNumber("Mesh.SecondOrderIncomplete", 0);

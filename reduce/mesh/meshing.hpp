@@ -22,18 +22,18 @@ struct MeshSizes {
   std::vector<EntitySize> on_entities;  ///< fade into `largest` away from them
 };
 
-/// How many cells a mesh of the open geometry would have in its volumes: 8 per cube of the edge length, and 10 per
-/// square on surfaces that are meshed finer than the rest. Good to a factor of two for compact bodies, too low for
-/// bodies thinner than an edge length. Geometries of gmsh's own kernel do not know their volume: a hundredth of their
-/// box counts. 0 where the geometry alone decides.
+/// Expected number of cells in the volumes of a mesh of the open geometry: 8 per cube of the edge length, and 10 per
+/// square on surfaces that are meshed finer than the rest. The estimate is correct within a factor of two for compact
+/// bodies, and too low for bodies thinner than an edge length. Geometries of gmsh's own kernel do not know their
+/// volume; a hundredth of their box is used. The result is 0 if the geometry alone determines the sizes.
 double expected_cells(GmshSession& session, const std::string& name, const MeshSizes& sizes);
 
-/// Meshes the surfaces with straight cells, instead of an earlier mesh.
-/// @param name  of the file in messages, here and below
+/// Meshes the surfaces with straight cells and replaces an earlier mesh.
+/// @param name  name of the file in messages, here and below
 /// @throws ComputationError when gmsh fails
 void mesh_surfaces(GmshSession& session, const std::string& name, const MeshSizes& sizes);
 
-/// Meshes the volumes between meshed surfaces, of the same sizes.
+/// Meshes the volumes between meshed surfaces, with the same sizes.
 /// @throws ComputationError when gmsh fails, or leaves a volume without cells
 void mesh_volumes(GmshSession& session, const std::string& name, const MeshSizes& sizes);
 

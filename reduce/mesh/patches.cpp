@@ -35,7 +35,7 @@ std::vector<int> divide(const Matrix3Xd& points, const BodySurface& surface) {
       patch[i] = number.emplace(surface.entities[i], static_cast<int>(number.size())).first->second;
     return patch;
   }
-  // Flood over edges with two triangles whose normals differ little.
+  // Fills a patch across edges with two triangles whose normals differ little.
   std::map<std::pair<int, int>, std::vector<int>> edges;
   std::vector<Vector3d> normals(count);
   for (int i = 0; i < count; ++i) {
@@ -89,7 +89,7 @@ void measure(const Matrix3Xd& points, const BodySurface& surface, double body_si
     x.col(i) = points.col(node);
     n.col(i++) = normal.normalized();
   }
-  // Nodes lie on their surface but for the digits of the file: 1e-6 of the coordinates, doubled.
+  // Nodes lie on their surface up to the digits of the file: 1e-6 of the coordinates, doubled.
   patch.shape = recognise_shape(x, n, std::max(1e-5 * patch.box.diagonal().norm(), 2e-6 * body_size));
   if (const auto* cylinder = std::get_if<CylinderShape>(&patch.shape); cylinder != nullptr && surface.outward) {
     const Vector3d from = x.col(0) - cylinder->point;
@@ -101,7 +101,8 @@ double angle_between(const Vector3d& a, const Vector3d& b) {
   return std::acos(std::min(1.0, std::abs(a.normalized().dot(b.normalized()))));
 }
 
-// How unlike a shape of the body is to what was asked for: relative differences added up; infinite for another kind.
+// Difference between a shape of the body and a requested one: the sum of relative differences; infinite for another
+// kind.
 double difference(const CylinderSelector& asked, const Patch& patch, double size) {
   const auto* c = std::get_if<CylinderShape>(&patch.shape);
   if (c == nullptr) return std::numeric_limits<double>::infinity();
@@ -116,7 +117,7 @@ double difference(const PlaneSelector& asked, const Patch& patch, double size) {
   return angle_between(asked.normal, p->normal) + std::abs(p->normal.dot(asked.point - p->point)) / size;
 }
 
-// How far the patch sticks out of the box.
+// Distance by which the patch extends beyond the box.
 double difference(const BoxSelector& asked, const Patch& patch, double size) {
   const double below = (asked.low - patch.box.min()).maxCoeff(), above = (patch.box.max() - asked.high).maxCoeff();
   return std::max({below, above, 0.0}) / size;

@@ -1,5 +1,5 @@
-// The surface of a body as faces that a user would name: surfaces of the geometry, or what sharp edges divide a mesh
-// into.
+// The surface of a body as faces that a user would name: surfaces of the geometry, or parts of a mesh between sharp
+// edges.
 #pragma once
 
 #include <string>
@@ -16,18 +16,18 @@ namespace bielle::reduce {
 struct Patch {
   std::vector<int> triangles;
   int entity = 0;          ///< surface of the geometry; 0 on a mesh without geometry
-  double area = 0;         ///< of its plane triangles [m^2]
-  Eigen::Vector3d centre;  ///< of area [m]
+  double area = 0;         ///< area of its plane triangles [m^2]
+  Eigen::Vector3d centre;  ///< centroid [m]
   Eigen::AlignedBox3d box;
   Shape shape;
   bool hollow = false;  ///< a cylinder whose inside is empty: a bore. Known where triangles are known to be outward
 };
 
-/// Divides the surface, by geometry's surface where known, otherwise at edges where the normal turns by more than 40
-/// degrees. Largest first.
+/// Divides the surface, by surfaces of the geometry if known, otherwise at edges at which the normal turns by more than
+/// 40 degrees. The largest patch comes first.
 std::vector<Patch> find_patches(const Eigen::Matrix3Xd& points, const BodySurface& surface);
 
-/// For a selector that found nothing: "; the nearest cylinders are: ..." (planes, surfaces in the case of a box alone).
+/// A hint for a selector that found nothing: "; the nearest cylinders are: ..." (planes; surfaces for a box alone).
 std::string near_candidates(const ShapeSelector& shape, const Eigen::Matrix3Xd& points, const BodySurface& surface);
 
 }  // namespace bielle::reduce

@@ -1,4 +1,4 @@
-// Places in messages: in space, and in the user's input file.
+// Places in messages: points in space, and positions in the user's input file.
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,7 @@ inline std::string direction_name(const Eigen::Vector3d& v) {
   return fmt::format("({:.5g}, {:.5g}, {:.5g})", shown(v.x()), shown(v.y()), shown(v.z()));
 }
 
-/// "(0.2, 0, -0.013) m"; less than an atom's diameter is 0.
+/// "(0.2, 0, -0.013) m"; components below an atom's diameter are shown as 0.
 inline std::string place_name(const Eigen::Vector3d& point) {
   return direction_name((point.array().abs() < 1e-10).select(0.0, point)) + " m";
 }
@@ -28,13 +28,13 @@ inline std::string length_name(double length) {
   return length < 0.5 ? fmt::format("{:.3g} mm", 1e3 * length) : fmt::format("{:.3g} m", length);
 }
 
-/// `located: message`, or the message alone when there is no place to name.
+/// `located: message`, or the message alone if there is no position.
 /// @param located  "rod.yaml:17: interfaces.big_end"
 inline std::string at_place(const std::string& located, const std::string& message) {
   return located.empty() ? message : located + ": " + message;
 }
 
-/// What `work` returns; an InputError from it gets the place in the input file in front.
+/// Returns the result of `work`; the position in the input file is put before the message of an InputError from it.
 template <class Work>
 auto placed(const std::string& located, const Work& work) {
   try {

@@ -1,4 +1,4 @@
-// Surfaces by shape: which triangles lie on a cylinder, on a plane or in a box.
+// Selection of surfaces by shape: the triangles on a cylinder, on a plane or in a box.
 #pragma once
 
 #include <string>
@@ -11,21 +11,21 @@
 
 namespace bielle::reduce {
 
-/// How far a node may lie from the shape that selects it: 1e-4 of the diagonal of the body's box [m]. Wide enough for
-/// coordinates with six digits, narrow enough to distinguish neighbouring surfaces.
+/// Largest distance of a node from the shape that selects it: 1e-4 of the diagonal of the body's box [m]. The value is
+/// large enough for coordinates with six digits and small enough to distinguish neighbouring surfaces.
 double selection_tolerance(const Eigen::Matrix3Xd& points);
 
-/// Whether a triangle lies on (in) each of the shapes: its three corners do (mid-side nodes may be straight) and, on a
-/// cylinder or a plane, its normal is within 60 degrees of the shape's. The normal keeps a coarse disc, all of whose
-/// nodes lie on its rim, off the cylinder.
+/// Tells whether a triangle lies on (in) each of the shapes: its three corners do (mid-side nodes may be straight) and,
+/// on a cylinder or a plane, its normal is within 60 degrees of the shape's. The condition on the normal excludes a
+/// coarse disc, whose nodes all lie on its rim, from the cylinder.
 bool lies_on(const ShapeSelector& shape, const Eigen::Matrix3Xd& points, const Triangle& triangle, double tolerance);
 
 /// "on the cylinder with radius 0.011 m about (..) along (..) and in the box from (..) to (..)"
 std::string selector_name(const ShapeSelector& shape);
 
-/// Numbers of the triangles that a shape selects, ascending. On a geometry a shape takes whole surfaces: those all of
-/// whose triangles lie on it. On a mesh it takes triangles.
-/// @throws InputError when there are none: which cylinders, planes or surfaces come nearest
+/// Numbers of the triangles that a shape selects, ascending. On a geometry a shape selects whole surfaces: those whose
+/// triangles all lie on it. On a mesh it selects triangles.
+/// @throws InputError if there are none; it names the nearest cylinders, planes or surfaces
 std::vector<int> select_triangles(const ShapeSelector& shape, const Eigen::Matrix3Xd& points,
                                   const BodySurface& surface);
 

@@ -25,7 +25,7 @@ using Eigen::VectorXd;
 
 constexpr Eigen::Index least_points = 9;  // more than any shape has parameters
 
-// The sense of an axis is free: its largest component becomes positive.
+// The sense of an axis is arbitrary: its largest component is made positive.
 Vector3d positive(const Vector3d& axis) {
   Eigen::Index largest;
   axis.cwiseAbs().maxCoeff(&largest);
@@ -81,7 +81,8 @@ VectorXd heights(const Matrix3Xd& x, const Vector3d& point, const Vector3d& axis
   return (axis.transpose() * (x.colwise() - point)).transpose();
 }
 
-// Each fit works on points with mean 0 and size 1. Parameters: points, then axes of any length, then radii and angles.
+// Each fit works on points with mean 0 and size 1. Order of the parameters: points, then axes of any length, then radii
+// and angles.
 struct Samples {
   Matrix3Xd x, n;
   double tolerance;
@@ -171,7 +172,7 @@ std::optional<TorusShape> fit_torus(const Samples& s) {
   return TorusShape{p.head<3>(), positive(p.segment<3>(3).normalized()), p[6], std::abs(p[7])};
 }
 
-// From the samples' coordinates (mean 0, size 1) to the body's.
+// Converts the samples' coordinates (mean 0, size 1) to the body's.
 struct Restore {
   Vector3d mean;
   double scale;

@@ -1,4 +1,5 @@
-// Which elementary surface is it? Planes, cylinders, cones, spheres and tori are recognised from points and normals.
+// Recognition of elementary surfaces. Planes, cylinders, cones, spheres and tori are recognised from points and
+// normals.
 #pragma once
 
 #include <string>
@@ -28,16 +29,16 @@ struct TorusShape {
   double major_radius, minor_radius;
 };
 
-/// std::monostate: none of them.
+/// std::monostate: no shape was recognised.
 using Shape = std::variant<std::monostate, PlaneShape, CylinderShape, ConeShape, SphereShape, TorusShape>;
 
-/// The simplest shape on which all points lie within the tolerance; plane first, torus last.
+/// The simplest shape on which all points lie within the tolerance; the plane is tried first, the torus last.
 ///
 /// Initial guesses come from the normals (those of a cylinder are normal to its axis, those of a cone make one angle
 /// with it, those of any surface of revolution meet its axis: H. Pottmann, J. Wallner, Computational Line Geometry,
-/// Springer 2001, ch. 4); Gauss-Newton on the distances of the points does the rest, so that rough normals (of the
-/// triangles of a mesh) are good enough.
-/// @param points   (3,n), of which more than 8 are needed for a curved shape
+/// Springer 2001, ch. 4); Gauss-Newton iterations on the distances of the points refine them, so that inaccurate
+/// normals (of the triangles of a mesh) are sufficient.
+/// @param points   (3,n), more than 8 for a curved shape
 /// @param normals  (3,n) unit normals there, exact or not, either sense
 /// @param tolerance  [m]
 Shape recognise_shape(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xd& normals, double tolerance);

@@ -30,7 +30,7 @@ const std::vector<Signature>& signatures() {
   return all;
 }
 
-/// Up to so many bytes, from the place on.
+/// Reads at most a given number of bytes from the position on.
 std::string part_of(const std::string& path, std::uintmax_t begin) {
   std::ifstream file(path, std::ios::binary);
   file.seekg(static_cast<std::streamoff>(begin));

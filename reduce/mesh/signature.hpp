@@ -1,12 +1,12 @@
-// Whether a file is of the format that its ending says, as far as its first and last lines tell.
+// A check by its first and last lines that a file has the format of its ending.
 #pragma once
 
 #include <string>
 
 namespace bielle::reduce {
 
-/// STEP, BREP and MSH. Other formats have no signature, or readers that tell what is wrong.
-/// @throws InputError with what was expected
+/// Checks STEP, BREP and MSH. Other formats have no signature, or their readers report the fault.
+/// @throws InputError with the expected format
 void check_signature(const std::string& path);
 
 }  // namespace bielle::reduce

@@ -49,8 +49,8 @@ std::string ending_of(const std::string& path) {
   return ending;
 }
 
-// A universal file may tell its unit, but Salome writes metres whatever the mesh was drawn in, so that the word of the
-// user counts more.
+// A universal file may declare its unit, but Salome writes metres whatever the unit of the mesh, so that the user's
+// unit has priority.
 void settle_universal_unit(const MeshRequest& request, double said, SourceFile& source, Progress& progress) {
   const std::optional<double> told = universal_length_unit(request.path);
   source.metres = request.length_unit ? said : told.value_or(1);
@@ -69,8 +69,7 @@ void settle_universal_unit(const MeshRequest& request, double said, SourceFile& 
   }
 }
 
-// Metres per unit of a geometry that carries none; for one that carries its own, a warning when the user says
-// otherwise.
+// Sets metres per unit for a geometry that declares none; warns if the user's unit differs from a declared one.
 void settle_unit(const MeshRequest& request, const std::string& ending, SourceFile& source, Progress& progress) {
   const double said =
       request.length_unit ? placed(request.length_unit_located, [&] { return metres_per(*request.length_unit); }) : 1.0;
@@ -132,7 +131,7 @@ ChildLoss loss_of(const SourceFile& source, const std::string& located) {
 
 void forbid_system_calls(const SourceFile& source) {
   if (forbid_other_programs() || !ending_of(source.name).starts_with(".geo")) return;
-  // This system cannot keep gmsh from it: a script that could is told by its words.
+  // This system cannot prevent gmsh from running commands: a script that could is recognised by its words.
   std::ifstream file(source.path, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   for (const char* word : {"SystemCall", "OnelabRun", "Include", "Merge"})

@@ -1,4 +1,4 @@
-// The file from which a body comes: what gmsh shall open instead of it, and in which unit its numbers are.
+// The file of a body: the file that gmsh opens, which may be a converted one, and the unit of its numbers.
 #pragma once
 
 #include <memory>
@@ -16,26 +16,27 @@ namespace bielle::reduce {
 
 /// A geometry or mesh, ready for gmsh.
 struct SourceFile {
-  std::string name;           ///< as the user wrote it, for messages
-  std::string path;           ///< what gmsh opens: the file, or what it was converted to
+  std::string name;           ///< the user's name of the file, for messages
+  std::string path;           ///< the file that gmsh opens: the original or the converted one
   bool geometry = false;      ///< to be meshed, by the ending of its name
   bool carries_unit = false;  ///< STEP and IGES: gmsh converts these to metres
   std::string unit_note;      ///< "read in mm as length_unit says": what is known of its unit, for people
   double metres = 1;          ///< per unit of what gmsh then holds (1 for STEP and IGES: gmsh converts these)
-  std::unique_ptr<ScratchFolder> folder;  ///< of the converted file; lives as long as this
+  std::unique_ptr<ScratchFolder> folder;  ///< folder of the converted file; lives as long as this object
 };
 
-/// Finds the file, converts it when it is foreign, and settles its unit.
-/// @throws InputError when the file is missing, no file, empty, or cannot be converted; when the unit is none
+/// Finds the file, converts it if gmsh cannot read it, and determines its unit.
+/// @throws InputError if the file is missing, not a regular file, empty, or cannot be converted, or if the unit is
+/// unknown
 SourceFile prepare_source(const MeshRequest& request, Progress& progress);
 
-/// What to tell the user when gmsh's process ends without an answer: it crashes on the file, or the file ends it or
+/// Messages for the case that gmsh's process ends without an answer: gmsh crashes on the file, or the file ends it or
 /// starts another program.
 /// @param located  "rod.yaml:3: geometry", put before it
 ChildLoss loss_of(const SourceFile& source, const std::string& located = "");
 
-/// A geometry may be a script that runs shell commands: from now on this process cannot start another program.
-/// @throws InputError when the system cannot prevent it and the script has words that could
+/// Prevents this process from starting another program, since a geometry may be a script that runs shell commands.
+/// @throws InputError if the system cannot prevent it and the script contains words that could
 void forbid_system_calls(const SourceFile& source);
 
 }  // namespace bielle::reduce

@@ -8,7 +8,8 @@ namespace bielle::reduce {
 
 namespace {
 
-// Below this part of the straight element's determinant an element counts as inside out. Well above rounding.
+// An element counts as inverted below this share of the straight element's determinant. The value is well above
+// rounding.
 constexpr double least_ratio = 1e-3;
 
 }  // namespace
@@ -30,7 +31,7 @@ Straightening straighten_elements(Mesh& mesh) {
         if (moved[nodes[4 + k]]) continue;
         const Eigen::Vector3d middle = 0.5 * (x.col(tet_edges[k][0]) + x.col(tet_edges[k][1]));
         const double way = (x.col(4 + k) - middle).norm();
-        // Nodes that are in the middle already (up to rounding) are left, and not counted.
+        // Nodes that are already in the middle (up to rounding) are neither moved nor counted.
         if (way <= 1e-12 * (x.col(tet_edges[k][0]) - x.col(tet_edges[k][1])).norm()) continue;
         mesh.points.col(nodes[4 + k]) = middle;
         moved[nodes[4 + k]] = 1;

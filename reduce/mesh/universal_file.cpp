@@ -19,7 +19,7 @@ namespace {
 
 constexpr int units = 164, nodes = 2411, systems = 2420, groups = 2467, groups_of_gmsh = 2477;
 
-/// Reads a file line by line, and knows in which dataset it is.
+/// Reads a file line by line and keeps track of the dataset.
 class Datasets {
  public:
   explicit Datasets(const std::string& path) : path_(path), in_(path) {}
@@ -41,8 +41,9 @@ class Datasets {
     return true;
   }
   int dataset() const { return dataset_; }  ///< 0 between datasets
-  int record() const { return record_; }    ///< of the dataset, from 0 on; -1: its number; less: no dataset
-  /// Numbers of a line; Fortran's exponent D is read. @throws InputError where one is none or missing
+  int record() const { return record_; }    ///< record of the dataset, from 0 on; -1: its number; less: no dataset
+  /// Reads the numbers of a line; Fortran's exponent D is accepted. @throws InputError if an entry is no number or is
+  /// missing
   template <class Number>
   std::vector<Number> numbers(const std::string& line, std::size_t count) const {
     std::string text = line;
@@ -72,7 +73,8 @@ struct System {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< in rows, global components
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   bool global() const { return kind == 0 && axes.isIdentity(0) && origin.isZero(0); }
-  /// Angles are in degrees: r, theta, z, or r, the angle from z, that about z.
+  /// Angles are in degrees: r, theta, z for cylindrical systems; r, the angle from z, the angle about z for spherical
+  /// ones.
   Eigen::Vector3d place(const std::vector<double>& given) const {
     const double degree = std::acos(-1.0) / 180;
     Eigen::Vector3d x(given[0], given[1], given[2]);
@@ -131,7 +133,7 @@ bool adapt_universal_file(const std::string& source, const std::string& target) 
   Datasets file(source);
   std::ofstream out(target);
   bool changed = false;
-  const System* system = nullptr;  // of the node whose coordinates come next
+  const System* system = nullptr;  // coordinate system of the node whose coordinates come next
   for (std::string line; file.next(line); out << line << '\n') {
     if (file.dataset() == groups && file.record() == -1) {
       line = fmt::format("{:6d}", groups_of_gmsh);  // its records are the same

@@ -1,6 +1,6 @@
-// Universal files (.unv) as gmsh 4.8 reads them: it takes the coordinates of nodes for Cartesian ones in metres, and
-// passes over the newest dataset of groups. Datasets stand between lines of -1 and begin with their number (SDRC
-// I-DEAS, Universal Dataset Number 164, 2411, 2420, 2467).
+// Universal files (.unv), adapted to gmsh 4.8, which takes the coordinates of nodes as Cartesian ones in metres and
+// ignores the newest dataset of groups. Datasets stand between lines of -1 and begin with their number (SDRC I-DEAS,
+// Universal Dataset Number 164, 2411, 2420, 2467).
 #pragma once
 
 #include <optional>
@@ -8,12 +8,12 @@
 
 namespace bielle::reduce {
 
-/// Metres per unit of length by dataset 164; nothing where there is none. @throws InputError naming the line
+/// Metres per unit of length by dataset 164; empty if there is none. @throws InputError naming the line
 std::optional<double> universal_length_unit(const std::string& path);
 
 /// Writes a copy in which all nodes stand in the global Cartesian system and groups are in a dataset that gmsh reads.
-/// @returns false, and the copy is of no use, where nothing had to be changed
-/// @throws InputError naming the line, ComputationError where the copy cannot be written
+/// @returns false if no change was necessary; the copy is then to be ignored
+/// @throws InputError naming the line, ComputationError if the copy cannot be written
 bool adapt_universal_file(const std::string& source, const std::string& target);
 
 }  // namespace bielle::reduce

@@ -12,8 +12,9 @@ double share_one_element_thick(const Mesh& mesh) {
   const FaceTable faces(mesh);
   const Eigen::MatrixXi& cells = mesh.solids().nodes;
   const std::vector<int> boundary = faces.boundary();
-  std::vector<Eigen::Vector3d> normals;  // of each boundary face, as long as twice its area
-  std::vector<std::vector<std::size_t>> faces_at(mesh.point_count());  // of each corner, places in `boundary`
+  std::vector<Eigen::Vector3d> normals;  // normal of each boundary face, with twice its area as its length
+  std::vector<std::vector<std::size_t>> faces_at(mesh.point_count());  // faces at each corner, as positions in
+                                                                       // `boundary`
   for (std::size_t k = 0; k < boundary.size(); ++k) {
     const std::array<int, 3> corners = faces.corners(boundary[k]);
     const Eigen::Vector3d a = mesh.points.col(corners[0]), b = mesh.points.col(corners[1]),

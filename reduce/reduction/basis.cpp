@@ -16,7 +16,7 @@ namespace bielle::reduce {
 
 namespace {
 
-constexpr int most_modes_below = 1000;  // what a frequency may ask for: more is a slip in its unit
+constexpr int most_modes_below = 1000;  // upper bound for a frequency limit; more is probably a wrong unit
 
 /// M times the linear fields.
 RowMatrix linear_inertia(const Solid& solid, const BodyMatrices& matrices, const Eigen::Vector3d& centre) {
@@ -32,8 +32,8 @@ RowMatrix linear_inertia(const Solid& solid, const BodyMatrices& matrices, const
   return result;
 }
 
-/// The held body under one displacement after the other of its interfaces, then under the inertia of linear fields: one
-/// block of right-hand sides, since solutions are bound by memory, not by their number.
+/// Solves for the held body under unit displacements of its interfaces and under the inertia of linear fields, as one
+/// block of right-hand sides, since the time of solutions is limited by memory bandwidth, not by their number.
 Eigen::MatrixXd static_solutions(const BodyMatrices& matrices, const Ties& ties, const HeldBody& held,
                                  const RowMatrix& inertia) {
   const Eigen::Index kept = ties.carry_kept.cols();
@@ -50,7 +50,7 @@ Eigen::MatrixXd static_solutions(const BodyMatrices& matrices, const Ties& ties,
   return held.solve(loads, averages);
 }
 
-/// Keeps the first pairs, and the eigenvalue of the next.
+/// Keeps the first pairs, and the eigenvalue of the next one.
 void keep_first(Eigenpairs& pairs, Eigen::Index count) {
   if (count >= pairs.values.size()) return;
   pairs.next = pairs.values(count);
@@ -128,7 +128,7 @@ void put_rigid_motions_in(const Solid& solid, const Ties& ties, const MassProper
       auto panel = basis.shapes.block(3 * first, 0, rows, kept);
       old = panel;
       panel.setZero();
-      // A row-major block is its transpose stored by columns.
+      // A row-major block is the transpose of a block stored by columns.
       add_dense_product({rest.data(), kept, kept, kept, true}, {old.data(), kept, rows, kept, false}, panel.data(),
                         all);
       add_dense_product({nearest.data(), kept, 6, 6, true}, {motions.data(), 6, rows, 6, false}, panel.data(), all);

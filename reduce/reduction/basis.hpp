@@ -1,4 +1,4 @@
-// The basis of Craig and Bampton, and the held body's answer to inertia loads, from the one factorisation.
+// The Craig-Bampton basis, and the held body's answer to inertia loads, computed with one factorisation.
 //
 // u = T q, T = [Psi Phi]: constraint modes Psi (one kept direction of an interface moved by one, the others held) and
 // fixed-boundary modes Phi, K_ii phi = omega^2 M_ii phi with every kept direction held, Phi^T M Phi = I.
@@ -17,8 +17,9 @@
 
 namespace bielle::reduce {
 
-/// Loads and fields that are linear in space: column 4 i + j is direction i times 1, x, y, z (j = 0..3), coordinates
-/// taken from the centre of mass. Every rigid acceleration and every centrifugal field is a combination.
+/// Loads and fields that are linear in space: column 4 i + j is direction i times 1, x, y, z (j = 0..3), with
+/// coordinates relative to the centre of mass. Every rigid acceleration and every centrifugal field is a linear
+/// combination of them.
 struct LinearFields {
   static constexpr int count = 12;
   RowMatrix inertia;  ///< (3 points, 12) M times the field [kg, kg m]
@@ -29,7 +30,7 @@ struct Basis {
   RowMatrix shapes;                   ///< T (3 points, n)
   Eigen::MatrixXd released;           ///< (released directions, n): their values in T
   Eigen::VectorXd eigenvalues;        ///< omega^2 of Phi, then of the residual vectors [rad^2/s^2]
-  Eigen::VectorXd residuals;          ///< of the eigenpairs, relative; residual vectors are none
+  Eigen::VectorXd residuals;          ///< relative residuals of the eigenpairs; residual vectors have none
   Eigen::Index residual_vectors = 0;  ///< so many of the modes, the last ones
   std::optional<double> next;         ///< omega^2 of the first mode left out [rad^2/s^2]; absent: not sought, or none
   LinearFields linear;
@@ -41,20 +42,20 @@ struct Basis {
   Eigen::Index kept() const { return shapes.cols() - modes(); }
 };
 
-/// Which fixed-boundary modes are wanted: the lowest `count`, those below `below` [Hz], or the lowest `count` of those
-/// below; neither: none.
+/// Requested fixed-boundary modes: the lowest `count`, those below `below` [Hz], or the lowest `count` of those below;
+/// none if neither is set.
 struct ModeRequest {
   std::optional<int> count;
   std::optional<double> below;
   EigenMethod method = EigenMethod::automatic;
 };
 
-/// Radius of gyration of the body [m]: turns rotations into comparable displacements.
+/// Radius of gyration of the body [m], which scales rotations to comparable displacements.
 double radius_of_gyration(const MassProperties& body);
 
-/// Where modes are wanted, one more is sought, to know where those left out begin.
-/// @throws InputError when more modes are wanted than the inside has freedoms; ComputationError when they do not
-/// converge
+/// If modes are requested, one more is computed, to know the frequency of the first omitted mode.
+/// @throws InputError if more modes are requested than the inside has degrees of freedom; ComputationError if they do
+/// not converge
 Basis make_basis(const Solid& solid, const BodyMatrices& matrices, const Ties& ties, const HeldBody& held,
                  const MassProperties& body, const ModeRequest& modes, Progress& progress, int threads);
 

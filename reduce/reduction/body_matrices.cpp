@@ -20,13 +20,13 @@ std::int64_t unknowns_of(const InsideUnknowns& inside) {
   return static_cast<std::int64_t>(inside.kept.size()) + inside.carried.cols();
 }
 
-/// Nothing where the factor is dense and needs none.
+/// Returns nothing if the factor is dense and needs no structure.
 std::shared_ptr<const FactorStructure> structure_of(const BlockGraph& points, const InsideUnknowns& inside) {
   if (unknowns_of(inside) <= most_dense_unknowns) return nullptr;
   return std::make_shared<const FactorStructure>(inside_graph(points, inside));
 }
 
-/// K_ii - sigma M_ii. @param kept  unknowns x y z of points, ascending
+/// Computes K_ii - sigma M_ii. @param kept  unknowns x y z of points, ascending
 void subtract_inertia(SymmetricMatrix& matrix, const std::vector<std::int64_t>& kept, const NodeMatrix& mass,
                       double sigma, int threads) {
 #pragma omp parallel for schedule(dynamic, 1024) num_threads(threads)
@@ -49,7 +49,7 @@ class MatricesHere : public BodyMatrices {
         graph_(node_graph(solid.nodes, solid.points(), threads)),
         prepared_for_(inside) {
     const int others = std::max(1, threads - 1);
-    // The stiffness goes to another thread, where there is one to be had, since METIS catches signals of its own.
+    // The stiffness is assembled in another thread, if available, since METIS catches signals of its own.
     std::future<void> assembly =
         std::async(threads > 1 ? std::launch::async | std::launch::deferred : std::launch::deferred,
                    [&] { stiffness_ = assemble_stiffness(solid, graph_, others); });
@@ -59,7 +59,7 @@ class MatricesHere : public BodyMatrices {
     try {
       mass_ = assemble_mass(solid, graph_, is_busy ? 1 : threads);
     } catch (const ComputationError&) {
-      if (is_busy) assembly.get();  // what is wrong with the stiffness comes first, whoever finds it first
+      if (is_busy) assembly.get();  // report an error in the stiffness first
       throw;
     }
     if (is_busy) assembly.get();

@@ -1,5 +1,5 @@
-// The mesh's matrices, and the factor of what is held of them, wherever they are kept: in this process, or in parts in
-// several (reduce/distributed). Fields on the mesh are whole, in the process that reduces.
+// The mesh's matrices, and the factor of their held part, wherever they are stored: in this process, or in parts in
+// several (reduce/distributed). Fields on the mesh are complete in the process that reduces.
 #pragma once
 
 #include <cstdint>
@@ -15,12 +15,12 @@
 
 namespace bielle::reduce {
 
-/// The inside's K - sigma M with what the factor leaves out at its border, for the signs of its pivots.
+/// The inside's K - sigma M with the rows that the factor leaves out at its border, for the signs of its pivots.
 struct BorderedShift {
   std::vector<std::int64_t> kept;  ///< unknowns x y z of points, ascending: all that is factorised but carried ones
   double eigenvalue = 0;           ///< sigma = omega^2 [rad^2/s^2]
   Eigen::MatrixXd border, corner;  ///< B (kept,c), C (c,c): [K - sigma M, B; B^T, C]
-  std::vector<double> scale;       ///< of each row, the size of its diagonal entry
+  std::vector<double> scale;       ///< absolute value of the diagonal entry of each row
 };
 
 /// K [N/m] and M [kg] of all points of a solid, unknowns x y z of point 0, of point 1, ...
@@ -30,34 +30,35 @@ class BodyMatrices {
 
   virtual RowMatrix stiffness_times(const RowMatrix& u) const = 0;
   virtual Eigen::VectorXd stiffness_diagonal() const = 0;
-  /// M is m (x) I3. @param rows_per_node  rows of u that each point owns: 3, or 1 for the product with m
+  /// M is m (x) I3. @param rows_per_node  rows of u per point: 3, or 1 for the product with m
   virtual RowMatrix mass_times(const RowMatrix& u, int rows_per_node = 3) const = 0;
-  /// As fe/geometric_stiffness.hpp.
+  /// See fe/geometric_stiffness.hpp.
   virtual std::vector<Eigen::MatrixXd> geometric_stiffness(const RowMatrix& fields, const RowMatrix& shapes) const = 0;
 
   /// P^T K P.
-  /// @returns nothing where no unknown is left
+  /// @returns nothing if there are no unknowns
   /// @throws NotPositiveDefinite; ComputationError when memory does not suffice
   virtual std::unique_ptr<Factor> factorise(const InsideUnknowns& inside) const = 0;
-  /// As shift_invert_eigenpairs: the pencil is that of the inside, whatever conditions are worked into its solution.
+  /// See shift_invert_eigenpairs: the pencil is that of the inside; its solution may include any conditions.
   virtual Eigenpairs eigenpairs(const ShiftInvertProblem& problem, int count, const EigenpairOptions& options) const {
     return shift_invert_eigenpairs(problem, count, options);
   }
   virtual bool can_count_signs() const { return false; }
-  /// Signs of the pivots, eliminated in the order of the factor. @returns nothing where they cannot be counted
+  /// Signs of the pivots of the elimination in the order of the factor. @returns nothing if they cannot be counted
   virtual std::optional<PivotSigns> count_signs(const Factor& /*factor*/, const BorderedShift& /*shifted*/) const {
     return std::nullopt;
   }
 };
 
-/// Makes the matrices of a solid, which they may refer to.
-/// @param inside   what will be factorised: it can be prepared meanwhile. Something else may be
+/// Makes the matrices of a solid; they may refer to it.
+/// @param inside   the unknowns that will be factorised, for preparation during the assembly. Other unknowns may be
+/// factorised instead
 /// @param threads  >= 1
 using MatrixMaker =
     std::function<std::unique_ptr<BodyMatrices>(const Solid& solid, const InsideUnknowns& inside, int threads)>;
 
-/// All in this process. While one thread finds the structure of the factor, the others assemble.
-/// @throws ComputationError as assemble_stiffness, and when memory does not suffice
+/// All matrices are in this process. One thread finds the structure of the factor while the others assemble.
+/// @throws ComputationError as assemble_stiffness, and if memory does not suffice
 std::unique_ptr<BodyMatrices> assembled_matrices(const Solid& solid, const InsideUnknowns& inside, int threads);
 
 }  // namespace bielle::reduce

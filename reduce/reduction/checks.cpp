@@ -22,7 +22,7 @@ void add_stiffness_checks(const Superelement& body, std::vector<Check>& checks) 
   const Eigen::MatrixXd u = rigid_coordinates(body, body.centre);
   checks.push_back({"rigid_motion_force", relative_force(body.stiffness, body.mass, u), 1e-12,
                     "moved as a whole, the body feels no force"});
-  // In coordinates of unit mass, so that amplitudes and displacements compare.
+  // The comparison is made in coordinates of unit mass, so that amplitudes and displacements are comparable.
   const Eigen::VectorXd scale = body.mass.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::VectorXd values = symmetric_eigenpairs(scale.asDiagonal() * body.stiffness * scale.asDiagonal()).values;
   checks.push_back({"negative_energy", std::max(0.0, -values.minCoeff()) / std::max(values.maxCoeff(), 1e-300), 1e-9,
@@ -61,7 +61,8 @@ void add_recovery_checks(const Superelement& body, std::vector<Check>& checks) {
   }
   const Eigen::Index m = body.modes(), directions = body.interface_directions();
   if (body.stress_recovery.size() > 0 && body.size() > 6) {
-    // Against the stress of unit displacements: those of the interfaces, and of modes with an amplitude of sqrt(mass).
+    // The stress is relative to that of unit displacements: of the interfaces, and of modes with an amplitude of
+    // sqrt(mass).
     double largest =
         (body.stress_recovery.leftCols(directions).cwiseAbs() * u.topRows(directions).cwiseAbs()).maxCoeff();
     if (m > 0) {
@@ -74,7 +75,7 @@ void add_recovery_checks(const Superelement& body, std::vector<Check>& checks) {
 
 }  // namespace
 
-/// U in all n coordinates: rigid motions move no fixed-boundary mode.
+/// U in all n coordinates: rigid motions have no component in fixed-boundary modes.
 Eigen::MatrixXd rigid_coordinates(const Superelement& body, const Eigen::Vector3d& about) {
   Eigen::MatrixXd u = Eigen::MatrixXd::Zero(body.size(), 6);
   u.topRows(body.interface_directions()) = interface_rigid_motions(body.interfaces, about);
@@ -101,7 +102,7 @@ void fail_when_a_check_does(const std::vector<Check>& checks, const std::string&
 }
 
 double relative_force(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass, const Eigen::MatrixXd& motions) {
-  // In coordinates of unit mass, so that amplitudes, displacements and angles compare.
+  // Coordinates are scaled to unit mass, so that amplitudes, displacements and angles are comparable.
   const Eigen::VectorXd unit = mass.diagonal().cwiseSqrt();
   const Eigen::MatrixXd k = unit.cwiseInverse().asDiagonal() * stiffness * unit.cwiseInverse().asDiagonal();
   const Eigen::MatrixXd u = unit.asDiagonal() * motions;
@@ -121,7 +122,7 @@ ReducedMassProperties reduced_mass_properties(const Superelement& body) {
   const Eigen::Matrix<double, 6, 6> m = congruent(body.mass, u);
   ReducedMassProperties result;
   result.mass = m.topLeftCorner<3, 3>().trace() / 3;
-  // The coupling block is -m d~, d from the reference to the centre.
+  // The coupling block is -m d~, with d from the reference to the centre.
   const Eigen::Matrix3d coupling = m.topRightCorner<3, 3>();
   const Eigen::Vector3d offset = Eigen::Vector3d(coupling(1, 2) - coupling(2, 1), coupling(2, 0) - coupling(0, 2),
                                                  coupling(0, 1) - coupling(1, 0)) /

@@ -18,7 +18,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// Coordinates of the interfaces that `uncut` has, in its order, then all others.
+/// Coordinates of the interfaces of `uncut`, in its order, then all others.
 std::vector<Index> outer_first(const Superelement& pieces, const Superelement& uncut) {
   std::map<std::string, std::vector<Index>> of_interface;
   Index next = 0;
@@ -35,7 +35,7 @@ std::vector<Index> outer_first(const Superelement& pieces, const Superelement& u
   return order;
 }
 
-/// Static stiffness of the first `outer` coordinates: what the others give way to.
+/// Static stiffness of the first `outer` coordinates, with the others free (Schur complement).
 MatrixXd condensed(const MatrixXd& stiffness, Index outer) {
   const Index inner = stiffness.rows() - outer;
   // Scaled to a unit diagonal: displacements, angles and amplitudes have different units.
@@ -56,7 +56,7 @@ std::vector<double> stiffness_ratios(const Superelement& pieces, const Superelem
   const std::vector<Index> order = outer_first(pieces, uncut);
   const MatrixXd sorted = pieces.stiffness(order, order);
   const MatrixXd a = condensed(sorted, outer), b = uncut.stiffness.topLeftCorner(outer, outer);
-  // In coordinates of unit mass, on the complement of rigid motions.
+  // The comparison uses coordinates of unit mass on the complement of the rigid motions.
   const Eigen::VectorXd unit = uncut.mass.diagonal().head(outer).cwiseSqrt();
   const MatrixXd rigid = unit.asDiagonal() * interface_rigid_motions(uncut.interfaces, uncut.centre);
   const MatrixXd elastic = unit.cwiseInverse().asDiagonal() * orthogonal_basis(rigid).rightCols(outer - 6);

@@ -1,7 +1,7 @@
-// What cuts do to a body: its pieces, joined again, against the body in one piece.
+// The effect of cuts on a body: its pieces, joined again, are compared with the body in one piece.
 //
 // A rigidly tied cut keeps its section plane and undeformed: warping and Poisson's contraction are suppressed there,
-// and the body becomes stiffer. Where the ties are averages the sections warp apart, and it becomes softer.
+// and the body becomes stiffer. With average ties the sections warp independently, and the body becomes softer.
 #pragma once
 
 #include <vector>
@@ -10,11 +10,11 @@
 
 namespace bielle::reduce {
 
-/// Least and largest stiffness of one body over that of another among all deformations of the interfaces that they have
-/// in common: eigenvalues of S_a v = lambda S_b v, S the static stiffness of those interfaces, rigid motions split off.
-/// Exact, since modes do not change statics.
-/// @param pieces  assembled: has all interfaces of the uncut body, and others
-/// @returns empty where the interfaces can move rigidly only
+/// Least and largest ratio of the stiffness of one body to that of another among all deformations of the common
+/// interfaces: eigenvalues of S_a v = lambda S_b v, where S is the static stiffness of those interfaces without rigid
+/// motions. The ratios are exact, since modes do not affect statics.
+/// @param pieces  assembled body with all interfaces of the uncut body, and others
+/// @returns empty if the interfaces allow rigid motions only
 std::vector<double> stiffness_ratios(const Superelement& pieces, const Superelement& uncut);
 
 }  // namespace bielle::reduce

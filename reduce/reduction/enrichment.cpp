@@ -32,7 +32,7 @@ Eigen::VectorXd enriched_eigenvalues(const FullModel& model, const Superelement&
   const RowMatrix forces = model.matrices.stiffness_times(shapes), momenta = model.matrices.mass_times(shapes);
   const Eigen::MatrixXd coupling_forces = inner_products(model.basis.shapes, forces);
   const Eigen::MatrixXd coupling_momenta = inner_products(model.basis.shapes, momenta);
-  // Free modes have no rigid motion; what the added shapes have of it moves along without energy.
+  // Free modes have no rigid part; the rigid part of the added shapes moves without energy.
   const Eigen::MatrixXd rigid = rigid_coordinates(body, body.centre);
   const Eigen::MatrixXd rigid_mass = congruent(body.mass, rigid);
   const Eigen::MatrixXd rigid_momenta = transposed_product(rigid, coupling_momenta);

@@ -1,4 +1,4 @@
-// Frequencies of the free body when shapes are added to those of the reduced one: Rayleigh and Ritz.
+// Rayleigh-Ritz frequencies of the free body when shapes are added to those of the reduced one.
 #pragma once
 
 #include "reduce/reduction/adequacy.hpp"
@@ -6,12 +6,12 @@
 
 namespace bielle::reduce {
 
-/// All are above those of any body in whose reach both kinds of shapes are (Courant and Fischer), and none is above
-/// that of the reduced body.
+/// All are upper bounds of the frequencies of any body whose motions include both kinds of shapes (Courant and
+/// Fischer), and none exceeds that of the reduced body.
 /// @param free    elastic modes of the reduced body
-/// @param shapes  added ones (3 points, p), which may depend on each other or be of no size
-/// @param count   of frequencies wanted
-/// @returns omega^2, the lowest ones, ascending [rad^2/s^2]
+/// @param shapes  added shapes (3 points, p), which may be linearly dependent or zero
+/// @param count   number of requested frequencies
+/// @returns the lowest omega^2, ascending [rad^2/s^2]
 Eigen::VectorXd enriched_eigenvalues(const FullModel& model, const Superelement& body, const FreeModes& free,
                                      const RowMatrix& shapes, Eigen::Index count);
 

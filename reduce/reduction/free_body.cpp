@@ -17,11 +17,11 @@ namespace {
 
 constexpr std::array<std::array<int, 2>, 6> pairs{{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
 
-/// Acceleration a0 + A r [m/s^2 per unit of the load] and the load that goes with it.
+/// Acceleration a0 + A r [m/s^2 per unit of the load] and the load that belongs to it.
 struct FreeBodyLoad {
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
   Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
-  InterfaceLoad applied;  // none for spins
+  InterfaceLoad applied;  // no load for spins
 };
 
 FreeBodyLoad spin_load(int k, int l, const MassProperties& body) {
@@ -80,7 +80,7 @@ Eigen::MatrixXd field_amplitudes(const std::vector<FreeBodyLoad>& loads) {
   return result;
 }
 
-/// q with K~_bb q = f for self-equilibrated f, without rigid motion in the metric of `scale`.
+/// Solves K~_bb q = f for self-equilibrated f; q has no rigid part in the metric of `scale`.
 Eigen::MatrixXd solve_free(const Eigen::MatrixXd& k, const Eigen::VectorXd& scale, const Eigen::MatrixXd& f) {
   const Eigen::MatrixXd scaled = scale.asDiagonal() * k * scale.asDiagonal();
   const SymmetricEigenpairs eigen = symmetric_eigenpairs((scaled + scaled.transpose()) / 2);
@@ -129,7 +129,7 @@ GeometricStiffness geometric_stiffness(const Solid& solid, const BodyMatrices& m
   const RowMatrix fields = constraint_modes * q - basis.linear.held * amplitudes;
   const bool carries = std::any_of(ties.surfaces.begin(), ties.surfaces.end(),
                                    [](const TiedSurface& surface) { return surface.tie == Tie::rigid; });
-  RowMatrix tie_forces;  // of rigid ties, who alone read them
+  RowMatrix tie_forces;  // forces of rigid ties, which only they use
   if (carries) tie_forces = matrices.stiffness_times(fields) + basis.linear.inertia * amplitudes;
 
   const TieSecondOrder second_order(solid, ties, basis);

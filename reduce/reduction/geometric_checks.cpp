@@ -13,8 +13,8 @@ namespace bielle::reduce {
 
 namespace {
 
-/// What the coordinates of interfaces that release one rotation add to the energy of rigid rotations, for each kept
-/// direction: -(d w^T + w d^T) / 2, w = m x d, see tie_second_order.hpp.
+/// Contribution of the coordinates of interfaces that release one rotation to the energy of rigid rotations, for each
+/// kept direction: -(d w^T + w d^T) / 2, w = m x d, see tie_second_order.hpp.
 std::vector<Eigen::Matrix3d> released_rotations(const std::vector<Interface>& interfaces) {
   std::vector<Eigen::Matrix3d> result;
   for (const Interface& interface : interfaces) {
@@ -36,8 +36,8 @@ std::vector<Eigen::Matrix3d> released_rotations(const std::vector<Interface>& in
   return result;
 }
 
-/// Rows of the change of an interface's coordinates when the body turns by a, in terms of the coordinates (kept
-/// directions, n): of its displacement a x u, of its rotation that of the mechanism's coordinates.
+/// Adds the rows of the change of an interface's coordinates when the body turns by a, in terms of the coordinates
+/// (kept directions, n): a x u for the displacement, and the change of the mechanism's coordinates for the rotation.
 void add_turned_rows(const Interface& interface, const Eigen::MatrixXd& rotation, Eigen::Index first,
                      const Eigen::Vector3d& a, Eigen::MatrixXd& turned) {
   const auto rotations = std::count(interface.kept.begin() + 3, interface.kept.end(), true);
@@ -63,9 +63,9 @@ void add_turned_rows(const Interface& interface, const Eigen::MatrixXd& rotation
   }
 }
 
-/// The elastic energy in linear coordinates eps, q = eps - g(eps), g_j = eps^T K_j eps / 2, must not notice which of
-/// two close frames a body is described in: sym[K~ (W_a + N_a)] = 0 for all a, W_a the rows above and N_a rows (K_j U
-/// a)^T.
+/// The elastic energy in linear coordinates eps, q = eps - g(eps), g_j = eps^T K_j eps / 2, must not depend on which of
+/// two close frames describes the body: sym[K~ (W_a + N_a)] = 0 for all a, with W_a the rows above and N_a the rows
+/// (K_j U a)^T.
 void add_objectivity_check(const Superelement& body, std::vector<Check>& checks) {
   const bool whole = std::all_of(body.interfaces.begin(), body.interfaces.end(), [](const Interface& interface) {
     const auto kept = std::count(interface.kept.begin(), interface.kept.begin() + 3, true);
@@ -99,7 +99,7 @@ void add_objectivity_check(const Superelement& body, std::vector<Check>& checks)
                     "what loads do to its stiffness does not depend on the frame"});
 }
 
-/// Energy of the geometric stiffness in rigid translations (none) and rotations: tr(Q) I - sym(Q).
+/// Checks the energy of the geometric stiffness in rigid translations (zero) and rotations: tr(Q) I - sym(Q).
 void add_virial_checks(const Superelement& body, std::vector<Check>& checks) {
   if (body.spin_stiffness[0].size() == 0) {
     return;
@@ -121,7 +121,8 @@ void add_virial_checks(const Superelement& body, std::vector<Check>& checks) {
     Eigen::Matrix<double, 6, 6> error = congruent(k, u) - expected;
     error.topRows<3>() *= length;
     error.leftCols<3>() *= length;
-    // In units of what such a load does to a body of this size: m l^2 for spins, l for forces, 1 for moments.
+    // Errors are relative to the effect of such a load on a body of this size: m l^2 for spins, l for forces, 1 for
+    // moments.
     const double unit = is_spin ? body.total_mass * length * length : std::max(1.0, length);
     (is_spin ? spin : load) = std::max(is_spin ? spin : load, error.cwiseAbs().maxCoeff() / unit);
   }

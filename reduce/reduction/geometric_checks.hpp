@@ -1,4 +1,4 @@
-// Checks of a superelement's geometric stiffness against laws that need no stresses.
+// Checks of a superelement's geometric stiffness by laws that involve no stresses.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,8 @@
 
 namespace bielle::reduce {
 
-/// Rigid rotations against the virial of loads and inertia, and the elastic energy to third order in a turned frame.
+/// Compares rigid rotations with the virial of loads and inertia, and checks the elastic energy to third order in a
+/// turned frame.
 void add_geometric_checks(const Superelement& body, std::vector<Check>& checks);
 
 }  // namespace bielle::reduce

@@ -88,7 +88,7 @@ void HeldBody::close_conditions(const Ties& ties) {
   matrix.bottomLeftCorner(r, a) = transposed_product(freedoms_.rigid, freedoms_.conditions);
   corrections_.resize(freedoms_.size, a + r);
   corrections_ << flexibility, -freedoms_.rigid;
-  // Scaled to comparable entries before it is inverted: multipliers are forces and moments.
+  // The system is scaled to comparable entries before it is inverted, since multipliers are forces and moments.
   Eigen::VectorXd scale = Eigen::VectorXd::Ones(a + r);
   for (Eigen::Index k = 0; k < a; ++k) {
     scale(k) = 1 / std::sqrt(std::max(matrix(k, k), std::numeric_limits<double>::min()));

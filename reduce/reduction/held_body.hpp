@@ -1,15 +1,15 @@
-// The body with every kept direction of its interfaces held: one factorisation of its inside, on which constraint
-// modes, fixed-boundary modes and inertia relief all rest.
+// The body with every kept direction of its interfaces held: constraint modes, fixed-boundary modes and inertia relief
+// all use one factorisation of its inside.
 //
 // Inside coordinates z: the displacements of the points that no interface carries, then the released directions of
-// rigid ties. With average ties the inside is not held by missing freedoms but by conditions C z = q_a with multipliers
-// lambda:
+// rigid ties. With average ties the inside is not held by removed degrees of freedom but by conditions C z = q_a with
+// multipliers lambda:
 //     K_ii z + C^T lambda = f,   C z = q_a.
-// K_ii may then be singular: N spans its rigid motions (r of them). Held at r freedoms chosen for the purpose, it is
-// positive definite and factorised; K+ is the solution with these freedoms at zero. In general
+// K_ii may then be singular: N spans its rigid motions (r of them). It is held at r suitable degrees of freedom; then
+// it is positive definite and can be factorised. K+ is the solution with these degrees of freedom at zero. In general
 //     z = K+ (f - C^T lambda) + N alpha,   [C K+ C^T  -C N; N^T C^T  0] [lambda; alpha] = [C K+ f - q_a; N^T f]:
-// the second row makes the load self-equilibrated, so that the held freedoms carry no force and K_ii z + C^T lambda = f
-// there too. (The two-field form of FETI: C. Farhat, F.-X. Roux, IJNME 32 (1991) 1205.)
+// the second row makes the load self-equilibrated, so that the held degrees of freedom carry no force and K_ii z + C^T
+// lambda = f holds there too. (The two-field form of FETI: C. Farhat, F.-X. Roux, IJNME 32 (1991) 1205.)
 #pragma once
 
 #include <memory>
@@ -22,31 +22,32 @@ namespace bielle::reduce {
 
 class HeldBody {
  public:
-  /// @param freedoms  those of this solid with these ties
+  /// @param freedoms  degrees of freedom of this solid with these ties
   /// @param solid     in one piece
   /// @param matrices  its own
-  /// @param threads   of its own products; solutions are the same for the same number
-  /// @throws ComputationError when a part of the mesh hangs on by a point or an edge only: where
+  /// @param threads   threads for its own products; solutions do not vary between runs with the same number
+  /// @throws ComputationError if a part of the mesh is connected by a point or an edge only: the place
   HeldBody(HeldFreedoms freedoms, const Solid& solid, const BodyMatrices& matrices, const Ties& ties, int threads);
   ~HeldBody();
 
-  Eigen::Index size() const { return freedoms_.size; }  ///< of z
+  Eigen::Index size() const { return freedoms_.size; }  ///< number of unknowns z
   const FactorStatistics& statistics() const;
   Eigen::Index supports() const { return freedoms_.rigid.cols(); }  ///< r
 
-  /// Displacements (3 points, k) of all points: tied points follow the released directions, points outside are at rest.
+  /// Displacements (3 points, k) of all points: tied points follow the released directions, and points outside the
+  /// solid are at rest.
   RowMatrix expand(const Eigen::MatrixXd& z) const;
-  /// The transposed: forces on points become forces on z.
+  /// The transposed operation: it maps forces on points to forces on z.
   Eigen::MatrixXd restrict(const RowMatrix& forces) const;
 
-  /// Forces on z of the inertia of accelerations z.
+  /// Inertia forces on z for accelerations z.
   Eigen::MatrixXd inertia(const BodyMatrices& matrices, const Eigen::MatrixXd& z) const;
 
-  /// z under the loads f (size,k), the averages at q_a (averages,k); none: at zero.
+  /// Solves for z under the loads f (size,k), with the averages at q_a (averages,k); without q_a they are zero.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& f, const Eigen::MatrixXd& averages = {}) const;
 
-  /// How many modes lie below an eigenvalue omega^2 [rad^2/s^2], counted by the pivots of K - omega^2 M: what it takes
-  /// is another factorisation. @returns nothing where signs cannot be counted
+  /// Number of modes below an eigenvalue omega^2 [rad^2/s^2], counted by the pivots of K - omega^2 M, which requires
+  /// another factorisation. @returns nothing if signs cannot be counted
   std::optional<PivotSigns> count_below(const BodyMatrices& matrices, double eigenvalue) const;
 
  private:
@@ -56,7 +57,7 @@ class HeldBody {
 
   int threads_ = 1;
   HeldFreedoms freedoms_;
-  std::unique_ptr<Factor> factor_;  // of K_ii without the supports; none when nothing is left
+  std::unique_ptr<Factor> factor_;  // factor of K_ii without the supports; null if no unknown is left
   FactorStatistics no_statistics_;
   Eigen::MatrixXd corrections_;  // K+ C^T, then -N: what lambda and alpha take away
   Eigen::MatrixXd small_;        // inverse of the matrix of lambda and alpha

@@ -1,4 +1,4 @@
-// The pivots of K - sigma M of the held body: its inside as it was factorised, bordered by what the factor leaves out.
+// The pivots of K - sigma M of the held body: its factorised inside, bordered by the rows that the factor leaves out.
 #include <cmath>
 #include <vector>
 
@@ -28,7 +28,7 @@ std::optional<PivotSigns> HeldBody::count_below(const BodyMatrices& matrices, do
     for (Eigen::Index c = 0; c < first_average; ++c) unit(outer[static_cast<std::size_t>(c)], c) = 1;
     const Eigen::MatrixXd forces = restrict(matrices.stiffness_times(expand(unit)));
     const Eigen::MatrixXd images = forces - eigenvalue * inertia(matrices, unit);
-    // A condition has no size of its own: it gets one by which its multiplier's pivot is about 1.
+    // A condition has no natural scale: it is scaled so that its multiplier's pivot is about 1.
     Eigen::MatrixXd conditions = freedoms_.conditions;
     for (Eigen::Index c = 0; c < averages; ++c)
       conditions.col(c) /= std::sqrt(freedoms_.conditions.col(c).dot(corrections_.col(c)));

@@ -16,8 +16,8 @@ namespace bielle::reduce {
 
 namespace {
 
-/// Singular values below this, relative to the largest, belong to motions that nothing resists. Geometry decides here,
-/// not stiffness: a hold that is 1e-8 of the body's size wide holds nothing.
+/// Singular values below this, relative to the largest, belong to motions without resistance. The decision depends on
+/// geometry, not on stiffness: a support whose width is 1e-8 of the body's size has no effect.
 constexpr double free_motion = 1e-8;
 
 std::string words(const Eigen::Vector3d& x) { return fmt::format("({:.4g}, {:.4g}, {:.4g})", x.x(), x.y(), x.z()); }
@@ -35,7 +35,7 @@ std::string describe_motion(Eigen::Vector3d v, Eigen::Vector3d omega, const Eige
                      words(cleaned(through, length)));
 }
 
-/// Basis of the vectors x with A x = 0, columns of A being of comparable size.
+/// Basis of the vectors x with A x = 0; the columns of A are of comparable size.
 Eigen::MatrixXd null_space(const Eigen::MatrixXd& a) {
   if (a.rows() == 0) {
     return Eigen::MatrixXd::Identity(a.cols(), a.cols());
@@ -105,7 +105,7 @@ void HeldFreedoms::restrict_into(const RowMatrix& forces, Eigen::Ref<Eigen::Matr
       f.row(count + carried.col()) += carried.value() * forces.row(row).head(columns);
 }
 
-/// Calls work(in z, without the supports, count) for the stretches of z between supports.
+/// Calls work(position in z, position without the supports, count) for the ranges of z between supports.
 template <class Work>
 void HeldFreedoms::for_stretches(const Work& work) const {
   Eigen::Index begin = 0, done = 0;
@@ -142,8 +142,8 @@ void HeldFreedoms::find_rigid_motions(const Solid& solid, const Ties& ties, cons
       box.extend(Eigen::Vector3d(solid.mesh.points.col(a)));
     }
   }
-  // Unknowns: six amplitudes of the body, rotations by displacements at its size, and the released directions likewise.
-  // A motion is free when every tied point moves with the body and as its interface says.
+  // Unknowns: six amplitudes of the body, with rotations scaled to displacements at its size, and the released
+  // directions, scaled likewise. A motion is free if every tied point moves with the body and with its interface.
   const double length = box.diagonal().norm() / 2;
   const Eigen::Index released = carry_released.cols();
   Eigen::VectorXd scale = Eigen::VectorXd::Ones(6 + released);
@@ -170,7 +170,7 @@ void HeldFreedoms::find_rigid_motions(const Solid& solid, const Ties& ties, cons
   if (rigid.cols() == 0) {
     return;
   }
-  // Do the averages hold what the missing freedoms do not?
+  // Check that the averages hold the motions that the removed degrees of freedom do not hold.
   Eigen::MatrixXd held = transposed_product(conditions, rigid);
   for (Eigen::Index k = 0; k < held.rows(); ++k) {
     held.row(k) *= ties.kept[ties.averages[k]].axis < 3 ? 1 : length;
@@ -187,7 +187,7 @@ void HeldFreedoms::find_rigid_motions(const Solid& solid, const Ties& ties, cons
 void HeldFreedoms::choose_supports() {
   const Eigen::Index r = rigid.cols();
   if (r > 0) {
-    // Pivoted columns of N^T: freedoms of points far apart, in which the motions differ most.
+    // The pivot columns of N^T are degrees of freedom of points far apart, in which the motions differ most.
     const Eigen::Index count = static_cast<Eigen::Index>(free.size());
     supports = pivoted_columns(rigid.topRows(count).transpose());
     supports.resize(static_cast<std::size_t>(r));

@@ -1,5 +1,5 @@
-// Which freedoms a body has while every kept direction of its interfaces is held, and what holds it: known from the
-// geometry alone, before any stiffness.
+// The degrees of freedom of a body while every kept direction of its interfaces is held, and its supports. They follow
+// from the geometry alone, without the stiffness.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,9 @@
 
 namespace bielle::reduce {
 
-/// Inside coordinates z, and the symbols, as in held_body.hpp.
+/// Inside coordinates z and symbols are as in held_body.hpp.
 struct HeldFreedoms {
-  Eigen::Index size = 0;               ///< of z
+  Eigen::Index size = 0;               ///< number of coordinates z
   std::vector<std::int64_t> free;      ///< unknowns x y z of the points that are neither tied nor outside, ascending
   std::vector<std::int64_t> not_free;  ///< the others
   SparseRows carry_released;
@@ -23,16 +23,17 @@ struct HeldFreedoms {
   Eigen::MatrixXd conditions;              ///< C^T (size, averages)
 
   /// @param solid  in one piece
-  /// @throws InputError when the body can still move with all kept directions held: how
+  /// @throws InputError if the body can still move with all kept directions held: the motion
   HeldFreedoms(const Solid& solid, const Ties& ties);
 
-  /// What is factorised: all but the supports.
+  /// The unknowns that are factorised: all but the supports.
   InsideUnknowns inside() const;
-  /// Displacements of z. @param u  (3 points, k)
+  /// Displacements of points from z. @param u  (3 points, k)
   void expand_into(const Eigen::Ref<const Eigen::MatrixXd>& z, RowMatrix& u, int threads) const;
-  /// The transposed: forces on points become forces on z. @param f  (size, k): of the first k columns of the forces
+  /// The transposed operation: it maps forces on points to forces on z. @param f  (size, k): results for the first k
+  /// columns of the forces
   void restrict_into(const RowMatrix& forces, Eigen::Ref<Eigen::MatrixXd> f, int threads) const;
-  /// Columns without the rows of the supports, and with zeros there.
+  /// Copies columns without the rows of the supports, and with zeros there.
   void leave_supports_out(const Eigen::MatrixXd& f, Eigen::MatrixXd& inside, int threads) const;
   void put_supports_in(const Eigen::MatrixXd& inside, Eigen::MatrixXd& z, int threads) const;
 

@@ -6,7 +6,7 @@ namespace bielle::reduce {
 
 namespace {
 
-/// The columns of `carried` that move each point; they pull at its neighbours.
+/// The columns of `carried` that move each point; they are coupled with its neighbours.
 class Carriers {
  public:
   explicit Carriers(const SparseRows& carried) : of_points_(static_cast<std::size_t>(carried.rows() / 3)) {
@@ -14,7 +14,7 @@ class Carriers {
       for (SparseRows::InnerIterator entry(carried, row); entry; ++entry)
         of_points_[static_cast<std::size_t>(row / 3)].push_back(static_cast<int>(entry.col()));
   }
-  /// Adds those of a point, and leaves each once.
+  /// Adds those of a point, each once.
   void add(int point, std::vector<int>& columns) const {
     const std::vector<int>& own = of_points_[static_cast<std::size_t>(point)];
     if (own.empty()) return;
@@ -27,7 +27,7 @@ class Carriers {
   std::vector<std::vector<int>> of_points_;
 };
 
-/// The columns of `carried` that each point feels.
+/// The columns of `carried` that are coupled with each point.
 std::vector<std::vector<int>> pulling_columns(const BlockGraph& points, const SparseRows& carried) {
   std::vector<std::vector<int>> pulling(static_cast<std::size_t>(points.size()));
   if (carried.cols() == 0) return pulling;

@@ -1,4 +1,4 @@
-// Load patterns on surfaces: the forces on their nodes, and what the reduced body feels of them.
+// Load patterns on surfaces: the forces on their nodes, and their generalised forces on the reduced body.
 #pragma once
 
 #include <map>
@@ -12,17 +12,17 @@
 
 namespace bielle::reduce {
 
-/// A pattern on the nodes of its surface.
+/// The nodal forces of a pattern on its surface.
 struct PatternForces {
   std::vector<int> nodes;
   Eigen::Matrix3Xd forces;  ///< [N] on each of the nodes
 };
 
-/// @throws InputError, with the place of the request: no such surface, a pressure on faces inside the body
+/// @throws InputError, with the place of the request: an unknown surface, a pressure on faces inside the body
 PatternForces pattern_forces(const Mesh& mesh, const LoadRequest& request);
 
 /// Reduced load patterns: row l of force[k] is sum over nodes of f_k,a times component l of T at node a.
-/// @throws InputError as pattern_forces, and for two loads of one name
+/// @throws InputError as pattern_forces, and for two loads of the same name
 std::map<std::string, LoadPattern> reduce_loads(const Solid& solid, const std::vector<LoadRequest>& requests,
                                                 const RowMatrix& shapes);
 

@@ -7,8 +7,8 @@ namespace bielle::reduce {
 
 namespace {
 
-/// Modes closer than this have no shift between them: rounding in the pivots moves eigenvalues by 1e-12 or so, growth
-/// by as many times that.
+/// No shift is placed between modes closer than this: rounding in the pivots moves eigenvalues by about 1e-12, and
+/// growth multiplies that.
 constexpr double least_gap = 1e-4;
 constexpr double most_growth = 1e6;
 constexpr int most_trials = 3;
@@ -21,7 +21,7 @@ std::optional<ModeCount> count_modes(const BodyMatrices& matrices, const HeldBod
   for (Eigen::Index k = found; k > 0; --k) {
     const double last = basis.eigenvalues(k - 1);
     const std::optional<double> next = k < found ? basis.eigenvalues(k) : basis.next;
-    // Where nothing is known of the next one: not far above the last, where there is none yet.
+    // If the next one is unknown, the shift is slightly above the last, where no further mode is expected.
     const double gap = next ? *next - last : 0.01 * last;
     if (gap < least_gap * last) continue;
     for (const double part : {0.5, 0.7}) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr Eigen::Index most_places = 24;
 
-/// Columns of points, each as far as possible from those before it.
+/// Orders columns of points so that each is as far as possible from those before it.
 std::vector<Eigen::Index> spread_over(const Eigen::Matrix3Xd& points) {
   const Eigen::Vector3d middle = points.rowwise().mean();
   std::vector<Eigen::Index> places;

@@ -1,4 +1,5 @@
-// What the user asks of a reduction, free of any file format: body_file.cpp fills it, reduce_body() carries it out.
+// The user's request for a reduction, independent of any file format: body_file.cpp fills it, reduce_body() executes
+// it.
 #pragma once
 
 #include <array>
@@ -14,7 +15,7 @@
 
 namespace bielle::reduce {
 
-/// How the nodes of a surface follow their interface node.
+/// Relation of the nodes of a surface to their interface node.
 enum class Tie {
   rigid,    ///< every node moves with the interface node as with a rigid body
   average,  ///< the interface node moves as the area-weighted mean of the surface, which stays flexible
@@ -38,10 +39,10 @@ struct LoadRequest {
   std::optional<Eigen::Vector3d> traction;  ///< [Pa], body axes; or
   std::optional<Eigen::Vector3d> force;     ///< total [N], spread evenly over the area
   std::string located;
-  bool residual = false;  ///< whether its static answer is to be exact, by residual vectors
+  bool residual = false;  ///< whether its static answer shall be exact, by residual vectors
 };
 
-/// A point inside that gets a name: the mean of a surface, or a place in the mesh.
+/// A named point inside the body: the mean of a surface, or a place in the mesh.
 struct PointRequest {
   std::string name;
   std::string group;                        ///< surface group that it follows; empty: the mesh around `position`
@@ -63,16 +64,16 @@ struct ReductionOptions {
   std::optional<double> modes_below;           ///< those below [Hz]; with both: the lowest `mode_count` of them
   EigenMethod mode_method = EigenMethod::automatic;
   bool inertia_relief = false;  ///< residual vectors for its own accelerations (inertia_answer.hpp)
-  bool modes_proven = false;    ///< whether to count the modes, as a proof that none was missed
-  /// Damping of the eigenmodes of the free reduced body, in their order, the last ratio holding for all further ones;
-  /// or Rayleigh.
+  bool modes_proven = false;    ///< whether to count the modes, to prove that none was missed
+  /// Damping of the eigenmodes of the free reduced body, in their order, where the last ratio holds for all further
+  /// ones; or Rayleigh damping.
   std::vector<double> damping_ratios;
   std::optional<std::array<double, 2>> rayleigh;  ///< alpha [1/s] on M~, beta [s] on K~
   std::vector<LoadRequest> loads;
   std::vector<PointRequest> points;
   RecoveryExtent displacement_recovery = RecoveryExtent::all;
   RecoveryExtent stress_recovery = RecoveryExtent::surface;
-  bool judged = true;  ///< whether to measure what the reduction is good for
+  bool judged = true;  ///< whether to measure the accuracy of the reduction
 };
 
 }  // namespace bielle::reduce

@@ -34,7 +34,7 @@ void check_unlike_cuts(const CutMesh& cut, const InterfaceRequest& request) {
                                                              request.name)));
 }
 
-/// Throws where a cut goes through the surface.
+/// Throws if a cut passes through the surface.
 /// @param rule  "an interface belongs to one; move the cut, or divide the interface"
 std::size_t piece_of_surface(const Mesh& whole, const CutMesh& cut, const std::string& group,
                              const std::string& located, const std::string& rule) {
@@ -60,7 +60,7 @@ std::size_t piece_of(const Mesh& whole, const CutMesh& cut, const InterfaceReque
                           "an interface belongs to one; move the cut, or divide the interface");
 }
 
-/// A point in the mesh belongs to the piece that is nearest, the first of several.
+/// A point in the mesh belongs to the nearest piece, the first of several.
 std::size_t piece_of(const Mesh& whole, const CutMesh& cut, const PointRequest& request) {
   if (!request.group.empty())
     return piece_of_surface(whole, cut, request.group, request.located,
@@ -84,7 +84,7 @@ InterfaceRequest cut_interface(const MeshCut& cut, const CutPlane& plane, const 
   return request;
 }
 
-/// Force per area is what the parts of a divided surface have in common.
+/// Converts loads to force per area, which is the same for all parts of a divided surface.
 std::vector<LoadRequest> loads_by_area(const Mesh& whole, const std::vector<LoadRequest>& loads) {
   std::vector<LoadRequest> result = loads;
   for (LoadRequest& load : result) {

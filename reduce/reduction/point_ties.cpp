@@ -34,7 +34,7 @@ TiedPoint tie_to_surface(const Solid& solid, const PointRequest& request) {
   return {request, node.position, on_points(solid.points(), surface.nodes, loads)};
 }
 
-/// Points of the mesh outside the solid do not move with it and do not count.
+/// Points of the mesh outside the solid do not move with it and are not used.
 TiedPoint tie_to_mesh(const Solid& solid, const PointRequest& request, const std::string& body) {
   const std::vector<bool> in_solid = points_of_solid(solid);
   std::vector<int> inside, nodes;

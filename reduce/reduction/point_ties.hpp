@@ -1,8 +1,8 @@
-// How the points that the body file names follow the mesh.
+// Ties of the points that the body file names to the mesh.
 //
-// On a surface a point follows the mean motion, as the node of an average tie does (ties.hpp), but holds nothing.
-// Elsewhere it follows the nodes around it (reduce/superelement/point_weights.hpp). Either way its motion is W u, and a
-// load on it acts on the nodes by W^T.
+// On a surface a point follows the mean motion, as the node of an average tie does (ties.hpp), but does not constrain
+// it. Otherwise it follows the nodes around it (reduce/superelement/point_weights.hpp). In both cases its motion is W
+// u, and a load on it acts on the nodes by W^T.
 #pragma once
 
 #include <map>
@@ -21,12 +21,12 @@ struct TiedPoint {
 };
 
 /// @param body  its name, for messages
-/// @throws InputError, with the place of the request before it: a surface that the mesh has not, a position away from
-///         the mesh or far from the surface, two points of one name
+/// @throws InputError, with the place of the request before it: a surface that does not exist in the mesh, a position
+///         far from the mesh or from the surface, two points of the same name
 std::vector<TiedPoint> tie_points(const Solid& solid, const std::vector<PointRequest>& requests,
                                   const std::string& body);
 
-/// The points in terms of the coordinates. @param shapes  T (3 points, n)
+/// The motions of the points in terms of the coordinates. @param shapes  T (3 points, n)
 std::map<std::string, NamedPoint> named_points(const std::vector<TiedPoint>& points, const RowMatrix& shapes);
 
 }  // namespace bielle::reduce

@@ -11,7 +11,7 @@ namespace bielle::reduce {
 
 namespace {
 
-/// The mesh as the superelement keeps it: all of it, or its skin with points numbered anew.
+/// The mesh that the superelement keeps: all of it, or its skin with points numbered anew.
 SuperelementMesh kept_mesh(const Solid& solid, const std::vector<int>& points, bool skin) {
   SuperelementMesh result;
   result.points = solid.mesh.points(Eigen::all, points);
@@ -43,8 +43,8 @@ SuperelementMesh kept_mesh(const Solid& solid, const std::vector<int>& points, b
   return result;
 }
 
-/// Of which material, and in which volume groups, the stress at nodes is. A node on the boundary of two materials
-/// belongs to the groups of the one whose stress it has.
+/// Materials and volume groups of the stress at nodes. A node on the boundary of two materials belongs to the groups of
+/// the material whose stress it has.
 StressOrigin stress_origin(const Solid& solid, const std::map<std::string, Material>& materials,
                            const std::vector<int>& nodes) {
   StressOrigin result;

@@ -1,4 +1,4 @@
-// What the superelement keeps of the mesh: displacement and stress recovery, and the mesh to draw it.
+// The superelement's data of the mesh: displacement and stress recovery, and the mesh for drawing.
 #pragma once
 
 #include "reduce/fe/solid.hpp"
@@ -9,7 +9,7 @@
 namespace bielle::reduce {
 
 /// Fills mesh, displacement_recovery, stress_recovery, stress_nodes and stress_origin.
-/// @throws InputError when stress is wanted at nodes whose displacements are not kept
+/// @throws InputError if stress is requested at nodes whose displacements are not kept
 void add_recovery(const Solid& solid, const ReductionOptions& options, const RowMatrix& shapes, int threads,
                   Superelement& result);
 

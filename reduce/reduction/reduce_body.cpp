@@ -31,7 +31,8 @@ namespace {
 
 constexpr Eigen::Index most_load_stiffnesses = 60;  // they grow with the cube of the directions
 
-/// K~ = T^T K T: Psi^T K Psi and omega^2. Psi^T K Phi = 0 and Psi^T K U = 0 by construction, and how well is returned.
+/// K~ = T^T K T: Psi^T K Psi and omega^2. Psi^T K Phi = 0 and Psi^T K U = 0 hold by construction; the numerical errors
+/// are returned.
 struct ReducedStiffness {
   Eigen::MatrixXd matrix;
   double rigid_force = 0;     ///< largest entry of Psi^T K U before it was set to zero, over the root of the diagonals
@@ -90,7 +91,7 @@ void warn_about_rigid_ties(const Ties& ties, Progress& progress) {
   }
 }
 
-/// Stiffness, mass, damping, six inertia components and six geometric stiffnesses are full matrices.
+/// Full matrices are: stiffness, mass, damping, six inertia components and six geometric stiffnesses.
 void warn_about_size(Eigen::Index coordinates, Progress& progress) {
   const double gigabytes = 15 * 8e-9 * static_cast<double>(coordinates) * static_cast<double>(coordinates);
   if (gigabytes > 1) {
@@ -124,7 +125,7 @@ Eigen::MatrixXd damping_matrix(const ReductionOptions& options, const Supereleme
   return modal_damping(free_modes(body.stiffness, body.mass, rigid), body.mass, options.damping_ratios);
 }
 
-/// Those of every superelement, and those that only the mesh can tell.
+/// Runs the checks of every superelement, and those that need the mesh.
 std::vector<Check> check_reduction(const Superelement& body, const ReducedStiffness& reduced, const Basis& basis) {
   std::vector<Check> checks = check_superelement(body);
   checks.push_back(
@@ -140,7 +141,7 @@ std::vector<Check> check_reduction(const Superelement& body, const ReducedStiffn
   return checks;
 }
 
-/// Says what the count of the modes gave, or that it could not be made.
+/// Reports the count of the modes, or that it was impossible.
 std::optional<ModeCount> prove_modes(const BodyMatrices& matrices, const HeldBody& held, const Basis& basis,
                                      Progress& progress) {
   if (basis.modes() == 0) return std::nullopt;
@@ -162,14 +163,15 @@ Check missed_modes(const ModeCount& count) {
           fmt::format("of the {} below {:.6g} Hz, all were found", counted(count.counted, "mode"), count.below)};
 }
 
-/// What `work` returns; an InputError from it gets the line of the section of the body file in front.
+/// Returns the result of `work`; the line of the section of the body file is put before the message of an InputError
+/// from it.
 template <class Work>
 auto in_section(const ReductionOptions& options, const std::string& section, const Work& work) {
   const auto line = options.lines.find(section);
   return placed(line == options.lines.end() ? "" : line->second, work);
 }
 
-/// Those that loads and points ask for, and those of the body's own inertia.
+/// Adds the vectors that loads and points request, and those for the body's own inertia.
 void add_all_residual_vectors(const ReductionOptions& options, std::vector<ResidualRequest> requests,
                               const BodyMatrices& matrices, const HeldBody& held, Basis& basis, Progress& progress) {
   const bool relieved = options.inertia_relief;

@@ -1,4 +1,4 @@
-// The reduction: from a mesh and the user's requests to a superelement.
+// The reduction of a mesh to a superelement, as the user requests it.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@
 
 namespace bielle::reduce {
 
-/// What a reduction reports in addition to its result.
+/// Report of a reduction in addition to its result.
 struct ReductionReport {
   Eigen::Index points = 0, cells = 0;
   FactorStatistics factor;
@@ -26,16 +26,15 @@ struct ReductionReport {
 /// Reduces a solid body.
 ///
 /// Without `mode_count` and `modes_below` the body keeps its constraint modes only. Geometric stiffness of interface
-/// loads is left out, with a note, for bodies with more than 60 kept directions. The mesh that goes into the
-/// superelement is the whole mesh, or its skin when displacements are to be recovered on the surface only.
-/// @param mesh      in one piece, of one type of solid cells, surface cells oriented outward
+/// loads is left out, with a note, for bodies with more than 60 kept directions. The superelement contains the whole
+/// mesh, or its skin if displacements are to be recovered on the surface only.
+/// @param mesh      one connected piece with one type of solid cells, surface cells oriented outward
 /// @param progress  shows the phases; gets warnings
 /// @param threads   >= 1
 /// @param report    filled when given
-/// @param make      keeps the mesh's matrices and what is factorised of them
-/// @throws InputError for requests that do not fit the mesh (with the place in the input file), ComputationError when
-/// the
-///         computation fails or a check does
+/// @param make      makes the object that stores the mesh's matrices and their factors
+/// @throws InputError for requests that do not fit the mesh (with the place in the input file), ComputationError if the
+///         computation or a check fails
 Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Progress& progress, int threads = 1,
                          ReductionReport* report = nullptr, const MatrixMaker& make = assembled_matrices);
 

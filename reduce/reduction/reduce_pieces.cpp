@@ -32,7 +32,8 @@ void check_damping(const ReductionOptions& options, Progress& progress) {
                  "almost as rigid bodies, hardly feel it"));
 }
 
-/// The nodes of free ties are named by their number in the mesh, and pieces must call a common node by one name.
+/// The nodes of free ties are named by their number in the mesh; adjacent pieces must use the same name for a common
+/// node.
 void rename_free_nodes(const ReductionOptions& options, const std::vector<int>& nodes, Superelement& piece) {
   for (const InterfaceRequest& request : options.interfaces) {
     if (request.tie != Tie::free) continue;
@@ -43,7 +44,7 @@ void rename_free_nodes(const ReductionOptions& options, const std::vector<int>& 
   }
 }
 
-/// Its phases are not shown, nor its notes: those on ties are answered by the comparison with the uncut body.
+/// Neither its phases nor its notes are shown: the comparison with the uncut body replaces the notes on ties.
 Superelement reduce_quietly(const Mesh& mesh, const ReductionOptions& options, int threads, const MatrixMaker& make) {
   Progress quiet(true);
   try {
@@ -53,8 +54,8 @@ Superelement reduce_quietly(const Mesh& mesh, const ReductionOptions& options, i
   }
 }
 
-/// The body in one piece, with twice as many modes as the pieces have together, so that those do not make the
-/// difference: long modes of a whole body converge more slowly than the short ones of its pieces.
+/// Reduces the body in one piece, with twice as many modes as the pieces have together, so that the number of modes
+/// does not dominate the comparison: long modes of a whole body converge more slowly than the short ones of its pieces.
 Superelement reduce_uncut(const Mesh& mesh, const ReductionOptions& options, Eigen::Index modes, int threads,
                           const MatrixMaker& make) {
   ReductionOptions uncut = options;

@@ -13,11 +13,11 @@ namespace bielle::reduce {
 
 namespace {
 
-/// a_k^T b_l, a_k being every `stride`-th row of a from row k.
+/// a_k^T b_l, where a_k consists of every `stride`-th row of a from row k on.
 Eigen::MatrixXd strided_product(const RowMatrix& a, int k, const RowMatrix& b, int l, int stride) {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(a.cols(), b.cols());
   if (result.size() > 0 && a.rows() > 0) {
-    // A row-major block is its transpose stored by columns.
+    // A row-major block is the transpose of a block stored by columns.
     const Eigen::Index rows = a.rows() / stride;
     add_dense_product({a.data() + k * a.cols(), a.cols(), rows, stride * a.cols(), false},
                       {b.data() + l * b.cols(), rows, b.cols(), stride * b.cols(), true}, result.data(), result.rows());

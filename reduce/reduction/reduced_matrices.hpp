@@ -16,9 +16,9 @@ Eigen::MatrixXd inner_products(const RowMatrix& a, const RowMatrix& b);
 /// S_11 S_22 S_33 S_23 S_13 S_12, T_k the rows of T of component k.
 std::array<Eigen::MatrixXd, 6> inertia_components(const RowMatrix& shapes, const BodyMatrices& matrices);
 
-/// Modes of a free reduced body. Rigid motions are split off exactly, so that the elastic modes do not mix with them.
+/// Modes of a free reduced body. Rigid motions are separated exactly, so that the elastic modes contain none of them.
 struct FreeModes {
-  Eigen::VectorXd omega;    ///< of the elastic modes, ascending [rad/s]
+  Eigen::VectorXd omega;    ///< frequencies of the elastic modes, ascending [rad/s]
   Eigen::MatrixXd vectors;  ///< (n, elastic modes), V^T M~ V = I
 };
 
@@ -26,8 +26,10 @@ struct FreeModes {
 /// @throws ComputationError when the reduced mass matrix is not positive definite
 FreeModes free_modes(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass, const Eigen::MatrixXd& rigid);
 
-/// C~ = sum over elastic modes of 2 zeta omega (M~ v)(M~ v)^T: each mode is damped by its ratio, rigid motions are not.
-/// @param ratios  zeta of the first, second ... elastic mode; the last holds for all further ones; empty: no damping
+/// C~ = sum over elastic modes of 2 zeta omega (M~ v)(M~ v)^T: each mode has its damping ratio, and rigid motions are
+/// not damped.
+/// @param ratios  zeta of the first, second ... elastic mode; the last holds for all further ones; empty means no
+/// damping
 /// @throws InputError when there are more ratios than elastic modes
 Eigen::MatrixXd modal_damping(const FreeModes& modes, const Eigen::MatrixXd& mass, const std::vector<double>& ratios);
 

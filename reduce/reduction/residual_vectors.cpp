@@ -14,11 +14,12 @@ namespace bielle::reduce {
 
 namespace {
 
-/// Energies below this part of the whole answer's are nothing, and so are directions in which all vectors together have
-/// less: displacements of 1e-5, far above what solutions lose to rounding, far below what a load is asked for.
+/// Energies below this share of the whole answer's count as zero, and so do directions in which all vectors together
+/// have less. It corresponds to displacements of 1e-5, far above the rounding of solutions and far below the accuracy
+/// that a load needs.
 constexpr double negligible = 1e-10;
 
-/// Some displacement fields of the held body.
+/// Displacement fields of the held body.
 struct HeldFields {
   RowMatrix shapes;          ///< (3 points, k)
   Eigen::MatrixXd released;  ///< (released directions, k): their values
@@ -27,7 +28,7 @@ struct HeldFields {
     shapes = RowMatrix(shapes * weights);
     released = Eigen::MatrixXd(released * weights);
   }
-  /// Leading components become positive, whatever the signs of eigenvectors.
+  /// Makes leading components positive, whatever the signs of the eigenvectors.
   void choose_signs() {
     for (Eigen::Index k = 0; k < shapes.cols(); ++k) {
       if (leading_component(shapes.col(k)) >= 0) continue;
@@ -62,8 +63,8 @@ Eigen::VectorXd twice_energies(const BodyMatrices& matrices, const RowMatrix& fi
   return fields.cwiseProduct(matrices.stiffness_times(fields)).colwise().sum().transpose();
 }
 
-/// What the energy of an answer is measured by where conditions leave nothing of it but rounding: the load against the
-/// stiffest spring of the mesh.
+/// Reference energy of an answer, for the case that the conditions leave nothing of it but rounding: the load against
+/// the stiffest spring of the mesh.
 Eigen::VectorXd least_energies(const BodyMatrices& matrices, const Eigen::MatrixXd& loads) {
   return loads.colwise().squaredNorm().transpose() / matrices.stiffness_diagonal().maxCoeff();
 }
@@ -81,7 +82,7 @@ void check_requests(const std::vector<ResidualRequest>& requests, const std::vec
   }
 }
 
-/// Combinations of unit energy that are orthogonal in K, without those that depend on the others.
+/// Combinations of unit energy that are orthogonal in K; linearly dependent ones are left out.
 Eigen::MatrixXd independent_fields(const Eigen::MatrixXd& energies) {
   const SymmetricEigenpairs pairs = symmetric_eigenpairs(energies);
   const Eigen::Index rank = (pairs.values.array() > negligible * pairs.values.maxCoeff()).count();
@@ -114,7 +115,7 @@ SparseRows loads_of_point(const TiedPoint& point) {
 }
 
 /// Column 3 k + l: component k of the pattern acting along axis l. Components that are rounding errors of the others,
-/// as those of a pressure on a plane are, stay zero.
+/// such as those of a pressure on a plane, stay zero.
 SparseRows loads_of_pattern(const Solid& solid, const LoadRequest& request) {
   const PatternForces pattern = pattern_forces(solid.mesh, request);
   std::vector<Eigen::Triplet<double>> entries;
@@ -164,7 +165,7 @@ void add_residual_vectors(const std::vector<ResidualRequest>& requests, const Bo
   const Eigen::VectorXd unit = rest.cwiseSqrt().cwiseInverse();
   fields.combine(Eigen::MatrixXd(unit.asDiagonal())(Eigen::all, left));
   fields.combine(independent_fields(inner_products(fields.shapes, matrices.stiffness_times(fields.shapes))));
-  // What cancellation has left of the modes becomes visible in small vectors.
+  // Remainders of the modes after cancellation become visible in small vectors, so the modes are removed once more.
   remove_modes(matrices, basis, fields);
   const auto pairs = symmetric_eigenpairs(inner_products(fields.shapes, matrices.mass_times(fields.shapes)),
                                           inner_products(fields.shapes, matrices.stiffness_times(fields.shapes)));

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int steps = 4;
 
-/// The nodes of one rigid tie, with the projection on displacements whose mean motion is zero, and its transposed.
+/// The nodes of one rigid tie, with the projection on displacements whose mean motion is zero, and its transpose.
 class Surface {
  public:
   Surface(const TiedSurface& surface, const Interface& interface) {
@@ -24,7 +24,7 @@ class Surface {
 
   const std::vector<int>& rows() const { return rows_; }
 
-  /// P x of the surface's rows of a field.
+  /// P x for the surface's rows x of a field.
   Eigen::MatrixXd projected(const RowMatrix& field) const {
     const Eigen::MatrixXd x = field(rows_, Eigen::all);
     return x - product(conditions_, solve_symmetric(normal_, transposed_product(conditions_, x)));
@@ -36,7 +36,7 @@ class Surface {
   Eigen::MatrixXd normal_;      // C C^T (6, 6)
 };
 
-/// What is left of a field on the surfaces, projected.
+/// The projections of a field on the surfaces; other rows are zero.
 RowMatrix projected(const std::vector<Surface>& surfaces, const RowMatrix& field) {
   RowMatrix result = RowMatrix::Zero(field.rows(), field.cols());
   for (const Surface& surface : surfaces) result(surface.rows(), Eigen::all) = surface.projected(field);
@@ -45,7 +45,7 @@ RowMatrix projected(const std::vector<Surface>& surfaces, const RowMatrix& field
 
 Eigen::RowVectorXd dots(const RowMatrix& a, const RowMatrix& b) { return a.cwiseProduct(b).colwise().sum(); }
 
-/// a / b, 0 where nothing is left to be divided.
+/// a / b, or 0 if b is zero.
 Eigen::RowVectorXd ratios(const Eigen::RowVectorXd& a, const Eigen::RowVectorXd& b) {
   return (b.array() > 0).select(a.array() / b.array(), 0);
 }

@@ -9,8 +9,8 @@
 // with F, M the load on that interface. The rotation is taken for the rotation vector, while an interface that releases
 // the turn about one axis d has the coordinates t = d x (E d) of the mechanism (the node may spin): of these
 //     m.t = m.theta + (d.theta) (m.(d x theta)) / 2 + ..  for a kept moment direction m,
-// and the load m has -(psi^T b + b^T psi) / 2 as well, psi = d^T theta, b = m^T d~ theta. A single kept rotation needs
-// nothing: its coordinate is the rotation vector's component to second order.
+// and the load m also contributes -(psi^T b + b^T psi) / 2, psi = d^T theta, b = m^T d~ theta. A single kept rotation
+// needs no correction: its coordinate is the rotation vector's component to second order.
 #pragma once
 
 #include <vector>
@@ -27,7 +27,7 @@ struct InterfaceLoad {
 
 class TieSecondOrder {
  public:
-  /// Keeps references to all arguments.
+  /// The object keeps references to all arguments.
   TieSecondOrder(const Solid& solid, const Ties& ties, const Basis& basis);
 
   /// Adds the terms of all interfaces to the geometric stiffness of one field.
@@ -46,7 +46,7 @@ class TieSecondOrder {
   const Solid& solid_;
   const Ties& ties_;
   std::vector<Eigen::MatrixXd> rotations_;
-  std::vector<Eigen::MatrixXd> deformations_;  ///< of average ties: rows D_00 D_10 D_20 D_01 .. (9,n)
+  std::vector<Eigen::MatrixXd> deformations_;  ///< for average ties: rows D_00 D_10 D_20 D_01 .. (9,n)
 };
 
 }  // namespace bielle::reduce

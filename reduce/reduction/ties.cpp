@@ -33,13 +33,13 @@ void add_column(Triplets& entries, int node, std::size_t column, const Eigen::Ve
 
 std::string place(const Eigen::Vector3d& x) { return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", x.x(), x.y(), x.z()); }
 
-/// Motion of a point at `x` by direction `axis` of the interface.
+/// Displacement of a point at `x` for a unit motion in direction `axis` of the interface.
 Eigen::Vector3d carried(const Interface& interface, int axis, const Eigen::Vector3d& x) {
   const Eigen::Vector3d direction = interface.rotation.col(axis % 3);
   return axis < 3 ? direction : Eigen::Vector3d(skew(direction) * (x - interface.position));
 }
 
-/// Refuses points that are in no solid cell or belong to an earlier interface, and claims the others.
+/// Claims the points of an interface; refuses points that are in no solid cell or belong to an earlier interface.
 class Claims {
  public:
   explicit Claims(const Solid& solid) : solid_(solid), inside_(points_of_solid(solid)), owner_(solid.points(), -1) {}
@@ -79,7 +79,7 @@ class TieBuilder {
  public:
   explicit TieBuilder(const Solid& solid) : solid_(solid) { ties_.tied.assign(solid.points(), false); }
 
-  /// @param surface  of the request
+  /// @param surface  surface of the request
   void add(const InterfaceRequest& request, const SurfaceIntegrals& surface) {
     std::array<bool, 6> directions = request.kept;
     if (request.tie == Tie::free) {
@@ -134,7 +134,7 @@ class TieBuilder {
         {request.tie, std::move(nodes), request.tie == Tie::free ? SurfaceIntegrals{} : surface, request.located});
   }
 
-  /// The nodes move with a direction of the interface: one that is kept, or one that is released.
+  /// Makes the nodes move with a direction of the interface, which is kept or released.
   void carry(const Interface& interface, int axis, const std::vector<int>& nodes) {
     const bool is_kept = interface.kept[axis];
     for (const int node : nodes) {
@@ -144,7 +144,7 @@ class TieBuilder {
     }
   }
 
-  /// @param load  of each node, for the kept direction that comes next
+  /// @param load  load of each node, for the next kept direction
   void spread_over(const std::vector<int>& nodes, const Eigen::Matrix3Xd& load) {
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       add_column(spread_, nodes[k], ties_.averages.size(), load.col(static_cast<Eigen::Index>(k)));
@@ -165,7 +165,7 @@ Eigen::Matrix3d polar_moment(const SurfaceIntegrals& surface) {
 }
 
 Eigen::Matrix3Xd spread_unit_load(const SurfaceIntegrals& surface, const Interface& interface, int axis) {
-  // Force F on X acts as F on the centroid and the moment (X - X_c) x F; a moment is spread as J^-1 M x r.
+  // Force F on X acts as F on the centroid and the moment (X - X_c) x F; a moment is distributed as J^-1 M x r.
   const Eigen::Vector3d direction = interface.rotation.col(axis % 3);
   const Eigen::Vector3d force = axis < 3 ? direction : Eigen::Vector3d::Zero();
   const Eigen::Vector3d moment =

@@ -1,13 +1,13 @@
-// How the nodes of the interfaces' surfaces follow the interface nodes.
+// Ties between the nodes of the interfaces' surfaces and the interface nodes.
 //
 // rigid    u_s = R d + (R theta) x (X_s - X): the nodes s of the surface are carried, their freedoms disappear.
 // average  d and theta are those of the rigid motion nearest to the surface's displacement: with r from the centroid,
 //          u_c = int u dA / A,  theta_b = J^-1 int r x u dA,  J = int (r.r I - r r^T) dA,
 //          R d = u_c + theta_b x (X - X_c),  R theta = theta_b: conditions C u = q on nodes that stay free, and a force
 //          on the interface is spread over the surface by C^T.
-// free     every node of the surface is an interface of its own with its three translations.
-// R: interface's axes to body axes, X: interface node. Directions that are not kept do not hold the body: those of a
-// rigid tie move with it as unknowns of its inside ("released"), those of an average are ignored.
+// free every node of the surface is an interface of its own with its three translations. R: interface's axes to body
+// axes, X: interface node. Directions that are not kept do not hold the body: for a rigid tie they are unknowns of its
+// inside ("released"), for an average tie they are ignored.
 #pragma once
 
 #include <optional>
@@ -31,16 +31,16 @@ struct Direction {
   int axis;
 };
 
-/// The surface that one interface node is tied to.
+/// The surface that is tied to one interface node.
 struct TiedSurface {
   Tie tie;
   std::vector<int> nodes;
-  SurfaceIntegrals integrals;  ///< of rigid and average ties
+  SurfaceIntegrals integrals;  ///< integrals of the surfaces of rigid and average ties
   std::string located;
 };
 
-/// All ties of a body. `b` counts the kept directions, the order of the superelement's coordinates; columns of
-/// directions that a matrix does not concern are zero.
+/// All ties of a body. `b` counts the kept directions in the order of the superelement's coordinates; columns of
+/// directions for which a matrix is not defined are zero.
 struct Ties {
   std::vector<Interface> interfaces;
   std::vector<TiedSurface> surfaces;  ///< one for each interface
@@ -56,18 +56,18 @@ struct Ties {
 /// J = int (r.r I - r r^T) dA of a surface about its centroid [m^4].
 Eigen::Matrix3d polar_moment(const SurfaceIntegrals& surface);
 
-/// C^T of an average tie for one direction of the interface: the force that each node of the surface gets from a unit
-/// load on it. Its transposed gives the interface's motion as the surface's mean.
+/// C^T of an average tie for one direction of the interface: the force on each node of the surface for a unit load on
+/// it. Its transpose gives the interface's motion as the surface's mean.
 /// @param axis  x y z rx ry rz in the interface's axes
 Eigen::Matrix3Xd spread_unit_load(const SurfaceIntegrals& surface, const Interface& interface, int axis);
 
-/// An arm of a hundred times the body makes its matrices worthless, and is a slip in the unit.
-/// @param position  of the node that follows the surface; default: its centroid @throws InputError
+/// An arm of a hundred times the body makes the matrices useless, and is probably a wrong unit.
+/// @param position  position of the node that follows the surface; default: its centroid @throws InputError
 void check_position(const std::optional<Eigen::Vector3d>& position, const SurfaceIntegrals& surface, const Mesh& mesh);
 
-/// @throws InputError, with the place of the request before it: no interfaces at all, a surface that the mesh has not,
-///         points outside the solid, two interfaces that share points, no direction kept, two interfaces of one name,
-///         an interface node far away from the body
+/// @throws InputError, with the place of the request before it: no interfaces at all, a surface that does not exist in
+///         the mesh, points outside the solid, two interfaces that share points, no direction kept, two interfaces of
+///         the same name, an interface node far from the body
 Ties make_ties(const Solid& solid, const std::vector<InterfaceRequest>& requests);
 
 }  // namespace bielle::reduce

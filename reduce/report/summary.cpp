@@ -14,7 +14,7 @@ namespace {
 constexpr Eigen::Index shown_modes = 40, shown_free = 12, shown_interfaces = 20;
 constexpr std::size_t shown_points = 20;
 
-/// Rounding residue relative to the largest component reads as zero.
+/// Rounding errors relative to the largest component are shown as zero.
 std::string place(const Eigen::Vector3d& x) {
   const double least = 1e-12 * x.cwiseAbs().maxCoeff();
   const auto clean = [&](double value) { return std::abs(value) < least ? 0.0 : value; };
@@ -130,8 +130,8 @@ std::string points_of(const Superelement& body) {
   return result;
 }
 
-/// Block Lanczos takes 0.57 to 0.67 of ARPACK's time, as measured (tests/performance/README.md). It is said where that
-/// would save more than a quarter of the whole. ARPACK never saves that much.
+/// Block Lanczos takes 0.57 to 0.67 of ARPACK's time, as measured (tests/performance/README.md). The other method is
+/// recommended if it would save more than a quarter of the whole time. ARPACK never saves that much.
 std::string other_method(const std::string& method, double modes, double total) {
   constexpr double saved = 0.35, worth_saying = 0.25;
   if (method != "ARPACK" || saved * modes <= worth_saying * total) return "";

@@ -1,4 +1,4 @@
-// What bielle-reduce prints about a body on standard output.
+// The report about a body that bielle-reduce prints on standard output.
 #pragma once
 
 #include <string>
@@ -10,13 +10,13 @@
 namespace bielle::reduce {
 
 /// Interfaces, mass properties, fixed-boundary modes with their effective masses, residual vectors, free-free
-/// frequencies, load patterns, points and what can be recovered.
+/// frequencies, load patterns, points and recoverable fields.
 std::string describe(const Superelement& body);
 
-/// One line for each check with its verdict.
+/// One line for each check with its result.
 std::string describe(const std::vector<Check>& checks);
 
-/// What the reduction cost: factorisation, solutions, time and memory of each phase.
+/// The cost of the reduction: factorisation, solutions, time and memory of each phase.
 std::string describe(const ReductionReport& report, const std::vector<PhaseReport>& phases);
 
 }  // namespace bielle::reduce

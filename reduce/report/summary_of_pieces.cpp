@@ -39,7 +39,7 @@ std::string pieces_of(const CutBody& body) {
   return result;
 }
 
-/// Whether a cut lies in its plane, to what a mesh generator's coordinates are worth.
+/// Tells whether a cut lies in its plane, within the accuracy of a mesh generator's coordinates.
 bool lies_in_plane(const CutSurface& cut) { return cut.distance <= 1e-6 * std::sqrt(cut.area); }
 
 std::string cuts_of(const CutBody& body) {
@@ -54,7 +54,7 @@ std::string cuts_of(const CutBody& body) {
   return result;
 }
 
-/// "0.3", with two digits that say something
+/// "0.3", with two significant digits
 std::string percent(double ratio) { return fmt::format("{:.2g}", 100 * std::abs(ratio - 1)); }
 
 std::string stiffness_effect(const std::vector<double>& ratios) {

@@ -1,4 +1,4 @@
-// What bielle-reduce prints about a body in pieces.
+// The report about a body in pieces that bielle-reduce prints.
 #pragma once
 
 #include <string>
@@ -7,10 +7,11 @@
 
 namespace bielle::reduce {
 
-/// Pieces, cuts and where these follow faces of elements, frequencies of all together, what the cuts do to the body.
+/// Pieces, cuts and the distance of the cuts from their planes, frequencies of all pieces together, effect of the cuts
+/// on the body.
 std::string describe(const CutBody& body);
 
-/// "the cuts raise the first free frequency by 0.3 %"; empty when the body was not compared with the uncut one.
+/// "the cuts raise the first free frequency by 0.3 %"; empty if the body was not compared with the uncut one.
 std::string describe_effect(const CutBody& body);
 
 }  // namespace bielle::reduce

@@ -14,7 +14,8 @@ namespace bielle::reduce {
 
 namespace {
 
-constexpr double good_modes = 0.01, good_mesh = 0.02;  // what modes left out, and the mesh, may make of a frequency
+constexpr double good_modes = 0.01, good_mesh = 0.02;  // allowed relative errors of a frequency because of omitted
+                                                       // modes and because of the mesh
 constexpr double good_stress = 0.15;                   // relative, energy norm, under most loads
 constexpr double small_stiffening = 0.02, good_cuts = 0.02;
 constexpr double thin = 0.2;           // share of the surface
@@ -32,7 +33,7 @@ std::string hertz(double frequency) {
   return frequency < 1000 ? fmt::format("{:.4g} Hz", frequency) : fmt::format("{:.0f} Hz", frequency);
 }
 
-/// "0.042 %", "3.1 %", "14 %": two digits; estimates say nothing of less than 0.01 %.
+/// "0.042 %", "3.1 %", "14 %": two digits; estimates are not meaningful below 0.01 %.
 std::string as_percent(double part) { return fmt::format("{:.2g} %", std::max(100 * part, 0.01)); }
 
 std::string in_percent(double least, double most) {
@@ -40,20 +41,20 @@ std::string in_percent(double least, double most) {
   return low == high ? low : fmt::format("{} to {}", low.substr(0, low.size() - 2), high);
 }
 
-/// Three digits of a frequency that is asked for, rounded up.
+/// Rounds a requested frequency up to three digits.
 std::string rounded_up(double frequency) {
   const double unit = std::pow(10, std::floor(std::log10(frequency)) - 1);
   return fmt::format("{:.6g}", unit * std::ceil(frequency / unit));
 }
 
-/// Up to which of the frequencies an error is small.
+/// The range of frequencies in which an error is small.
 struct Range {
   Eigen::Index good = 0;                                       // so many, the lowest
   bool open = false;                                           // all that were examined are good: it may go on
   double limit = 0;                                            // [Hz]; 0: not even the first
-  double first_bad = std::numeric_limits<double>::infinity();  // where it should be [Hz]
+  double first_bad = std::numeric_limits<double>::infinity();  // the first frequency with a large error [Hz]
 
-  /// Whether a body that is wanted up to a frequency (0: nobody said) falls short of it.
+  /// Tells whether a body that is wanted up to a frequency (0: not specified) does not reach it.
   bool falls_short(double wanted) const { return !open && (good == 0 || first_bad <= wanted); }
 };
 
@@ -66,7 +67,7 @@ Range range_of(const Adequacy& found, const Eigen::VectorXd& errors, double most
   return range;
 }
 
-/// Modes up to where would bring a frequency within bounds.
+/// The limit of the modes that would bring a frequency within bounds.
 std::string wider_modes(const Adequacy& found, double frequency) {
   return fmt::format("modes: {{below: {}}}",
                      rounded_up(std::max(beyond_wanted * frequency, 1.1 * std::max(found.next_mode, found.wanted))));
@@ -93,9 +94,9 @@ void judge_modes(const Superelement& body, const Adequacy& found, Findings& find
   findings.changes.emplace_back(wider_modes(found, std::max(range.first_bad, found.wanted)));
 }
 
-/// Share of the held body's answer to its spin about an axis of the body that the modes have.
+/// Share of the modes in the held body's answer to its rotation about an axis of the body.
 double answer_to_spin(const InertiaAnswer& answer, int axis) {
-  // omega x (omega x x) = -(x less its part along the axis)
+  // omega x (omega x x) = -(x minus its part along the axis)
   Eigen::VectorXd field = Eigen::VectorXd::Zero(12);
   for (int i = 0; i < 3; ++i)
     if (i != axis) field(4 * i + 1 + i) = -1;
@@ -197,7 +198,7 @@ std::string text(const std::string& first, const Findings& findings) {
   return result;
 }
 
-/// The stresses of all pieces together; frequencies of single pieces are nobody's.
+/// The stresses of all pieces together; frequencies of single pieces have no meaning for the body.
 Adequacy mesh_of_pieces(const CutBody& body) {
   Adequacy all;
   double worst = -1;
@@ -216,7 +217,7 @@ Adequacy mesh_of_pieces(const CutBody& body) {
   return all;
 }
 
-/// Frequencies of the pieces together against the uncut body's.
+/// Compares the frequencies of the pieces together with the uncut body's.
 void judge_cuts(const CutBody& body, Findings& findings) {
   const Eigen::VectorXd& uncut = body.effect.uncut_frequencies;
   if (uncut.size() == 0 || body.free_frequencies.size() == 0) return;

@@ -1,5 +1,5 @@
-// The verdict on a reduction, in an engineer's words: up to which frequency it is good, what the mesh and the ties do
-// to it, and what to change first.
+// The verdict on a reduction for engineers: the frequency up to which it is accurate, the errors due to the mesh and
+// the ties, and the most useful change.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace bielle::reduce {
 
-/// Some lines that begin with "verdict: "; empty when its reduction measured nothing.
+/// Lines that begin with "verdict: "; empty if the reduction measured nothing.
 std::string verdict(const Superelement& body);
 
-/// The same of a body in pieces: its mesh, and whether the pieces have the frequencies of the uncut body, where it was
+/// The verdict on a body in pieces: its mesh, and whether the pieces have the frequencies of the uncut body, if it was
 /// compared.
 std::string verdict(const CutBody& body);
 

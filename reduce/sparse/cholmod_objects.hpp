@@ -1,4 +1,4 @@
-// CHOLMOD with 64-bit integers: its settings and workspace, its objects with an owner each, and views of ours.
+// CHOLMOD with 64-bit integers: its settings and workspace, owners of its objects, and views of Bielle's matrices.
 //
 // Y. Chen, T. A. Davis, W. W. Hager, S. Rajamanickam, Algorithm 887: CHOLMOD, supernodal sparse Cholesky factorization
 // and update/downdate, ACM Trans. Math. Softw. 35 (2008) 22.
@@ -13,7 +13,7 @@
 
 namespace bielle {
 
-/// One thread's, at a time. It outlives the objects that were made with it.
+/// A workspace serves one thread at a time. It must outlive the objects that were made with it.
 class CholmodWorkspace {
  public:
   CholmodWorkspace();
@@ -23,8 +23,8 @@ class CholmodWorkspace {
 
   cholmod_common* operator->() { return &common_; }
   cholmod_common* get() { return &common_; }
-  /// @param work  what the last call did, "the ordering of a matrix"
-  /// @throws ComputationError when it failed; a matrix that is not positive definite is no failure
+  /// @param work  description of the last call, "the ordering of a matrix"
+  /// @throws ComputationError if it failed; a matrix that is not positive definite is not a failure
   void check(const std::string& work) const;
 
  private:
@@ -39,7 +39,7 @@ struct CholmodDeleter {
 using CholmodFactor = std::unique_ptr<cholmod_factor, CholmodDeleter>;
 using CholmodSparse = std::unique_ptr<cholmod_sparse, CholmodDeleter>;
 
-/// For CHOLMOD to read. @param values  nullptr: the pattern alone
+/// A view that CHOLMOD only reads. @param values  nullptr: the pattern alone
 cholmod_sparse cholmod_view(std::int64_t size, const std::int64_t* starts, const std::int64_t* rows,
                             const double* values);
 cholmod_sparse cholmod_view(const SymmetricMatrix& a);

@@ -9,7 +9,7 @@ namespace bielle {
 
 namespace {
 
-/// Pattern of the unknowns, the lower triangle by columns.
+/// Pattern of a matrix: the lower triangle by columns.
 struct Pattern {
   std::vector<std::int64_t> starts{0}, rows;
 
@@ -66,7 +66,7 @@ std::span<const std::int64_t> FactorStructure::order() const {
 std::int64_t FactorStructure::values() const { return static_cast<std::int64_t>(factor_->xsize); }
 
 double FactorStructure::bytes() const {
-  // Besides: the rows of the supernodes, one update of a supernode, and half a dozen lists of unknowns.
+  // Further memory: the rows of the supernodes, one update of a supernode, and six or so lists of unknowns.
   const double numbers = static_cast<double>(factor_->xsize + factor_->ssize + factor_->maxcsize + 6 * factor_->n);
   return 8 * numbers + 16 * static_cast<double>(entries_);
 }

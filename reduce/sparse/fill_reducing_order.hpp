@@ -1,5 +1,4 @@
-// In which order to eliminate, so that little fills in: nested dissection (METIS), or minimum degree (AMD) for small
-// graphs.
+// A fill-reducing elimination order: nested dissection (METIS), or minimum degree (AMD) for small graphs.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +8,8 @@
 
 namespace bielle {
 
-/// The blocks as they are eliminated. The same for the same graph, as long as no other thread calls std::rand, which
-/// METIS does.
+/// The blocks in the order of elimination. The order is reproducible for the same graph, as long as no other thread
+/// calls std::rand, which METIS does.
 /// @throws ComputationError when memory does not suffice
 std::vector<std::int64_t> fill_reducing_order(const BlockGraph& graph);
 

@@ -20,8 +20,8 @@ namespace bielle {
 
 namespace {
 
-/// Products of smaller factors are short, and CHOLMOD makes them one after the other: a second thread of BLAS mostly
-/// waits for its next one. On a busy machine two took 3.5 times as long as one at 1.8e10.
+/// Products of smaller factors are short, and CHOLMOD computes them one after the other, so that a second BLAS thread
+/// mostly waits. On a busy machine two threads took 3.5 times as long as one at 1.8e10.
 constexpr double worth_threads = 1e11;  // operations
 constexpr const char* of_numbers = "the factorisation of the stiffness matrix";
 
@@ -31,8 +31,8 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 /// The squares of the diagonal of L.
 struct Pivots {
-  std::int64_t unknown = -1;  ///< of the smallest relative to the diagonal of A
-  double relative = 1;        ///< how small
+  std::int64_t unknown = -1;  ///< unknown of the smallest pivot relative to the diagonal of A
+  double relative = 1;        ///< its ratio
   double smallest = std::numeric_limits<double>::infinity(), largest = 0;
 };
 
@@ -61,7 +61,8 @@ Pivots find_pivots(const cholmod_factor& factor, const Eigen::VectorXd& diagonal
   return result;
 }
 
-/// The machine would otherwise run out of memory minutes later, or end the process without a word.
+/// Refuses a factorisation that does not fit in memory: otherwise the machine would run out of memory minutes later, or
+/// end the process without a message.
 void refuse_what_does_not_fit(double estimate, std::int64_t unknowns) {
   const double free = free_memory_MB();
   if (estimate <= free) return;
@@ -71,7 +72,8 @@ void refuse_what_does_not_fit(double estimate, std::int64_t unknowns) {
       unknowns, estimate, free));
 }
 
-/// CHOLMOD shares some loops among four threads, however many processors there are; BLAS has its own.
+/// Prevents CHOLMOD from running some loops in four threads, whatever the number of processors; BLAS has its own
+/// threads.
 class NoThreadsOfCholmod {
  public:
   NoThreadsOfCholmod() : before_(omp_get_max_active_levels()) { omp_set_max_active_levels(0); }
@@ -94,7 +96,7 @@ class Solver {
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;
 
-  /// Some columns of X from those of B.
+  /// Computes some columns of X from those of B.
   void solve(cholmod_factor* factor, const Eigen::MatrixXd& b, Eigen::MatrixXd& x, Eigen::Index first,
              Eigen::Index count) {
     cholmod_dense right = view(const_cast<double*>(b.col(first).data()), b.rows(), count);
@@ -166,7 +168,7 @@ struct SymmetricFactor::Implementation {
       throw NotPositiveDefinite(static_cast<const std::int64_t*>(factor->Perm)[factor->minor]);
   }
 
-  /// The lower triangle of P A P^T.
+  /// Returns the lower triangle of P A P^T.
   CholmodSparse in_order(SymmetricMatrix a) {
     cholmod_sparse view = cholmod_view(a);
     auto* order = const_cast<std::int64_t*>(structure->order().data());
@@ -179,7 +181,7 @@ struct SymmetricFactor::Implementation {
   }
 
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const {
-    const std::lock_guard lock(guard);  // of the working memory
+    const std::lock_guard lock(guard);  // protects the working memory
     Eigen::MatrixXd x(b.rows(), b.cols());
     constexpr Eigen::Index most = 16;  // columns of a thread at a time: working memory stays small
     const auto sharing = std::min<Eigen::Index>(threads, b.cols());

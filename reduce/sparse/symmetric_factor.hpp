@@ -19,14 +19,14 @@ namespace bielle {
 class SymmetricFactor : public Factor {
  public:
   /// @param a             positive definite
-  /// @param block_starts  first unknown of each block, then `a.size`; empty: every unknown is its own block
+  /// @param block_starts  first unknown of each block, then `a.size`; if empty, every unknown is its own block
   /// @param threads       >= 1, for the factorisation and for solutions
-  /// @throws NotPositiveDefinite also when a pivot is so small (`singular_pivot`) that A is singular to
-  ///         working precision; ComputationError when memory does not suffice, as far as the
-  ///         symbolic factorisation tells before the numerical one starts
+  /// @throws NotPositiveDefinite also if a pivot is so small (`singular_pivot`) that A is singular to working
+  ///         precision; ComputationError if memory does not suffice, as far as the symbolic factorisation predicts
+  ///         before the numerical one
   explicit SymmetricFactor(const SymmetricMatrix& a, std::span<const std::int64_t> block_starts = {}, int threads = 1);
-  /// @param structure  made for the pattern of a, or one that holds it
-  /// @param a          given up as soon as CHOLMOD has it in its order
+  /// @param structure  made for the pattern of a, or for one that contains it
+  /// @param a          released as soon as CHOLMOD has a reordered copy
   SymmetricFactor(std::shared_ptr<const FactorStructure> structure, SymmetricMatrix a, int threads);
   SymmetricFactor(SymmetricFactor&&) noexcept;
   SymmetricFactor& operator=(SymmetricFactor&&) noexcept;

@@ -33,8 +33,8 @@ constexpr std::array<Product, widest> products{add_product_of<1>, add_product_of
 }  // namespace
 
 RowMatrix SymmetricMatrix::multiply(const RowMatrix& x, int threads) const {
-  // Threads take columns of x rather than of the matrix, so that no two write the same number and sums keep their
-  // order. Each writes into its own: threads that write to the same lines of the cache wait for each other.
+  // Threads divide the columns of x rather than the matrix, so that no two write the same number and sums keep their
+  // order. Each writes into its own memory, since threads that write to the same cache lines wait for each other.
   RowMatrix y(x.rows(), x.cols());
   const Eigen::Index parts =
       std::min(x.cols(), std::max<Eigen::Index>((x.cols() + widest - 1) / widest, std::max(1, threads)));

@@ -63,11 +63,11 @@ class LanczosIteration {
     return info_ != no_convergence && info_ != no_shift_left && converged() >= wanted_ ? End::converged
                                                                                        : End::not_converged;
   }
-  int directions() const { return parameters_[4]; }  ///< of the space, where there are no more
+  int directions() const { return parameters_[4]; }  ///< dimension of the space, if there are no more directions
   int converged() const { return parameters_[4]; }
   int restarts() const { return parameters_[2]; }
 
-  /// The pairs that were found, once it has run.
+  /// Returns the pairs that the iteration has found.
   void get(double shift, Eigenpairs& pairs) {
     std::vector<a_int> select(static_cast<std::size_t>(basis_));
     pairs.restarts = restarts();
@@ -96,11 +96,11 @@ class LanczosIteration {
   std::array<a_int, 11> parameters_{}, pointers_{};
 };
 
-/// @param known  pairs to be kept out of the search (size, k), M-orthonormal; may be empty
-/// @param seed   of the start vector
+/// @param known  pairs that are excluded from the search (size, k), M-orthonormal; may be empty
+/// @param seed   seed of the start vector
 Eigenpairs single_search(const ShiftInvertProblem& problem, int count, const EigenpairOptions& options,
                          const Eigen::MatrixXd& known, int seed) {
-  // Enough vectors that most problems converge in one sweep: solutions are expensive, vectors are not.
+  // The number of vectors is such that most problems converge in one sweep: solutions are expensive, vectors are not.
   const auto sensible =
       static_cast<int>(std::min<Eigen::Index>(problem.size, 2 * count + (known.cols() > 0 ? 12 : 20)));
   const auto larger = static_cast<int>(std::min<Eigen::Index>(problem.size, 2 * sensible));
@@ -136,9 +136,9 @@ Eigenpairs single_search(const ShiftInvertProblem& problem, int count, const Eig
   }
 }
 
-/// A Krylov space grown from one vector holds one vector of each eigenspace but for rounding: of a multiple eigenvalue
-/// (symmetric bodies) a copy may be missed while others beyond it converge. A search with the found pairs kept out
-/// shows what was missed; what is better than the worst found takes its place.
+/// Up to rounding, a Krylov space of one start vector contains one vector of each eigenspace: a copy of a multiple
+/// eigenvalue (symmetric bodies) may be missed while others beyond it converge. A second search that excludes the found
+/// pairs reveals missed ones; a pair that is better than the worst found one replaces it.
 void add_missed_copies(const ShiftInvertProblem& problem, const EigenpairOptions& options, Eigenpairs& pairs) {
   const Eigen::Index count = pairs.values.size();
   constexpr int batch = 3, rounds = 10;
@@ -149,7 +149,7 @@ void add_missed_copies(const ShiftInvertProblem& problem, const EigenpairOptions
     search.on_solve = [&](int solves) {
       if (options.on_solve) options.on_solve(pairs.solves + solves);
     };
-    // To see that nothing is missing takes little accuracy. What may be missing is then computed in full.
+    // Little accuracy is needed to see that nothing is missing. Possibly missed pairs are then computed accurately.
     search.tolerance = std::max(1e-3, options.tolerance);
     const Eigenpairs next = single_search(problem, 1, search, pairs.vectors, 2 * round + 2);
     pairs.solves += next.solves;
@@ -177,8 +177,8 @@ void add_missed_copies(const ShiftInvertProblem& problem, const EigenpairOptions
 }  // namespace
 
 Eigenpairs arpack_eigenpairs(const ShiftInvertProblem& problem, int count, const EigenpairOptions& options) {
-  // ARPACK's products of vectors are short: a second BLAS thread would mostly wait, by spinning, and take its core from
-  // the products with the mass.
+  // ARPACK's products of vectors are short: a second BLAS thread would mostly spin and occupy a core that the products
+  // with the mass need.
   const BlasThreads one(1);
   Eigenpairs pairs = single_search(problem, count, options, {}, 1);
   add_missed_copies(problem, options, pairs);

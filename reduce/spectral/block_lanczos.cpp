@@ -19,13 +19,13 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Eigenvalues so close to each other, relatively, may be copies of one.
+/// Eigenvalues with a relative difference below this may be copies of one.
 constexpr double close = 1e-3;
-/// To see that nothing is missing takes little accuracy.
+/// Little accuracy is needed to see that nothing is missing.
 constexpr double look = 1e-3;
-/// Closer than this to the worst eigenvalue found, another one is no better.
+/// An eigenvalue within this relative distance of the worst found one is no improvement.
 constexpr double equal = 1e-9;
-/// Of the largest |nu|: less is none, as of directions in which S M vanishes.
+/// A |nu| below this share of the largest counts as zero, as for directions in which S M vanishes.
 constexpr double vanishing = 1e-13;
 
 Index block_columns(const EigenpairOptions& options, Index size) {
@@ -73,7 +73,7 @@ class BlockLanczos {
     return k;
   }
 
-  /// Another block in the space. False when there are no more directions.
+  /// Adds another block to the space. Returns false if there are no more directions.
   bool grow() {
     if (basis_.front() == 0) {
       basis_.start(std::min(block_, basis_.room()));
@@ -84,8 +84,8 @@ class BlockLanczos {
     return true;
   }
 
-  /// When to look again, by how many more had converged since the last time; dense eigenvalues of large bases take
-  /// their time.
+  /// Size at which convergence is tested again, depending on the number of pairs that have converged since the last
+  /// test; dense eigenvalues of large bases are costly.
   Index next_test(Index found) {
     const Index size = basis_.size(), grown = size - tested_size_, more = found - tested_found_;
     const Index most = size / 12;
@@ -107,7 +107,7 @@ class BlockLanczos {
     basis_.restart(ritz, std::clamp<Index>((ritz.size() + count_) / 2, 1, most));
   }
 
-  /// The first `count`, which are locked; fewer where there are no more.
+  /// Finds and locks the first `count` pairs; fewer if there are no more.
   void find() {
     Index test_at = count_ + count_ / 2;
     while (grow()) {
@@ -119,12 +119,12 @@ class BlockLanczos {
       test_at = next_test(found);
     }
     if (basis_.size() == 0) return;
-    const RitzPairs ritz = basis_.ritz();  // of all there is
+    const RitzPairs ritz = basis_.ritz();  // pairs of the whole space
     const Index exist = (ritz.values.array().abs() > vanishing * ritz.values.cwiseAbs().maxCoeff()).count();
     lock(ritz, std::min(count_, exist));
   }
 
-  /// As many eigenvalues next to each other as there were random vectors?
+  /// Tells whether there are as many adjacent, nearly equal eigenvalues as there were random vectors.
   bool may_miss_copies() const {
     if (basis_.locked() < count_) return false;
     VectorXd values = basis_.locked_values();
@@ -137,8 +137,8 @@ class BlockLanczos {
     return longest >= starts_;
   }
 
-  /// Searches for more than what is locked. What is better than the worst of it takes its place. False when there is
-  /// nothing.
+  /// Searches for pairs besides the locked ones. A pair that is better than the worst locked one replaces it. Returns
+  /// false if there is none.
   bool find_missed() {
     const double worst = basis_.locked_values().cwiseAbs().minCoeff();
     while (true) {
@@ -158,7 +158,7 @@ class BlockLanczos {
     }
   }
 
-  /// Locks the best `count` of what is locked and the first `found` Ritz vectors.
+  /// Locks the best `count` of the locked pairs and the first `found` Ritz vectors.
   void lock(const RitzPairs& ritz, Index found) {
     const Index old = basis_.locked();
     VectorXd values(old + found);
@@ -177,7 +177,8 @@ class BlockLanczos {
   const EigenpairOptions& options_;
   Eigenpairs result_;
   Index count_, block_;
-  Index tested_size_ = 0, tested_found_ = 0;  // of the basis at the last test, and how many had converged
+  Index tested_size_ = 0, tested_found_ = 0;  // size of the basis at the last test, and number of pairs that had
+                                              // converged
   Index starts_ = 0;                          // random vectors that the search has started from
   KrylovBasis basis_;
 };

@@ -18,7 +18,7 @@ namespace bielle {
 
 namespace {
 
-/// Ascending eigenvalues, vectors with their leading component positive.
+/// Sorts by ascending eigenvalue and makes the leading components of the vectors positive.
 void put_in_order(Eigenpairs& pairs) {
   std::vector<Eigen::Index> order(pairs.values.size());
   std::iota(order.begin(), order.end(), 0);
@@ -31,9 +31,10 @@ void put_in_order(Eigenpairs& pairs) {
     if (leading_component(column) < 0) column = -column;
 }
 
-/// Normalises the vectors, measures what the operator makes of them, and takes that: a step of inverse iteration, which
-/// leaves less of other eigenvectors, and nothing of directions without mass. Eigenvalues are Rayleigh's quotients.
-/// @param most  columns at a time: a few blocks cost as much as one, and need less memory
+/// Normalises the vectors, measures their residuals under the operator, and replaces them by its results: a step of
+/// inverse iteration, which reduces the parts of other eigenvectors and removes those of directions without mass.
+/// Eigenvalues are Rayleigh's quotients.
+/// @param most  columns at a time: a few blocks cost as much as one and need less memory
 /// @returns V^T M V of the new vectors V, upper triangle
 Eigen::MatrixXd polish(const ShiftInvertProblem& problem, Eigen::Index most, int threads, Eigenpairs& pairs) {
   const Eigen::Index count = pairs.values.size();
@@ -69,7 +70,7 @@ Eigen::MatrixXd polish(const ShiftInvertProblem& problem, Eigen::Index most, int
   return gram;
 }
 
-/// What rounding in the solutions left of others in each vector is taken out: V <- V (I - (V^T M V - I) / 2).
+/// Removes from each vector the parts of others that rounding in the solutions left: V <- V (I - (V^T M V - I) / 2).
 /// @param gram  V^T M V, its upper triangle is read
 void make_orthonormal(const Eigen::MatrixXd& gram, Eigen::MatrixXd& vectors, int threads) {
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(gram.rows(), gram.cols());
@@ -77,8 +78,8 @@ void make_orthonormal(const Eigen::MatrixXd& gram, Eigen::MatrixXd& vectors, int
   combine_columns(vectors, identity - (whole - identity) / 2, threads);
 }
 
-/// Small problems, densely: S = (K - shift M)^-1 is symmetric, and S M phi = nu phi with nu = 1 / (lambda - shift)
-/// becomes M^1/2 S M^1/2 y = nu y, phi = S M^1/2 y / nu. Directions in which S vanishes (constraints) have no
+/// Small problems are solved densely: S = (K - shift M)^-1 is symmetric, and S M phi = nu phi with nu = 1 / (lambda -
+/// shift) becomes M^1/2 S M^1/2 y = nu y, phi = S M^1/2 y / nu. Directions in which S vanishes (constraints) have no
 /// eigenvalue.
 Eigenpairs dense_eigenpairs(const ShiftInvertProblem& problem, int count) {
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(problem.size, problem.size);
@@ -129,8 +130,8 @@ EigenMethod sensible_method(Eigen::Index size, int count) {
 }
 
 Eigenpairs shift_invert_eigenpairs(const ShiftInvertProblem& problem, int count, const EigenpairOptions& options) {
-  // Below the first size the vectors of an iteration would fill the space anyway; above the second dense matrices cost
-  // too much.
+  // Below the first size the vectors of an iteration would span the space anyway; above the second dense matrices are
+  // too expensive.
   constexpr Eigen::Index small = 60, large = 3000;
   const Eigen::Index n = problem.size;
   if (n > large && count >= n) {
@@ -139,7 +140,7 @@ Eigenpairs shift_invert_eigenpairs(const ShiftInvertProblem& problem, int count,
   }
   const bool dense = n <= small || (n <= large && 2 * static_cast<Eigen::Index>(count) + 20 > n);
   Eigenpairs pairs = dense ? dense_eigenpairs(problem, count) : iterated(problem, count, options);
-  // Who iterates elsewhere has little memory here.
+  // An iteration on other machines leaves little memory on this one.
   const Eigen::MatrixXd gram = polish(problem, options.iteration ? 8 : 64, options.threads, pairs);
   make_orthonormal(gram, pairs.vectors, options.threads);
   put_in_order(pairs);
@@ -161,7 +162,7 @@ Eigenpairs eigenpairs_below(const std::function<Eigenpairs(int count)>& search, 
       pairs.residuals.conservativeResize(below);
       return pairs;
     }
-    // Frequencies of a solid are spaced evenly or denser: extrapolate what was found, and a little more.
+    // Frequencies of a solid are spaced evenly or denser: the found ones are extrapolated, with a small margin.
     const double ratio = std::sqrt(std::max(1.0, (limit - problem.shift) / (pairs.values(found - 1) - problem.shift)));
     const double more = std::min<double>(all, std::max(count + 10.0, std::ceil(1.2 * ratio * count) + 5));
     if (more > most) throw InputError(fmt::format("about {:.0f} modes seem to lie below it", ratio * count));

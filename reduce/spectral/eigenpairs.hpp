@@ -1,9 +1,9 @@
-// Eigenpairs of K phi = lambda M phi nearest to a shift: by ARPACK with single vectors (arpack_eigenpairs.hpp), by a
-// block Lanczos method of our own where solutions are expensive (block_lanczos.hpp), or densely where the problem is
-// small.
+// Eigenpairs of K phi = lambda M phi nearest to a shift: by ARPACK with single vectors (arpack_eigenpairs.hpp), by
+// Bielle's own block Lanczos method if solutions are expensive (block_lanczos.hpp), or by dense algebra if the problem
+// is small.
 //
-// The caller gives the solution with K - shift M and the product with M, so that one factorisation serves here and
-// elsewhere, and constraints may be worked into the solution.
+// The caller provides the solution with K - shift M and the product with M, so that one factorisation serves several
+// purposes, and the solution may include constraints.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@
 
 namespace bielle {
 
-/// The pencil K - lambda M, seen through its shift-inverted operator. M is symmetric, positive semi-definite, and
+/// The pencil K - lambda M, represented by its shift-inverted operator. M is symmetric, positive semi-definite, and
 /// positive definite on the range of `solve`.
 struct ShiftInvertProblem {
   Eigen::Index size = 0;
@@ -27,13 +27,14 @@ struct ShiftInvertProblem {
 
 enum class EigenMethod { automatic, arpack, block_lanczos };
 
-/// `automatic` stands for this: ARPACK for problems of up to 100,000 unknowns and 60 pairs and one more.
+/// The method for `automatic`: ARPACK for problems of up to 100,000 unknowns and up to 60 pairs and one more.
 EigenMethod sensible_method(Eigen::Index size, int count);
 
 struct Eigenpairs;
 struct EigenpairOptions;
 
-/// Finds at least the `count` eigenpairs nearest to the shift; order, norm and residuals are left to who asked.
+/// Finds at least the `count` eigenpairs nearest to the shift; the caller sorts and normalises them and computes the
+/// residuals.
 using EigenIteration =
     std::function<Eigenpairs(const ShiftInvertProblem& problem, int count, const EigenpairOptions& options)>;
 
@@ -45,8 +46,8 @@ struct EigenpairOptions {
   int restarts = 300;  ///< before giving up
   int block = 0;       ///< columns of a block; 0: as many as have proved best
   int basis = 0;       ///< columns that the block method holds before it restarts; 0: as many as have proved best
-  int threads = 1;     ///< of the block method's own products
-  /// Called after every solution with the number of columns solved for so far; may show progress.
+  int threads = 1;     ///< threads for the block method's own products
+  /// Called after every solution with the number of columns solved so far; it may show progress.
   std::function<void(int solves)> on_solve;
 };
 
@@ -58,23 +59,24 @@ struct Eigenpairs {
   /// eigenvalue of the pencil lies within this, relative to lambda - shift.
   Eigen::VectorXd residuals;
   std::string method;  ///< in words: "ARPACK", "block Lanczos", "dense algebra"
-  /// Of a search up to a limit: the least eigenvalue beyond it, where one was found.
+  /// For a search up to a limit: the least eigenvalue beyond it, if one was found.
   std::optional<double> next;
   int solves = 0;    ///< columns that the iteration solved for
   int sweeps = 0;    ///< calls of `solve` that it took: each reads the factor once
-  int restarts = 0;  ///< of the iteration
+  int restarts = 0;  ///< restarts of the iteration
 };
 
 /// The `count` eigenpairs nearest to the shift.
 /// @param count  1 <= count; small problems (count > size / 2 or so) are solved densely
-/// @throws ComputationError when the iteration does not converge: how many pairs did, of how many
+/// @throws ComputationError if the iteration does not converge: the number of converged pairs and of requested ones
 Eigenpairs shift_invert_eigenpairs(const ShiftInvertProblem& problem, int count, const EigenpairOptions& options = {});
 
-/// All eigenpairs with eigenvalues in (shift, limit], found by asking for growing counts.
-/// @param search       as shift_invert_eigenpairs: the `count` nearest to the shift, of that problem
-/// @param first_guess  how many to ask for first
+/// All eigenpairs with eigenvalues in (shift, limit], found by requesting growing counts.
+/// @param search       as shift_invert_eigenpairs: the `count` pairs of that problem nearest to the shift
+/// @param first_guess  the first count
 /// @param most         more than this are not sought
-/// @throws InputError when there are more than `most`, or seem to be from the spacing of those found: about how many
+/// @throws InputError if there are more than `most`, or seem to be from the spacing of those found: their approximate
+/// number
 Eigenpairs eigenpairs_below(const std::function<Eigenpairs(int count)>& search, const ShiftInvertProblem& problem,
                             double limit, int first_guess = 10, int most = 1000000);
 

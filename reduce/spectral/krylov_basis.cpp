@@ -17,15 +17,15 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double rounding = 2.2e-16;
-/// By so much rounding may grow until a block is looked at again.
+/// Factor by which rounding errors may grow before a block is orthogonalised again.
 constexpr double harmless = 100;
 constexpr int most_passes = 10;
-/// Images shorter than this part of the largest |nu| are rounding.
+/// Images shorter than this share of the largest |nu| are rounding errors.
 constexpr double negligible_image = 1e-14;
-/// Of random vectors, relative to what they were before they were made orthogonal to the basis and each other.
+/// Bound for random vectors, relative to their length before they were made orthogonal to the basis and each other.
 constexpr double negligible_start = 1e-11;
 
-/// Y V D^-1/2 is orthonormal as far as the Gram matrix V D V^T of Y can tell, and Y = (Y V D^-1/2) (D^1/2 V^T).
+/// Y V D^-1/2 is orthonormal as far as the Gram matrix V D V^T of Y determines it, and Y = (Y V D^-1/2) (D^1/2 V^T).
 struct Orthonormalisation {
   MatrixXd transform;    // V D^-1/2
   MatrixXd triangle;     // D^1/2 V^T
@@ -35,7 +35,7 @@ struct Orthonormalisation {
 Orthonormalisation orthonormalise(const MatrixXd& gram) {
   const Index width = gram.cols();
   const SymmetricEigenpairs pairs = symmetric_eigenpairs((gram + gram.transpose()) / 2);
-  // What is smaller is rounding: it is scaled up by a little less, and looked at again.
+  // Smaller values are rounding errors: these directions are scaled up by slightly less and orthogonalised again.
   const double least = static_cast<double>(width) * rounding * pairs.values(width - 1);
   const VectorXd roots = pairs.values.cwiseMax(least).cwiseSqrt();
   return {pairs.vectors * roots.cwiseInverse().asDiagonal(), roots.asDiagonal() * pairs.vectors.transpose(),
@@ -91,7 +91,7 @@ void KrylovBasis::set_front(Block block, MatrixXd removed, double negligible) {
     block.coupling = MatrixXd(block.coupling(kept, Eigen::all));
     const MatrixXd transform = by.transform(Eigen::all, kept);
     block.transform(transform, threads_);
-    // Short directions were scaled up, and what rounding left of Q and of each other in them.
+    // Short directions were scaled up, and so were the remainders of Q and of each other in them.
     const MatrixXd scaled_up = removed * transform;
     if (by.condition < harmless && scaled_up.norm() < harmless) break;
     removed = remove_basis(block.vectors, block.mass_vectors);
@@ -112,7 +112,7 @@ void KrylovBasis::start(Index width) {
   block.vectors = random_.draw(width);
   block.mass_vectors = problem_.multiply_mass(block.vectors);
   if (size_ > 0) remove_basis(block.vectors, block.mass_vectors);
-  // In the range of S M, where M is definite.
+  // The vectors are brought into the range of S M, where M is definite.
   block.vectors = solve(block.mass_vectors);
   block.mass_vectors = problem_.multiply_mass(block.vectors);
   const double length = std::sqrt(block.vectors.cwiseProduct(block.mass_vectors).colwise().sum().maxCoeff());

@@ -1,13 +1,14 @@
-// A block Krylov space of the operator S M, S = (K - shift M)^-1, orthonormal in M: what block Lanczos methods grow.
+// A block Krylov space of the operator S M, S = (K - shift M)^-1, orthonormal in M, for block Lanczos methods.
 //
 //     S M Q = Q H + F R,   H symmetric,   Q^T M Q = I,   Q^T M F = 0,   F^T M F = I.
 //
-// Q are the vectors whose images are known, F the front: those to be multiplied next. After a restart Q holds Ritz
-// vectors, and H has an arrow that couples them with the front (thick restart: K. Wu, H. Simon, SIAM J. Matrix Anal.
-// Appl. 22 (2000) 602). Each image is made orthogonal twice: once by the recurrence, against the vectors with which it
-// is coupled, and once more against all, so that M Q need not be kept. Blocks are made orthonormal by the eigenvectors
-// of their Gram matrix (SVQB: A. Stathopoulos, K. Wu, SIAM J. Sci. Comput. 23 (2002) 2165), again and again until that
-// is well conditioned; directions in which nothing but rounding is left are dropped, and the front becomes narrower.
+// Q contains the vectors whose images are known, F (the front) those to be multiplied next. After a restart Q holds
+// Ritz vectors, and H has an arrow that couples them with the front (thick restart: K. Wu, H. Simon, SIAM J. Matrix
+// Anal. Appl. 22 (2000) 602). Each image is made orthogonal twice: by the recurrence, against the vectors with which it
+// is coupled, and then against all vectors, so that M Q need not be stored. Blocks are made orthonormal by the
+// eigenvectors of their Gram matrix (SVQB: A. Stathopoulos, K. Wu, SIAM J. Sci. Comput. 23 (2002) 2165), repeatedly
+// until it is well conditioned; directions in which only rounding errors are left are dropped, and the front becomes
+// narrower.
 #pragma once
 
 #include <functional>
@@ -31,32 +32,32 @@ struct RitzPairs {
 
 class KrylovBasis {
  public:
-  /// @param capacity  of Q and F together, >= 2
-  /// @param on_solve  is told of the columns of each solution
+  /// @param capacity  number of columns of Q and F together, >= 2
+  /// @param on_solve  called with the number of columns of each solution
   KrylovBasis(const ShiftInvertProblem& problem, Eigen::Index capacity, int threads,
               std::function<void(Eigen::Index columns)> on_solve);
 
-  Eigen::Index size() const { return size_; }      ///< of Q
+  Eigen::Index size() const { return size_; }      ///< number of columns of Q
   Eigen::Index front() const { return front_; }    ///< columns of F; 0 before the start, and when Q is invariant
   Eigen::Index locked() const { return locked_; }  ///< the first columns of Q: converged eigenvectors
   Eigen::Index room() const { return vectors_.cols() - size_ - front_; }
 
-  /// A front of random vectors, coupled with nothing: the first one, or a new one where Q is invariant. Narrower, or
-  /// empty, when the space has no more directions.
+  /// Makes a front of random vectors that is not coupled with Q: the first front, or a new one if Q is invariant. It is
+  /// narrower, or empty, if the space has no more directions.
   void start(Eigen::Index width);
-  /// F becomes part of Q, and what its image adds to Q the new front. There must be room for it.
+  /// Appends F to Q; the new front is the part of its image outside Q. There must be capacity for it.
   void expand();
   RitzPairs ritz() const;
-  /// Q shrinks to the locked vectors and the first Ritz vectors, coupled with the front as before.
+  /// Reduces Q to the locked vectors and the first Ritz vectors, which stay coupled with the front.
   void restart(const RitzPairs& ritz, Eigen::Index kept);
-  /// Q becomes Q W, all of it locked, and the front is dropped. @param values  nu of each column of Q W
+  /// Replaces Q by Q W, all of it locked, and drops the front. @param values  nu of each column of Q W
   void lock(const Eigen::MatrixXd& W, const Eigen::VectorXd& values);
 
   Eigen::VectorXd locked_values() const { return projected_.diagonal().head(locked_); }
   Eigen::MatrixXd take_locked_vectors();  ///< the basis is of no use afterwards
 
  private:
-  /// Vectors Y on their way to become orthonormal: what there was to begin with is Y `coupling`.
+  /// Vectors Y during orthonormalisation; the original block is Y `coupling`.
   struct Block {
     Eigen::MatrixXd vectors, mass_vectors;  // Y, M Y
     Eigen::MatrixXd coupling;
@@ -64,10 +65,10 @@ class KrylovBasis {
   };
 
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b);
-  /// Y is made orthogonal to Q, M Y computed anew; returns Q^T M Y as it was.
+  /// Makes Y orthogonal to Q and computes M Y anew; returns the previous Q^T M Y.
   Eigen::MatrixXd remove_basis(Eigen::MatrixXd& Y, Eigen::MatrixXd& mass_y) const;
-  /// The front becomes an orthonormal basis of a block from which Q has been removed once.
-  /// @param removed     what of Q was removed
+  /// Makes the front an orthonormal basis of a block from which Q has been removed once.
+  /// @param removed     the removed components along Q
   /// @param negligible  directions with less coupling than this are dropped
   void set_front(Block block, Eigen::MatrixXd removed, double negligible);
   void put_front(const Eigen::MatrixXd& vectors);

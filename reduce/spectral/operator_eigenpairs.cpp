@@ -16,7 +16,7 @@
 #include "reduce/common/error.hpp"
 #include "reduce/dense/blas.hpp"
 
-// LAPACK comes with OpenBLAS, without a C header.
+// OpenBLAS contains LAPACK but has no C header for it.
 extern "C" {
 void dgeev_(const char* left, const char* right, const int* n, double* a, const int* lda, double* real, double* imag,
             double* vl, const int* ldvl, double* vr, const int* ldvr, double* work, const int* lwork, int* info);
@@ -49,7 +49,7 @@ void check_lapack(int info) {
     throw ComputationError(fmt::format("the eigenvalues did not converge (LAPACK's geev returned {})", info));
 }
 
-/// Column k and k + 1 of `pairs` are real and imaginary part where the eigenvalue is complex.
+/// Columns k and k + 1 of `pairs` are real and imaginary part if the eigenvalue is complex.
 MatrixXcd join_pairs(const VectorXd& imag, const MatrixXd& pairs, Index count) {
   MatrixXcd vectors(pairs.rows(), count);
   for (Index k = 0; k < count; ++k) {
@@ -100,7 +100,8 @@ ComplexPairs dense_pairs(MatrixXcd A) {
   return pairs;
 }
 
-/// The same start vector in every run and on every machine: a linear congruential generator (Knuth's MMIX constants).
+/// The start vector is the same in every run and on every machine: a linear congruential generator (Knuth's MMIX
+/// constants).
 template <class Scalar>
 VectorOf<Scalar> start_vector(Index size, int seed) {
   std::uint64_t state = 0x9E3779B97F4A7C15ULL * static_cast<std::uint64_t>(seed);
@@ -142,7 +143,7 @@ class ArnoldiIteration {
     parameters_[6] = 1;         // the operator as it is
   }
 
-  /// @param enough  of the wanted eigenvalues that have to converge
+  /// @param enough  number of the wanted eigenvalues that must converge
   template <class Apply>
   void run(const Apply& apply, Index enough) {
     a_int request = 0;
@@ -162,8 +163,8 @@ class ArnoldiIteration {
       throw ComputationError(fmt::format("the eigenvalue iteration failed (ARPACK's naupd returned {})", info_));
   }
 
-  /// An orthonormal basis of the invariant subspace that was found: of Schur vectors, which unlike eigenvectors are
-  /// never nearly parallel.
+  /// An orthonormal basis of the invariant subspace that was found, made of Schur vectors, which unlike eigenvectors
+  /// are never nearly parallel.
   MatrixOf<Scalar> vectors() {
     std::vector<a_int> select(static_cast<std::size_t>(basis_));
     MatrixOf<Scalar> vectors(size_, wanted_ + 1);
@@ -181,7 +182,7 @@ class ArnoldiIteration {
                     work_.data(), small_work_.data(), small_size(), real_work_.data(), info_);
     if (info_ != 0)
       throw ComputationError(fmt::format("the eigenvectors could not be formed (ARPACK's neupd returned {})", info_));
-    // A conjugate pair is not divided.
+    // A conjugate pair is not separated.
     return arnoldi_.leftCols(std::min<Index>(parameters_[4], wanted_ + 1));
   }
 
@@ -217,7 +218,7 @@ MatrixOf<Scalar> orthonormal(const MatrixOf<Scalar>& A) {
   return factors.householderQ() * MatrixOf<Scalar>::Identity(A.rows(), rank);
 }
 
-/// An invariant subspace of T, on which a small matrix tells the eigenpairs.
+/// An invariant subspace of T; a small matrix on it gives the eigenpairs.
 template <class Scalar>
 struct Subspace {
   MatrixOf<Scalar> Q, TQ;
@@ -239,7 +240,7 @@ struct Subspace {
 std::vector<Index> by_magnitude(const VectorXcd& values) {
   std::vector<Index> order(static_cast<std::size_t>(values.size()));
   std::iota(order.begin(), order.end(), Index{0});
-  // Both of a conjugate pair are of exactly the same size.
+  // Both members of a conjugate pair have exactly the same magnitude.
   std::stable_sort(order.begin(), order.end(),
                    [&](Index a, Index b) { return std::abs(values[a]) > std::abs(values[b]); });
   return order;
@@ -259,9 +260,9 @@ MatrixOf<Scalar> search(const LinearOperator<Scalar>& T, const MatrixOf<Scalar>&
   return iteration.vectors();
 }
 
-/// A Krylov space grown from one vector holds one vector of each eigenspace but for rounding: copies of a multiple
-/// eigenvalue may be missed while others beyond it converge. A search that keeps out the found subspace, which is
-/// invariant, has the eigenvalues that are left.
+/// Up to rounding, a Krylov space of one start vector contains one vector of each eigenspace: copies of a multiple
+/// eigenvalue may be missed while others beyond it converge. A search that excludes the found subspace, which is
+/// invariant, finds the remaining eigenvalues.
 template <class Scalar>
 void add_missed(const LinearOperator<Scalar>& T, Index count, const OperatorEigenOptions& options,
                 Subspace<Scalar>& found) {
@@ -272,14 +273,15 @@ void add_missed(const LinearOperator<Scalar>& T, Index count, const OperatorEige
     const std::vector<Index> order = by_magnitude(pairs.values);
     const double least =
         std::abs(pairs.values[order[static_cast<std::size_t>(std::min<Index>(count, pairs.values.size())) - 1]]);
-    // To see that nothing is missing takes little accuracy.
+    // Little accuracy is needed to see that nothing is missing.
     constexpr double rough = 1e-3;
     const MatrixOf<Scalar> next = search(T, found.Q, 1, rough, options.restarts, 2 * round + 2, 1);
     MatrixOf<Scalar> answers(T.size, next.cols());
     for (Index k = 0; k < next.cols(); ++k) answers.col(k) = T.apply(next.col(k));
     const double most = dense_pairs(MatrixOf<Scalar>(next.adjoint() * answers)).values.cwiseAbs().maxCoeff();
     if (most < least * (1 - 2 * rough)) return;
-    // Errors of the found subspace keep others from converging fully; those that do not have another round.
+    // Errors of the found subspace may prevent full convergence of other eigenvalues; these are sought in another
+    // round.
     const double tolerance = std::max(options.tolerance, 1e-10);
     found.add(T, search(T, found.Q, batch, tolerance, 30, 2 * round + 3, 1));
   }
@@ -287,7 +289,7 @@ void add_missed(const LinearOperator<Scalar>& T, Index count, const OperatorEige
 
 template <class Scalar>
 OperatorEigenpairs largest(const LinearOperator<Scalar>& T, Index count, const OperatorEigenOptions& options) {
-  // ARPACK's products of vectors are short, and threads of BLAS would spin next to ours.
+  // ARPACK's products of vectors are short, and BLAS threads would spin next to Bielle's own.
   const BlasThreads one(1);
   OperatorEigenpairs result;
   if (T.size == 0) {

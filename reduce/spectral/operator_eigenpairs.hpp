@@ -1,9 +1,9 @@
 // Eigenpairs of largest magnitude of an unsymmetric linear operator: by ARPACK's implicitly restarted Arnoldi method,
-// or of a small one by dense algebra (LAPACK's geev).
+// or for a small operator by dense algebra (LAPACK's geev).
 //
-// The operator is given by what it makes of a vector: a shift-inverted pencil, say. Of multiple eigenvalues all copies
-// are found as far as they have eigenvectors of their own. Reference: R. B. Lehoucq, D. C. Sorensen, C. Yang, ARPACK
-// Users' Guide, SIAM 1998.
+// The operator is given by its product with a vector; it may be a shift-inverted pencil, for instance. All copies of a
+// multiple eigenvalue are found that have eigenvectors of their own. Reference: R. B. Lehoucq, D. C. Sorensen, C. Yang,
+// ARPACK Users' Guide, SIAM 1998.
 #pragma once
 
 #include <complex>
@@ -13,7 +13,7 @@
 
 namespace bielle {
 
-/// y = T x on vectors of a size. @tparam Scalar  double or std::complex<double>
+/// y = T x for vectors of a given size. @tparam Scalar double or std::complex<double>
 template <class Scalar>
 struct LinearOperator {
   using Vector = Eigen::Vector<Scalar, Eigen::Dynamic>;
@@ -25,10 +25,10 @@ struct OperatorEigenOptions {
   Eigen::Index dense = 300;  ///< up to this size all eigenpairs are computed densely
   double tolerance = 1e-13;  ///< asked of ARPACK, relative to the eigenvalue
   int restarts = 300;        ///< before giving up
-  bool copies = true;        ///< whether copies of multiple eigenvalues that ARPACK has missed are looked for
+  bool copies = true;        ///< whether missed copies of multiple eigenvalues are sought
 };
 
-/// Descending in magnitude. Of a real operator both of a conjugate pair are there, or none.
+/// Sorted by descending magnitude. For a real operator a conjugate pair is complete or absent.
 struct OperatorEigenpairs {
   Eigen::VectorXcd values;
   Eigen::MatrixXcd vectors;   ///< columns of length one
@@ -36,7 +36,7 @@ struct OperatorEigenpairs {
   bool all = false;           ///< there are no others
 };
 
-/// At least the `count` eigenpairs of largest magnitude, as far as there are so many.
+/// At least the `count` eigenpairs of largest magnitude, if there are so many.
 /// @throws ComputationError when ARPACK does not converge
 OperatorEigenpairs largest_eigenpairs(const LinearOperator<double>& T, Eigen::Index count,
                                       const OperatorEigenOptions& options = {});

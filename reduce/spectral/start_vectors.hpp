@@ -1,4 +1,4 @@
-// Vectors that a search for eigenvectors starts from: random ones, and yet the same in every run and on every machine.
+// Start vectors of a search for eigenvectors: random, but the same in every run and on every machine.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ class StartVectors {
  public:
   explicit StartVectors(Eigen::Index size) : size_(size) {}
 
-  /// The next so many, as columns.
+  /// Returns the next vectors as columns.
   Eigen::MatrixXd draw(Eigen::Index count);
 
  private:

@@ -11,7 +11,7 @@ namespace bielle {
 
 namespace {
 
-/// A vector of a size that the others say, or absent.
+/// Reads a vector whose size others determine, if it is present.
 Eigen::VectorXd read_if_there(const Hdf5File& file, const std::string& name, Eigen::Index most) {
   const std::string dataset = "/adequacy/" + name;
   if (!file.has(dataset)) return Eigen::VectorXd(0);

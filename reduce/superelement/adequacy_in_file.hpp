@@ -1,4 +1,4 @@
-// What a superelement is good for, in its file: the group /adequacy.
+// The accuracy of a superelement in its file: the group /adequacy.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,8 @@ class Hdf5File;
 
 void write_adequacy(const Adequacy& adequacy, Hdf5File& file);
 
-/// Nothing when the file has none. @throws InputError when a dataset is missing or its size is not that of the others
+/// Returns nothing if the file has no such group. @throws InputError if a dataset is missing or its size differs from
+/// that of the others
 std::optional<Adequacy> read_adequacy(const Hdf5File& file);
 
 }  // namespace bielle

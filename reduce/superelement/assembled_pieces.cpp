@@ -10,7 +10,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// Adds the interfaces that are new.
+/// Adds the interfaces that are not yet there.
 void add_interfaces(const Superelement& piece, std::vector<Interface>& interfaces) {
   for (const Interface& interface : piece.interfaces)
     if (std::none_of(interfaces.begin(), interfaces.end(),
@@ -33,7 +33,8 @@ std::map<std::string, Index> first_coordinates(const std::vector<Interface>& int
   return result;
 }
 
-/// The coordinate of the whole that each coordinate of the piece is. @param modes  where its modes begin in the whole
+/// Coordinate of the whole body for each coordinate of the piece. @param modes  first coordinate of its modes in the
+/// whole
 std::vector<Index> coordinates_of(const Superelement& piece, const std::map<std::string, Index>& first, Index modes) {
   std::vector<Index> result;
   for (const Interface& interface : piece.interfaces)
@@ -53,7 +54,7 @@ void add_matrices(const Superelement& piece, const std::vector<Index>& coordinat
   for (std::size_t k = 0; k < 6; ++k) add(piece.inertia_components[k], whole.inertia_components[k]);
 }
 
-/// Mass, centre and inertia about it, of the sum.
+/// Adds mass, centre and inertia about the centre to those of the sum.
 void add_mass_properties(const Superelement& piece, Superelement& whole) {
   const double mass = whole.total_mass + piece.total_mass;
   const Eigen::Vector3d centre = (whole.total_mass * whole.centre + piece.total_mass * piece.centre) / mass;

@@ -1,4 +1,4 @@
-// The pieces of a cut body joined again at the interfaces that they share, as one superelement.
+// The pieces of a cut body, joined at the interfaces that they share, as one superelement.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 namespace bielle {
 
 /// Stiffness, mass, damping and inertia components of all pieces together: their interfaces, each once, then their
-/// modes, piece by piece. Mass properties are the sums. Geometric stiffness, loads, mesh and recovery stay with the
+/// modes, piece by piece. Mass properties are the sums. Geometric stiffness, loads, mesh and recovery remain with the
 /// pieces.
 Superelement assembled(const std::vector<Superelement>& pieces);
 

@@ -40,7 +40,7 @@ MatrixXd modal_damping(const Superelement& body, const std::vector<double>& rati
     throw InputError(fmt::format("expected 1 to {} damping ratios, one for each elastic mode of '{}', found {}",
                                  elastic, body.name, ratios.size()));
   // Coordinates scaled to unit masses: displacements, angles and amplitudes become comparable. Elastic modes lie in the
-  // complement of M~ U, which splits off the rigid motions exactly.
+  // complement of M~ U, which excludes the rigid motions exactly.
   const VectorXd scale = body.mass.diagonal().cwiseSqrt().cwiseInverse();
   const MatrixXd M = scale.asDiagonal() * body.mass * scale.asDiagonal();
   const MatrixXd K = scale.asDiagonal() * body.stiffness * scale.asDiagonal();

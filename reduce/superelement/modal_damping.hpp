@@ -1,4 +1,4 @@
-// Damping of a reduced body from numbers that engineers know: ratios of its free modes, or Rayleigh's two factors.
+// Damping of a reduced body: ratios of its free modes, or Rayleigh's two factors.
 #pragma once
 
 #include <vector>
@@ -12,10 +12,10 @@ struct Superelement;
 /// Rigid motions of a body in its own coordinates: (n,6), three translations, then rotations about the origin.
 Eigen::MatrixXd rigid_motions(const Superelement& body);
 
-/// C~ = sum over the elastic free modes of 2 zeta omega (M~ v)(M~ v)^T, v^T M~ v = 1: each mode of the free body is
-/// damped by its ratio, rigid motions are not.
+/// C~ = sum over the elastic free modes of 2 zeta omega (M~ v)(M~ v)^T, v^T M~ v = 1: each mode of the free body has
+/// its damping ratio, and rigid motions are not damped.
 /// @param ratios  zeta of the first, second ... elastic mode, >= 0; the last holds for all further ones
-/// @throws InputError when there are none, or more ratios than elastic modes; ComputationError when M~ is not positive
+/// @throws InputError if there are none, or more ratios than elastic modes; ComputationError if M~ is not positive
 /// definite
 Eigen::MatrixXd modal_damping(const Superelement& body, const std::vector<double>& ratios);
 

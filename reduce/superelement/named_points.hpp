@@ -1,4 +1,4 @@
-// The points of a body that its body file names, in the superelement's file (reduce/superelement/README.md).
+// The points that a body file names, in the superelement's file (reduce/superelement/README.md).
 #pragma once
 
 #include <map>
@@ -10,19 +10,19 @@ namespace bielle {
 
 class Hdf5File;
 
-/// Into the group that the file has entered.
+/// Writes into the group that the file has entered.
 void write_named_points(const std::map<std::string, NamedPoint>& points, Hdf5File& file);
 
-/// From the group that the file has entered; none in files without them. @throws InputError
+/// Reads from the group that the file has entered; the result is empty for files without points. @throws InputError
 std::map<std::string, NamedPoint> read_named_points(const Hdf5File& file);
 
-/// A point in a file of a whole body or of one in pieces.
+/// A point in a file of a whole body or of a cut body.
 struct PointInFile {
   NamedPoint point;
-  std::string group;  ///< of its superelement in the file, as SuperelementPlace has it
+  std::string group;  ///< group of its superelement in the file, as in SuperelementPlace
 };
 
-/// All points of a file, without the rest of the superelements. @throws InputError
+/// Reads all points of a file, without the rest of the superelements. @throws InputError
 std::map<std::string, PointInFile> read_points_of_file(const std::string& path);
 
 }  // namespace bielle

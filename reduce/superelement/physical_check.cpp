@@ -17,12 +17,13 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Least eigenvalue of a semidefinite matrix over its largest entry, coordinates scaled to unit mass: rounding.
+/// Least eigenvalue of a semidefinite matrix relative to its largest entry, with coordinates scaled to unit mass, that
+/// counts as rounding.
 constexpr double rounding = 1e-8;
-/// Of the stiffness of a mode: frequencies may be written with few digits.
+/// Tolerance for the stiffness of a mode: frequencies may be written with few digits.
 constexpr double frequency_digits = 1e-3;
 
-/// @param scale  of each coordinate
+/// @param scale  scale of each coordinate
 bool is_semidefinite(const MatrixXd& matrix, const VectorXd& scale) {
   MatrixXd scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
   scaled = MatrixXd(0.5 * (scaled + scaled.transpose()));
@@ -36,7 +37,7 @@ bool is_semidefinite(const MatrixXd& matrix, const VectorXd& scale) {
 
 double square_of_omega(double frequency) { return std::pow(2 * std::numbers::pi * frequency, 2); }
 
-/// Of the first mode whose stiffness is not that of its frequency, in a sentence; nothing when there is none.
+/// Describes the first mode whose stiffness does not match its frequency; empty if there is none.
 std::string odd_mode(const Superelement& body) {
   const Index first = body.interface_directions();
   for (Index k = 0; k < body.modes(); ++k) {

@@ -1,4 +1,4 @@
-// Whether the matrices of a superelement can be those of an elastic body.
+// A check that the matrices of a superelement can be those of an elastic body.
 #pragma once
 
 #include <string>

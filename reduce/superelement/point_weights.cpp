@@ -20,9 +20,9 @@ using Eigen::Index, Eigen::Matrix3d, Eigen::Matrix3Xd, Eigen::Matrix4Xd, Eigen::
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 constexpr std::size_t neighbours = 15;
-/// How much nearer than its neighbours a node must be to count alone.
+/// A node counts alone if it is nearer than its neighbours by this factor.
 constexpr double closeness = 1e-2;
-/// Nodes lie in a plane when their spread across it is less than this part of that along it.
+/// Nodes lie in a plane if their extent across it is less than this share of that along it.
 constexpr double flatness = 1e-6;
 
 /// a~, with a~ b = a x b.
@@ -54,14 +54,14 @@ Matrix4Xd linear_weights(const Matrix3Xd& arms, const VectorXd& weight) {
   return solve_symmetric(product(weighted, rows.transpose()), weighted);
 }
 
-/// Whether nodes span space, seen from their mean.
+/// Tells whether nodes span space about their mean.
 bool in_space(const Matrix3Xd& arms) {
   const Matrix3Xd spread = arms.colwise() - Vector3d(arms.rowwise().mean());
   const Matrix3d moment = product(spread, spread.transpose());
   return moment.determinant() > flatness * std::pow(moment.trace() / 3, 3);
 }
 
-/// Of the nearest linear field. @param size  of the arms [m], for numbers of order 1
+/// Sets the rows of the nearest linear field. @param size  size of the arms [m], for numbers of order 1
 void set_rows_of_linear_field(const Matrix3Xd& arms, const VectorXd& weight, double size, PointWeights& result) {
   const Matrix4Xd field = linear_weights(arms / size, weight);
   Eigen::MatrixXd& rows = result.rows;
@@ -77,7 +77,7 @@ void set_rows_of_linear_field(const Matrix3Xd& arms, const VectorXd& weight, dou
   }
 }
 
-/// Of the nearest rigid motion: u = c + theta x arm.
+/// Rows of the nearest rigid motion: u = c + theta x arm.
 Eigen::MatrixXd rows_of_rigid_motion(const Matrix3Xd& arms, const VectorXd& weight) {
   Matrix6 normal = Matrix6::Zero();
   Eigen::MatrixXd right(6, 3 * arms.cols());

@@ -1,4 +1,4 @@
-// A reduced elastic body: all that the mechanism knows of the reduction. Its file is described in
+// A reduced elastic body: the part of the reduction that the mechanism program uses. Its file is described in
 // reduce/superelement/README.md.
 #pragma once
 
@@ -15,15 +15,15 @@
 
 namespace bielle {
 
-/// An interface: a node with up to 6 directions through which the body is held, in the body's own axes.
+/// An interface: a node with up to 6 directions, in its own axes, by which the body is held.
 struct Interface {
   std::string name;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();               ///< [m]
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();           ///< of the interface's axes: interface -> body
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();           ///< interface axes -> body axes
   std::array<bool, 6> kept = {true, true, true, true, true, true};  ///< x y z rx ry rz, in the interface's axes
 };
 
-/// The body's mesh, kept to draw it. Node numbers start at 0; node order within a cell is gmsh's.
+/// The body's mesh, kept for drawing. Node numbers start at 0; node order within a cell is gmsh's.
 struct SuperelementMesh {
   Eigen::Matrix3Xd points;  ///< [m]
   std::map<int, Eigen::MatrixXi>
@@ -42,7 +42,8 @@ struct LoadPattern {
 struct NamedPoint {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m], body axes
   Eigen::MatrixXd shapes;                              ///< (6,n): displacement and rotation, body axes
-  /// Which loads on it, x y z rx ry rz in body axes, have residual vectors: their static displacements are exact.
+  /// Directions x y z rx ry rz, body axes, in which a load on the point has a residual vector, so that its static
+  /// displacements are exact.
   std::array<bool, 6> residual{};
 };
 
@@ -52,7 +53,7 @@ struct StressMaterial {
   Eigen::Matrix<double, 6, 6> elasticity = {};  ///< C [Pa], body axes, in the order xx yy zz yz xz xy
 };
 
-/// What the stress at nodes belongs to. Without materials (files of other programs) strain cannot be recovered.
+/// Materials and groups of the stress at nodes. Without materials (files of other programs) strain cannot be recovered.
 struct StressOrigin {
   std::vector<StressMaterial> materials;
   std::vector<int> material_of;                    ///< (s) of each stress node, number in `materials`
@@ -64,15 +65,15 @@ struct StressOrigin {
 /// [1/s^2] from the centre of mass, so that rigid accelerations and centrifugal fields are combinations c.
 struct InertiaAnswer {
   Eigen::MatrixXd whole;    ///< (12,12): c^T whole c / 2 is the energy of the mesh [J]; empty: not known
-  Eigen::MatrixXd missing;  ///< of that what modes and residual vectors have not
+  Eigen::MatrixXd missing;  ///< the part of that energy that modes and residual vectors lack
 };
 
 /// Craig-Bampton model of a free body with n = (kept interface directions) + m (modes) generalised coordinates, ordered
 /// interface by interface (translations, then rotations, those that are kept), then modal amplitudes (mass-normalised).
 /// The last modes may be residual vectors, which make the static answer to single loads exact.
 ///
-/// Symbols as in the theory: K~ (n,n) and M~ (n,n) symmetric; S_kl = T_k^T m T_l the inertia components with
-/// M~ = S_11 + S_22 + S_33 (+ rotary inertia of ties, which is in M~ alone).
+/// Symbols as in the theory: K~ (n,n) and M~ (n,n) symmetric; S_kl = T_k^T m T_l the inertia components with M~ = S_11
+/// + S_22 + S_33 (+ rotary inertia of ties, which is in M~ alone).
 struct Superelement {
   std::string name;
   std::string created_by;  ///< program and version
@@ -96,15 +97,15 @@ struct Superelement {
   std::vector<Eigen::MatrixXd> surface_rotations;
 
   Eigen::MatrixXd effective_mass;  ///< (m,6) of the modes: x y z [kg], rx ry rz about the centre [kg m^2]
-  /// Rotations of places spread over the body in each mode, body axes (3 q,m): by them a mechanism judges how far the
-  /// body bends in its modes; may be empty.
+  /// Rotations in each mode of places spread over the body, body axes (3 q,m); a mechanism uses them to judge how far
+  /// the body bends in its modes; may be empty.
   Eigen::MatrixXd mode_turns;
   /// Strain xx yy zz yz xz xy (engineering shears) at places spread over the body, then its mean over the body, body
-  /// axes (6 (q + 1),n): by it a mechanism judges how far the body is strained; may be empty.
+  /// axes (6 (q + 1),n); a mechanism uses it to judge how far the body is strained; may be empty.
   Eigen::MatrixXd strains;
   InertiaAnswer inertia_answer;  ///< by it a mechanism judges whether stress is complete; may be empty
   double total_mass = 0;         ///< integrated on the mesh [kg]
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();   ///< of mass [m]
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();   ///< centre of mass [m]
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the centre, body axes [kg m^2]
 
   std::map<std::string, LoadPattern> loads;
@@ -116,7 +117,7 @@ struct Superelement {
   std::vector<int> stress_nodes;    ///< (s) node numbers of the rows of stress_recovery
   StressOrigin stress_origin;
   std::map<std::string, double> checks;  ///< numbers of every check that the reduction made, by name
-  std::optional<Adequacy> adequacy;      ///< what it is good for; absent in files of other programs
+  std::optional<Adequacy> adequacy;      ///< its accuracy; absent in files of other programs
 
   Eigen::Index modes() const { return frequencies.size(); }
   Eigen::Index fixed_boundary_modes() const { return modes() - residual_vectors; }
@@ -124,7 +125,7 @@ struct Superelement {
   Eigen::Index interface_directions() const { return size() - modes(); }
 };
 
-/// Where a superelement stands: a file, or the group of one that holds the pieces of a cut body (cut_body.hpp).
+/// Place of a superelement: a file, or a group of a file that holds the pieces of a cut body (cut_body.hpp).
 struct SuperelementPlace {
   SuperelementPlace() = default;
   SuperelementPlace(std::string file, std::string group_in_file = "/")
@@ -135,14 +136,14 @@ struct SuperelementPlace {
   std::string group = "/";
 };
 
-/// Version of the file format that this program writes, and the only one that it reads.
+/// Version of the file format that this program writes; it reads no other version.
 inline constexpr int superelement_version = 2;
 
 /// Writes the whole superelement (under a temporary name, then renamed). @throws ComputationError
 void write_superelement(const Superelement& superelement, const std::string& path);
 
 /// Reads and checks shapes, symmetry, finiteness and completeness.
-/// @throws InputError when the file is missing, truncated, no superelement, incomplete, or of another version
+/// @throws InputError if the file is missing, truncated, no superelement, incomplete, or of another version
 Superelement read_superelement(const SuperelementPlace& place);
 
 }  // namespace bielle

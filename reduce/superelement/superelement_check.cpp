@@ -32,7 +32,7 @@ void check_matrix(const Matrix& matrix, Index rows, Index columns, const std::st
 }
 
 /// |a_ij - a_ji| <= 1e-8 sqrt(|a_ii a_jj|): a bound that does not depend on the units of the coordinates. The reduction
-/// writes symmetric matrices; files of other programs may be off by rounding.
+/// writes symmetric matrices; those in files of other programs may differ by rounding.
 void check_symmetric(const Eigen::MatrixXd& matrix, const std::string& dataset) {
   for (Index i = 0; i < matrix.rows(); ++i)
     for (Index j = 0; j < i; ++j)

@@ -1,4 +1,4 @@
-// Whether the parts of a superelement fit together.
+// A check that the parts of a superelement are consistent.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@ namespace bielle {
 struct Superelement;
 
 /// Checks shapes, symmetry, finite values and the numbers of nodes in the mesh.
-/// @returns the first fault in a sentence that names the dataset of the file, or nothing
+/// @returns the first fault as a sentence that names the dataset of the file, or nothing
 std::string fault_of(const Superelement& superelement);
 
 }  // namespace bielle

@@ -104,7 +104,7 @@ void write_reduced(Hdf5File& file, const Superelement& body) {
                "(k, l, j): component k of the pattern acting along body axis l, for a factor of 1");
 }
 
-/// By what a run judges how far it can be trusted.
+/// Writes the data by which a run judges how far the superelement can be trusted.
 void write_judgement(Hdf5File& file, const Superelement& body) {
   if (body.strains.size() > 0)
     file.write("/reduced/strain", body.strains, "1/u_j",
@@ -192,7 +192,7 @@ void write_all(Hdf5File& file, const Superelement& body) {
 
 // -- reading
 
-/// Reads datasets of expected shapes. Whatever is wrong is told with what to do about it.
+/// Reads datasets of expected shapes. Each message about a fault contains its remedy.
 class Reader {
  public:
   explicit Reader(const Hdf5File& file) : file_(file) {}
@@ -312,7 +312,7 @@ void read_mesh(const Hdf5File& file, const Reader& reader, SuperelementMesh& mes
     mesh.groups[name_of_link(link)] = reader.nodes("/mesh/groups/" + link);
 }
 
-/// Optional: files of before and of other programs have none.
+/// These data are optional: older files and files of other programs have none.
 void read_stress_origin(const Hdf5File& file, const Reader& reader, StressOrigin& origin) {
   if (!file.has("/recovery/materials")) return;
   const std::vector<std::string> names = file.read_names("/recovery/materials");
@@ -324,14 +324,14 @@ void read_stress_origin(const Hdf5File& file, const Reader& reader, StressOrigin
     origin.groups[name_of_link(link)] = reader.nodes("/recovery/stress_groups/" + link);
 }
 
-/// Files of other programs have no sum.
+/// Files of other programs have no checksum.
 void check_sum(const Hdf5File& file, const Reader& reader, const Superelement& body) {
   if (!file.has_attribute("/", "checksum")) return;
   std::optional<std::int64_t> sum;
   try {
     sum = file.read_integer_attribute("/", "checksum");
   } catch (const InputError&) {
-    // Another program has put something of its own there.
+    // Another program has written something else under this name.
   }
   if (!sum)
     reader.fail(
@@ -343,7 +343,7 @@ void check_sum(const Hdf5File& file, const Reader& reader, const Superelement& b
       "run bielle-reduce again (who changes numbers on purpose removes the attribute 'checksum')");
 }
 
-/// What is wrong with the parts by themselves comes first.
+/// Faults of single parts are reported first.
 std::string first_fault(const Superelement& body) {
   const std::string fault = fault_of(body);
   return fault.empty() ? physical_fault_of(body) : fault;

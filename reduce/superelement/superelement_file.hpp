@@ -1,4 +1,4 @@
-// A superelement as a part of an open file: what the files of whole and of cut bodies share.
+// A superelement as a part of an open file, shared by the files of whole and of cut bodies.
 #pragma once
 
 #include <string>
@@ -11,10 +11,10 @@ struct Superelement;
 /// @throws ComputationError when the superelement's parts do not fit together: `path` would not be readable
 void check_writable(const Superelement& superelement, const std::string& path);
 
-/// Into the group that the file has entered, attributes included.
+/// Writes into the group that the file has entered, attributes included.
 void write_superelement(const Superelement& superelement, Hdf5File& file);
 
-/// From the group that the file has entered. @throws InputError as of a whole file
+/// Reads from the group that the file has entered. @throws InputError as for a whole file
 Superelement read_superelement(const Hdf5File& file);
 
 }  // namespace bielle

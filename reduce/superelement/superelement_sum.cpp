@@ -7,7 +7,7 @@ namespace bielle {
 
 namespace {
 
-/// Columns one after the other, with the shape.
+/// Adds the columns one after the other, with the shape.
 template <class Matrix>
 void add(Checksum& sum, const Matrix& matrix) {
   sum.add(static_cast<double>(matrix.rows()));
@@ -71,7 +71,7 @@ std::int64_t sum_of(const Superelement& body) {
   add_numbers(sum, body.stress_nodes);
   for (const StressMaterial& material : body.stress_origin.materials) add(sum, material.elasticity);
   add_numbers(sum, body.stress_origin.material_of);
-  // Files without these have the sum that they had before these counted.
+  // These parts are added only if they exist, so that the sum of files without them does not change.
   for (const auto& [name, point] : body.points) {
     sum.add(name);
     add(sum, point.position);

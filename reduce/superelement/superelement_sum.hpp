@@ -1,4 +1,4 @@
-// Whether the numbers of a superelement are those that were written.
+// A checksum that tells whether the numbers of a superelement are those that were written.
 #pragma once
 
 #include <cstdint>

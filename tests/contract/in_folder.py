@@ -1,4 +1,4 @@
-"""What most tests of commands and files begin with: a folder of their own that goes away with the test."""
+"""Base class of most tests of commands and files: a folder for each test, which is removed with it."""
 
 import os
 import tempfile
@@ -8,7 +8,7 @@ REPOSITORY = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..")
 
 
 class InFolder(unittest.TestCase):
-    """folder: of this test alone; `path` and `write` name files in it."""
+    """folder: for this test alone; `path` and `write` name files in it."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()

@@ -1,8 +1,8 @@
 // Samples: for each component type one or more small models in which the laws are checked.
 //
 // Adding a type: one Sample in samples_*.cpp. The component under test has the name `it`; the model is a mechanism file
-// with whatever `it` needs. Stiffness, mass and sizes should be of order one (say so in `scales` where they are not),
-// so that no term hides behind another's rounding.
+// with the parts that `it` needs. Stiffness, mass and sizes should be of order one (if they are not, set `scales`), so
+// that the rounding of one term does not hide another.
 #pragma once
 
 #include <functional>
@@ -15,23 +15,23 @@ namespace bielle::laws {
 
 /// A value that must be refused.
 struct BadValue {
-  std::string key;    ///< of `it`, nested with dots: "section.young"
+  std::string key;    ///< key of `it`, nested with dots: "section.young"
   std::string value;  ///< YAML; empty: the key is left out
   std::string says;   ///< must occur in the message besides the key
 };
 
-/// Sizes of the random states: of positions, rates and unknowns in SI.
+/// Sizes of the random states: positions, rates and unknowns in SI.
 struct Scales {
   double length = 1;         ///< [m] deformations go up to `deformation` times this
   double deformation = 0.3;  ///< relative motion of nodes, translations per length and rotations [rad]
   double rate = 1;           ///< [1/s]: velocities length * rate, angular velocities rate, accelerations with rate^2
-  double amplitude = 1;      ///< of second-order scalars
-  double first_order = 1;    ///< of first-order unknowns: random within start +- this
+  double amplitude = 1;      ///< size of second-order scalars
+  double first_order = 1;    ///< range of first-order unknowns: random within start +- this
   double multiplier = 1;     ///< [N], [N m]
-  /// Forces vary over this share of the scales of length and of a radian (corners and edges that hand over to each
-  /// other): differences take smaller steps by as much.
+  /// Forces vary over this share of the scales of length and of a radian (near corners and edges at which the contact
+  /// changes): differences use smaller steps accordingly.
   double smooth_within = 1;
-  /// Forces have a kink where nothing is loaded: the laws are checked away from there.
+  /// Forces have a kink in the unloaded state: the laws are checked away from it.
   bool kinks_unloaded = false;
 };
 
@@ -43,8 +43,8 @@ struct Neglected {
 
 struct Sample {
   mechanism::Section section;
-  std::string type;     ///< as in component_table
-  std::string variant;  ///< what is special about it; may be empty
+  std::string type;     ///< name in component_table
+  std::string variant;  ///< the particular feature of the sample; may be empty
   std::string model;    ///< text of the mechanism file
   std::vector<BadValue> bad;
   Scales scales{};

@@ -1,5 +1,5 @@
-// Samples of contacts: each pair of shapes that can touch, pressed together deeply enough that they touch wherever the
-// random states of the laws have them.
+// Samples of contacts: each pair of shapes that can touch, pressed together so deeply that they touch in all random
+// states of the laws.
 #include <fstream>
 
 #include "tests/laws/sample.hpp"
@@ -57,7 +57,7 @@ void write_roof(const std::string& folder) {
   file << "endsolid roof\n";
 }
 
-/// What lies across the ridge of the roof, stands on it, or is pressed from above.
+/// Adds shapes that lie across the ridge of the roof, stand on it, or are pressed from above.
 void add_on_surfaces(std::vector<Sample>& list) {
   const auto on_roof = [&](const std::string& variant, const std::string& shape, std::vector<BadValue> bad) {
     list.push_back(touching(
@@ -211,7 +211,7 @@ std::vector<Sample> contact_samples() {
                "shapes: [{node: a, box: [3, 1.6, 1.6], rounding: 0.7, axes: {x: [1, 0, 0], y: [0, 1, 1]}}, {node: "
                "b, box: [1.6, 3, 1.6], rounding: 0.7, axes: {x: [1, 0, 1], y: [0, 1, 0]}}]",
                {{"shapes.1.box", "[1, 1, 0]", ""}}));
-  // The damping follows from the speed at which they touch: without one before they have.
+  // The damping follows from the speed at which they touch; before they touch there is none.
   list.push_back(
       touching("restitution, groups",
                "between: [[{node: a, sphere: 0.9}, {node: a, sphere: 1, at: [1, 0, 0]}], [{node: b, sphere: 1}, "
@@ -240,7 +240,7 @@ std::vector<Sample> contact_samples() {
                            {"friction.velocity", "1", "model: coulomb"}},
                           "stiffness: 3, damping: 0.1, friction: {model: lugre, coefficient: 0.4, static: 0.6, "
                           "stribeck_velocity: 2, viscous: 0.1, bristle_stiffness: 1.5, bristle_damping: 0.8}"));
-  // What formulas read of a contact: a spring between the nodes follows it.
+  // Quantities of a contact in formulas: a spring between the nodes uses them.
   Sample measured{Section::elements,
                   "spring_damper",
                   "measures of a contact",

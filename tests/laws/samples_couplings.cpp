@@ -1,4 +1,4 @@
-// Samples of what couples joints and wheels: gears, differentials, racks, gear meshes.
+// Samples of couplings of joints and wheels: gears, differentials, racks, gear meshes.
 #include <fstream>
 
 #include "tests/laws/sample.hpp"
@@ -32,7 +32,7 @@ Sample coupling(const std::string& type, const std::string& variant, const std::
   return sample;
 }
 
-/// Wheels on parallel axes (or others) that a moving carrier bears.
+/// Wheels on parallel axes (or others) whose bearings are on a moving carrier.
 Sample mesh(const std::string& variant, const std::string& keys, std::vector<BadValue> bad) {
   bad.push_back({"nodes", "[a, a]", "two different wheels"});
   bad.push_back({"axes", "[0, 0, 0]", ""});

@@ -376,7 +376,7 @@ elements:
                  {"loads.spread.factor", "'x*t'", "x"},
                  {"loads.spread.follower", "maybe", "true or false"}}};
   // Second-order displacements make forces vary on a shorter scale than the body's length: half of it, so that
-  // differences are as exact as the law wants them.
+  // differences are as accurate as the law requires.
   sample.scales.length = 0.5;
   sample.scales.deformation = 0.1;
   sample.scales.amplitude = 0.1;

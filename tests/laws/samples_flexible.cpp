@@ -1,4 +1,4 @@
-// Samples of what joins two nodes elastically or with play: bushings, bearings, stiffness fields, clearances.
+// Samples of elastic connections and play between two nodes: bushings, bearings, stiffness fields, clearances.
 #include <fstream>
 
 #include <fmt/format.h>
@@ -107,7 +107,7 @@ Sample bushing_of_curves() {
   sample.inertial = true;  // a position of a node
   sample.scales.deformation = 0.2;
   sample.files = [](const std::string& folder) {
-    // Kinks away from where the states are.
+    // The kinks of the law are away from the states.
     std::ofstream(folder + "/x.csv") << "displacement, force\n-3,-5\n2.2,3\n4,6\n";
     std::ofstream(folder + "/falling.csv") << "0,1\n1,2\n0.5,3\n";
     std::ofstream(folder + "/one.csv") << "0,1\n";

@@ -8,7 +8,7 @@ namespace {
 
 using mechanism::Section;
 
-/// A joint with friction. Sizes of order one: slow surfaces of an armful, bristles that yield.
+/// A joint with friction. Quantities are of order one: low speeds of surfaces, large radii, soft bristles.
 Sample rubbing(const std::string& type, const std::string& variant, const std::string& keys,
                const std::string& friction, std::vector<BadValue> bad) {
   const char* const second_axis = type == "universal" ? ", second_axis: [3, 0, -1]" : "";

@@ -1,8 +1,8 @@
 // Samples of hydraulics: places, lines, accumulators, machines, cylinders. The fluid is soft (B = 1e5 Pa) and volumes
 // are large, so that pressures, flows and spaces of order one change each other by as much.
 //
-// None keeps an account of power by itself: what a cylinder takes from the motion stands in the energy of the fluid,
-// which is another component's. Circuits as a whole balance (tests/benchmarks/hydraulics).
+// No component has a closed power balance by itself: the power that a cylinder takes from the motion is in the energy
+// of the fluid, which belongs to another component. Circuits as a whole balance (tests/benchmarks/hydraulics).
 #include "tests/laws/sample.hpp"
 
 namespace bielle::laws {
@@ -60,7 +60,7 @@ const std::string law = "coefficient: 0.7, density: 1.5";
 const std::string conserving =
     "  ambient_pressure: 0\n  fluid: {bulk_modulus: 1e5, density: 1, conserves: mass, vapour_pressure: 3000}\n";
 
-/// One whose opening follows rests closed at the reference, on the kink of what cannot be less than closed.
+/// A valve whose opening follows is closed at the reference, at the kink of its lower limit.
 Sample following(Sample sample) {
   sample.scales.kinks_unloaded = true;
   return sample;

@@ -1,4 +1,4 @@
-// Samples of joints and of what acts in them.
+// Samples of joints and of actions in them.
 #include "tests/laws/sample.hpp"
 
 namespace bielle::laws {
@@ -30,7 +30,7 @@ Sample lower_pair(const std::string& type) {
           bad_joint};
 }
 
-/// What acts in a joint with one coordinate; the components have the joint's name.
+/// Actions in a joint with one coordinate; the components have the joint's name.
 Sample with_actions(const std::string& type, const std::string& variant, const std::string& keys,
                     std::vector<BadValue> bad) {
   for (const BadValue& each : bad_joint)
@@ -40,7 +40,7 @@ Sample with_actions(const std::string& type, const std::string& variant, const s
           std::move(bad)};
 }
 
-/// The bad values of springs, stops and locks; of a joint with several coordinates those of `coordinate`.
+/// The invalid values of springs, stops and locks; for a joint with several coordinates those of `coordinate`.
 std::vector<BadValue> bad_actions(const std::string& coordinate = "") {
   const std::string of = coordinate.empty() ? "" : "." + coordinate;
   std::vector<BadValue> bad = {{"stiffness" + of, "-1", ""},
@@ -59,7 +59,7 @@ std::vector<Sample> joint_samples() {
   std::vector<Sample> list;
   for (const char* type : {"rigid", "hinge", "prismatic", "cylindrical", "spherical", "planar"})
     list.push_back(lower_pair(type));
-  // Springs, dampers and locks on each coordinate of each type. (What stops do in contact: test_joint_stop.cpp.)
+  // Springs, dampers and locks on each coordinate of each type. (test_joint_stop.cpp tests stops in contact.)
   std::vector<BadValue> of_hinge = bad_actions();
   for (const BadValue& each : std::vector<BadValue>{{"stops", "{range: [1, -1], stiffness: 5}", "lower end first"},
                                                     {"stops.range", "[1]", "[lower, upper]"},
@@ -75,7 +75,7 @@ std::vector<Sample> joint_samples() {
                    "stiffness: 3, damping: 0.5, rest: 0.2, preload: 1.5, stops: {range: [-9, 9], stiffness: 5, "
                    "damping: 1}, locked: {from: 0.1, to: 0.2, release: 4}",
                    of_hinge));
-  // A point and axes in each node's own axes, and a start: its values and rates are conditions, no components.
+  // A point and axes in each node's own axes, and a start, whose values and rates are conditions and no components.
   list.push_back(
       {Section::joints,
        "hinge",

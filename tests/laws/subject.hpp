@@ -1,4 +1,4 @@
-// A sample brought to life: its model, the component under test alone, and states to test it in.
+// A sample that has been read: its model, the component under test alone, and states to test it in.
 #pragma once
 
 #include <memory>
@@ -18,18 +18,18 @@ using mechanism::VectorX;
 using test::DenseModel;
 
 /// Reads a sample's model. @param text  in place of the sample's own
-/// @throws what the readers throw
+/// @throws the exceptions of the readers
 std::unique_ptr<mechanism::MechanismFile> read_sample(const Sample& sample, const std::string& text);
 
-/// One component named `it`, alone with a state of its own. (A beam has several; one with constraints comes twice, with
-/// either axes of their rows.)
+/// One component named `it`, alone with a state of its own. (A beam has several; one with constraints occurs twice,
+/// with both kinds of axes of their rows.)
 struct Subject {
   std::shared_ptr<mechanism::MechanismFile> file;
   std::unique_ptr<DenseModel> dense;
   Scales scales;
-  bool carried_axes;  ///< of its constraint rows, see Slots
+  bool carried_axes;  ///< kind of axes of its constraint rows, see Slots
 
-  /// What one unit of each unknown (or of its rate) is in SI.
+  /// SI value of one unit of each unknown (or of its rate).
   VectorX position_units() const;
   VectorX rate_units() const;
   /// Random states: everything moved by `size` times the scales; with size = 1 also the whole model somewhere in space.

@@ -1,4 +1,4 @@
-// Every component type is put to the laws.
+// Every component type must have a sample.
 #include <algorithm>
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-// Every component type says what it is when a model is checked.
+// Every component type must describe itself when a model is checked.
 #include <catch2/catch.hpp>
 
 #include "mechanism/model/description.hpp"

@@ -42,7 +42,7 @@ std::string place_of(const Sample& sample) {
   return sample.place.empty() ? bielle::mechanism::section_name(sample.section) : sample.place;
 }
 
-/// `it` of a model.
+/// The entry `it` of a model.
 YAML::Node entry_in(const YAML::Node& root, const Sample& sample) {
   YAML::Node node = root;
   for (const std::string& part : split(place_of(sample))) node.reset(node[part]);
@@ -91,7 +91,7 @@ struct Keys {
   explicit Keys(const Sample& sample) { collect(entry_in(YAML::Load(sample.model), sample), "", paths, maps); }
 };
 
-/// Keys of a type, without indices, that some sample of the type shows a bad value of.
+/// Keys of a type, without indices, for which some sample of the type has an invalid value.
 std::set<std::string> keys_with_bad_values(const Sample& like) {
   std::set<std::string> keys;
   for (const Sample& sample : samples())
@@ -118,14 +118,14 @@ TEST_CASE("law 5: values out of range are refused with their key") {
       if (key == "type") continue;
       CAPTURE(title(sample), key);
       const bool top = key.find('.') == std::string::npos;
-      // Each key that a sample shows has a bad value: at the top in this sample, below in any of the type.
+      // Each key of a sample must have an invalid value: at the top level in this sample, below in any of the type.
       const auto concerns = [&](const BadValue& b) { return b.key == key || b.key.rfind(key + ".", 0) == 0; };
       const std::string plain = without_indices(key);
       const bool below = tried.count(plain) > 0 ||
                          std::any_of(tried.begin(), tried.end(),
                                      [&](const std::string& other) { return other.rfind(plain + ".", 0) == 0; });
       CHECK((top ? std::any_of(sample.bad.begin(), sample.bad.end(), concerns) : below));
-      // The wrong kind of value altogether.
+      // A value of the wrong kind.
       CHECK_THAT(message(sample, changed(sample, key, "{nonsense: 1}")),
                  Contains("model.yaml:") && Contains(place) && Contains(split(plain).back()));
     }
@@ -153,7 +153,7 @@ TEST_CASE("law 5: every key that a sample shows stands in the manual") {
   for (const Sample& sample : samples())
     for (const std::string& path : Keys(sample).paths) {
       const std::vector<std::string> parts = split(without_indices(path));
-      // What stands directly below these keys are names of the user's.
+      // Keys directly below these are names that the user chooses.
       const bool is_name = parts.size() == 2 && (parts[0] == "nodes" || parts[0] == "loads");
       CAPTURE(title(sample), path);
       if (!is_name) CHECK(words.count(parts.back()) == 1);

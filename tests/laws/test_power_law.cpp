@@ -35,7 +35,7 @@ TEST_CASE("law 3: power is the rate of energy plus dissipation less input") {
         VectorX Phi_rate, ignored;
         dense.constraint_rates(named.state, Phi_rate, ignored);
         const Energy energy = dense.energy(named.state);
-        // A small step: the distance of two points may halve within 0.05/rate.
+        // The step is small, since the distance of two points may halve within 0.05/rate.
         const double stored = bielle::test::derivative(
             [&](double s) {
               const Energy later = dense.energy(dense.along_motion(named.state, s / subject.scales.rate));

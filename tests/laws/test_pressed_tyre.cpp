@@ -1,4 +1,4 @@
-// The tangent of a tyre that is pressed on the road: the laws meet it with any reaction, this test with pushes.
+// The tangent of a tyre that is pressed on the road: the laws use any reaction, this test only pushes.
 #include <catch2/catch.hpp>
 
 #include "mechanism/joints/pairs/tyre_force.hpp"
@@ -41,7 +41,7 @@ TEST_CASE("the tangent of a tyre in partial and in full sliding is the derivativ
         // Central differences: h^2 times third derivatives of a force that varies over slips of order one.
         CHECK(wrong_K < 1e-3 * (1 + K.cwiseAbs().maxCoeff()));
         CHECK(wrong_C < 1e-3 * (1 + C.cwiseAbs().maxCoeff()));
-        // By the push, in which the force is smooth.
+        // The derivative by the push, in which the force is smooth.
         VectorX by_push = VectorX::Zero(dense.size());
         for (const double h : {1e-4, -1e-4}) {
           State pushed = state;

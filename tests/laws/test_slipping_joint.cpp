@@ -1,4 +1,4 @@
-// The tangent and the power of a joint that slips by Coulomb's law: the laws meet it before its motion has begun, this
+// The tangent and the power of a joint that slips by Coulomb's law: the laws test it before its motion has begun, this
 // test on its two branches of slipping.
 #include <catch2/catch.hpp>
 

@@ -63,8 +63,8 @@ void check_part(const Subject& subject, const Sample& sample, const State& state
     const double mass = (dense.tangent(state, Part::M) * units.asDiagonal()).cwiseAbs().maxCoeff();
     allowed_everywhere = part == Part::K ? sample.neglected.K * w * w * mass : sample.neglected.C * w * mass;
   }
-  // Differences are good to 1e-12 of the terms that make up a row (finite_difference.hpp); these are larger than the
-  // entries by the cancellation within a row, for which a factor of a thousand is left.
+  // Differences are accurate to 1e-12 of the terms that make up a row (finite_difference.hpp); these exceed the entries
+  // by the cancellation within a row, for which a factor of a thousand is allowed.
   const VectorX allowed =
       1e-9 * row_sizes(dense, expected, dense.residual(state)).array() + (allowed_everywhere + 1e-13);
   for (int i = 0; i < dense.size(); ++i)

@@ -1,4 +1,4 @@
-// The three forms of constraints, each with the scheme that its order is looked at with, and how it is looked at.
+// The three forms of constraints, each with the scheme and the method by which its order is tested.
 #pragma once
 
 #include <cmath>

@@ -19,8 +19,8 @@ class RotatingMass {
   RotatingMass(const mechanism::Scheme& scheme, double inertia, double h, bool corrected)
       : scheme_(scheme), inverse_mass_(1, 1, 1 / inertia), h_(h), corrected_(corrected) {}
 
-  /// Largest eigenvalue of a step's linearisation in axes that turn with the mass, but for the two that are 1: another
-  /// phase, another speed.
+  /// Largest eigenvalue of a step's linearisation in axes that turn with the mass, except the two eigenvalues 1, which
+  /// belong to another phase and another speed.
   double spectral_radius() const {
     const Matrix D = derivative(steady());
     Eigen::VectorXcd roots = Matrix(D).eigenvalues();

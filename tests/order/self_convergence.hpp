@@ -1,6 +1,6 @@
 // The order of a scheme from a model's own solutions at h, h/2, h/4, ...: the difference of two neighbours is the error
-// of the coarser one but for a quarter of it, so that its quotients are those of the errors. Every step of the coarser
-// run counts, the first one too.
+// of the coarser one less a quarter of it, so that its quotients are those of the errors. Every step of the coarser run
+// counts, the first one too.
 #pragma once
 
 #include <algorithm>
@@ -14,10 +14,10 @@
 
 namespace bielle::test {
 
-/// The kinds of unknowns whose order is looked at.
+/// The kinds of unknowns whose order is tested.
 inline const std::vector<std::string> track_kinds = {"positions", "velocities", "multipliers", "first-order unknowns"};
 
-/// What a run passed through: of each step the values of each kind.
+/// The values of each kind of unknown in each step of a run.
 using Track = std::vector<std::vector<mechanism::VectorX>>;
 
 inline std::vector<mechanism::VectorX> values_by_kind(const mechanism::State& state) {
@@ -61,7 +61,7 @@ inline std::vector<double> largest_differences(const Track& coarse, const Track&
 }
 
 /// Checks order 2 of every kind over four halvings.
-/// @param margin  on the observed order: the next term of the error's series
+/// @param margin  tolerance of the observed order: the next term of the error's series
 inline void check_order_two(const ReadyModel& model, const mechanism::Scheme& scheme, mechanism::ConstraintForm form,
                             double h, double span, double factor, double margin) {
   const auto run = [&](double size) { return track(model, scheme, form, size, span, factor); };

@@ -1,7 +1,6 @@
-// The order of the scheme on a model with an algebraic unknown: a pendulum that two springs in series hold, with no
-// mass where they meet (tests/support/series_strut.hpp). Reference: the equation of its angle, with the springs'
-// balance solved for at each evaluation, by the classical Runge-Kutta method. And the same model with the unknown
-// eliminated.
+// The order of the scheme on a model with an algebraic unknown: a pendulum held by two springs in series without mass
+// between them (tests/support/series_strut.hpp). Reference: the equation of its angle, with the springs' balance solved
+// for at each evaluation, by the classical Runge-Kutta method. And the same model with the unknown eliminated.
 #include <catch2/catch.hpp>
 
 #include "mechanism/io/mechanism_file.hpp"

@@ -39,7 +39,7 @@ using Vector2 = Eigen::Vector2d;
 
 struct Instant {
   double acceleration;
-  Vector2 force;  ///< of the bearing on the body
+  Vector2 force;  ///< force of the bearing on the body
 };
 
 Instant solve(const Vector2& z) {

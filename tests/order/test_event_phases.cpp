@@ -1,9 +1,9 @@
-// The law of events: a crossing that changes nothing leaves motions and reactions as they are without it, to the order
-// of the scheme, wherever it lies relative to the grid of steps: on a time of it, from 1e-16 s to the whole of a step
-// before and behind.
+// The law of events: a crossing without consequences leaves motions and reactions unchanged, to the order of the
+// scheme, at any position relative to the grid of steps: on a time of it, and from 1e-16 s to a whole step before and
+// behind.
 //
-// Such a crossing is noted within a step, or (`action: restart`) ends the step, so that what is left of it has every
-// size. The change is measured by the change that steps of twice the size make.
+// Such a crossing is noted within a step, or (`action: restart`) ends the step, so that the remaining step has any
+// size. The change is compared with that of steps of twice the size.
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -25,7 +25,7 @@ struct Sample {
   std::string text;
   double duration, h;
   const char* reaction;  ///< the dataset that is compared
-  double size;           ///< of the reactions [N] or [N m]
+  double size;           ///< scale of the reactions [N] or [N m]
 };
 
 /// A body on an arm of 0.5 m about a hinge: m r omega^2 = 123.37 N.
@@ -125,7 +125,7 @@ TEST_CASE("an event at any phase relative to the grid changes reactions by the e
                                 coarse = rows(sample.text, sample.duration, 2 * h, sample.reaction);
       const std::size_t n = without.size() / (static_cast<std::size_t>(std::lround(sample.duration / h)) + 1);
       // The error of steps of 2 h is 4/3 of what they differ by from those of h.
-      double error = 1e-6 * sample.size;  // what accelerations of the shortest steps are good for
+      double error = 1e-6 * sample.size;  // accuracy of the accelerations of the shortest steps
       for (std::size_t k = 0; k < coarse.size(); ++k)
         error = std::max(error, 4.0 / 3 * std::abs(coarse[k] - without[(k / n) * 2 * n + k % n]));
       by_restarts.push_back(0);
@@ -175,7 +175,7 @@ TEST_CASE(
           Motion motion = session.dynamics(options);
           REQUIRE(motion.finish());
           INFO(drive << beyond << ", " << action << ", h = " << h);
-          CHECK(worst < std::pow(15.7 * h, 2) / 2);  // as without the event: 0.34 (omega h)^2 driven, 0.08 free
+          CHECK(worst < std::pow(15.7 * h, 2) / 2);  // the same without the event: 0.34 (omega h)^2 driven, 0.08 free
           REQUIRE(events.size() == 1);
           CHECK(events[0].time == Approx(0.1).margin(2e-5 / 7.85 + 0.1 * std::pow(15.7 * h, 2) / 4).epsilon(0));
         }

@@ -1,4 +1,4 @@
-// The order of the scheme on a model with a first-order unknown: a pendulum that a spring and a damper in series hold
+// The order of the scheme on a model with a first-order unknown: a pendulum held by a spring and a damper in series
 // (tests/support/maxwell_strut.hpp). Reference: its two equations, for the angle and the tension, by the classical
 // Runge-Kutta method.
 #include <catch2/catch.hpp>

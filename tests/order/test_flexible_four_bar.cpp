@@ -1,6 +1,7 @@
 // The order of the scheme on a four-bar with a flexible coupler that falls under its weight. No reference is needed:
 // the solutions at h, h/2, ... converge to each other (self_convergence.hpp). The coupler is so soft (a band of rubber,
-// 6 Hz in bending) that the steps resolve its highest modes, axial and in shear, too: only then is an order to be seen.
+// 6 Hz in bending) that the steps resolve its highest modes, also axial and in shear: only then is the order
+// observable.
 #include <fmt/format.h>
 
 #include "tests/order/self_convergence.hpp"

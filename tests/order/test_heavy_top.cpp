@@ -79,7 +79,7 @@ TEST_CASE("the heavy top's errors at one second are those of an independent impl
 namespace {
 
 struct LargestErrors : bielle::test::TopErrors {
-  double a = 0;  ///< of the centre's acceleration
+  double a = 0;  ///< error of the centre's acceleration
 };
 
 /// Over all steps until `end`.
@@ -121,7 +121,7 @@ TEST_CASE("without corrected start values the multipliers' error in the transien
 
 TEST_CASE("with corrected start values multipliers and accelerations are second order in the transient too") {
   // Largest error over all steps of the first 0.1 s (M. Arnold, O. Bruls, A. Cardona, Numer. Math. 129 (2015) 149). The
-  // transient dies out per step, so that each run is judged at its own steps.
+  // transient decays per step, so that each run is judged at its own steps.
   double h = 5e-4;
   LargestErrors coarse = largest_errors(0.8, h, 0.1, true);
   for (int halving = 0; halving < 4; ++halving) {

@@ -1,5 +1,5 @@
-// What the scheme's own dissipation takes out of a motion: exact for linear oscillations however long the steps are, of
-// the order of theory in motions that turn.
+// The scheme's own dissipation in a motion: exact for linear oscillations however long the steps are, of the
+// theoretical order in motions that turn.
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
@@ -41,10 +41,10 @@ double stored(const ReadyModel& model, const State& state) {
 }
 
 struct Books {
-  double lost = 0, loss = 0, lent = 0;  ///< of stored energy; to the scheme; by the term L, which comes back
+  double lost = 0, loss = 0, lent = 0;  ///< stored energy; loss to the scheme; term L, which is returned
 };
 
-/// Without start correction: A = a at the start. The term that comes back is written out, from what the states show.
+/// Without start correction: A = a at the start. The returned term is computed directly from the states.
 Books run(const ReadyModel& model, const Scheme& scheme, double h, int steps) {
   TimeIntegration integration(model.system, model.environment(), scheme, model.system.start(0));
   const double alpha_m = scheme.alpha_m, alpha_f = scheme.alpha_f, g = alpha_f - alpha_m, p = 0.5 - alpha_m,

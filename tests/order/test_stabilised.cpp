@@ -1,4 +1,4 @@
-// The stabilised form of constraints: order, errors, and steps that the index-3 form cannot take.
+// The stabilised form of constraints: order, errors, and steps for which the index-3 form is unstable.
 #include <catch2/catch.hpp>
 
 #include "tests/order/heavy_top.hpp"
@@ -36,7 +36,7 @@ Errors top_errors(double h, double end) {
 TEST_CASE("the stabilised form keeps the constraints of velocities and is of order 2 from the first step") {
   double h = 1e-3;
   Errors coarse = top_errors(h, 0.2);
-  CHECK(coarse.rate < 1e-8);  // of 15 m/s
+  CHECK(coarse.rate < 1e-8);  // relative to 15 m/s
   for (int halving = 0; halving < 4; ++halving) {
     h /= 2;
     const Errors fine = top_errors(h, 0.2);

@@ -39,7 +39,7 @@ TEST_CASE("positions and multipliers stay second order in the transient after th
   // With corrected velocities: rho = 0.98, so that they are corrected in all of these steps.
   for (const auto& [form, rho] : {std::pair(ConstraintForm::position, 0.8), std::pair(ConstraintForm::corrected, 0.98)})
     for (const double factor : {0.5, 2.0}) {
-      // Not below 3e-5: there rounding of positions, times m/(beta h^2), is seen in the multipliers.
+      // The step is not below 3e-5, since the multipliers contain the rounding of positions times m/(beta h^2).
       double h = 1e-3;
       TopErrors coarse = errors_after_change(h, factor, rho, form);
       for (int halving = 0; halving < 4; ++halving) {

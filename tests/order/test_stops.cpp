@@ -1,4 +1,4 @@
-// Steps end where contact begins and ends, and the scheme keeps its order across: a constant force pushes a coordinate
+// Steps end at the begin and end of contact, and the scheme keeps its order: a constant force pushes a coordinate
 // against a stop of spring and damper, which throws it back, against the closed form.
 #include <catch2/catch.hpp>
 
@@ -15,7 +15,7 @@ using bielle::test::steps_of;
 namespace test_stops {
 namespace {
 
-/// The scheme is exact for it as long as nothing but its weight acts. Weight acts along +q.
+/// The scheme is exact for it as long as only its weight acts. Weight acts along +q.
 const std::string falling = R"yaml(
 gravity: [0, 0, -9.81]
 nodes: {ball: {position: [0, 0, 2]}}
@@ -24,7 +24,7 @@ joints: {path: {type: prismatic, nodes: [ground, ball], axis: [0, 0, -1], stops:
 )yaml";
 Bounce fall() { return {0.3, 9.81, std::sqrt(1800 / 2.0), 12 / 2.0 / 2}; }
 
-/// The same about an axle that holds the body off its centre: J = 0.5 + 2 0.6^2, and reactions that turn.
+/// The same model about an axle that holds the body off its centre: J = 0.5 + 2 0.6^2, and reactions that turn.
 const std::string turning = R"yaml(
 nodes: {arm: {position: [0.6, 0, 0]}}
 elements: {arm: {type: rigid_body, node: arm, mass: 2, inertia: [0.3, 0.3, 0.5]}}
@@ -106,7 +106,8 @@ TEST_CASE("contact and what comes after are of order 2 in each form of constrain
     UNSCOPED_INFO("h " << sizes.back() << ": q " << q.back() << ", v " << v.back() << ", force " << force.back()
                        << ", times " << times.back() << ", balance " << ran.balance);
   }
-  // Where the damper lets go before contact ends, a step holds a kink at any place: that scatters the errors' factor.
+  // If the damper's force ends before contact ends, a step contains a kink at any place, which scatters the errors'
+  // factor.
   for (const auto& errors : {q, v, force, times}) CHECK(slope(sizes, errors) == Approx(2).margin(0.15));
   CHECK(q.back() < 1e-5);
 }
@@ -138,7 +139,7 @@ TEST_CASE("the grid of fixed steps goes on after events") {
 TEST_CASE("an undamped stop gives back what it took") {
   std::string text = falling;
   text.replace(text.find(", damping: 12"), 13, "");
-  const double period = 2 * std::sqrt(2 * 0.3 / 9.81);  // of flight
+  const double period = 2 * std::sqrt(2 * 0.3 / 9.81);  // duration of flight
   Bounce exact(0.3, 9.81, 30, 0);
   const std::vector<double> events = exact.events(2);
   CHECK(events[2] - events[1] == Approx(period).epsilon(1e-12));

@@ -1,5 +1,5 @@
-// Constraints whose directions turn: where the plain form of index 3 grows unstable, why, and that corrected velocities
-// cure it without loss of order.
+// Constraints whose directions turn: the instability of the plain form of index 3, its cause, and its cure by corrected
+// velocities without loss of order.
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
@@ -101,15 +101,15 @@ TEST_CASE("with corrected velocities a rotor goes on where the plain form fails,
     for (const double turn : {0.1, 0.3, 0.6}) {
       const std::vector<double> force = pull(model, scheme, ConstraintForm::corrected, turn, 300);
       INFO("alpha_m = " << scheme.alpha_m << ", alpha_f = " << scheme.alpha_f << ", " << turn << " rad per step");
-      // What a scheme of rho < 1 takes out of the motion is of order 3 per step.
+      // A scheme with rho < 1 removes energy of order 3 per step.
       CHECK(std::abs(force[10] - 1) < turn * turn);
       CHECK(alternation(force, 250, 40) < 1e-2 * turn * turn);
     }
 }
 
 TEST_CASE("corrected velocities keep order 2 in positions, velocities and multipliers over four halvings") {
-  // The heavy top with rho = 0.99: its constraint turns by more than half of the 0.007 rad that the plain form bears in
-  // all of these steps.
+  // The heavy top with rho = 0.99: its constraint turns by more than half of the 0.007 rad at which the plain form
+  // becomes unstable, in all of these steps.
   const auto largest_errors = [](double h) {
     const ReadyModel model(bielle::test::heavy_top);
     EulerPoinsot reference;
@@ -158,7 +158,7 @@ TEST_CASE("a run says when its joints turn too far in a step") {
 
 TEST_CASE("positions fall behind by what a run says, and not where a body turns and its path does not bend") {
   for (const double inertia : {0.01, 1.0, 4.0}) {
-    const double turn = 0.5, share = 1 / (1 + inertia);  // of the kinetic energy that goes around
+    const double turn = 0.5, share = 1 / (1 + inertia);  // share of the kinetic energy that goes around
     const Scheme scheme = Scheme::generalized_alpha(0.8);
     const ReadyModel model = rotor(inertia);
     TimeIntegration integration(model.system, model.environment(), scheme, model.system.start(0));
@@ -180,7 +180,7 @@ TEST_CASE("positions fall behind by what a run says, and not where a body turns 
 }
 
 TEST_CASE("a node that moves next to the ground's origin is no joint that turns") {
-  // The pendulum's node stands on its hinge, at the origin but for rounding.
+  // The pendulum's node is on its hinge, at the origin up to rounding.
   const ReadyModel model(R"yaml(
 gravity: [0, 0, -9.81]
 nodes: {p: {position: [0, 0, 0], rotation_vector: [0, -1.0471975511965976, 0]}}

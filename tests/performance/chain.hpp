@@ -1,4 +1,4 @@
-// The chain that is measured: links of 1 m and 1 kg, horizontal along x from the ground, with joints of one type.
+// The measured chain: links of 1 m and 1 kg, horizontal along x from the ground, with joints of one type.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace bielle::performance {
 inline const std::string spherical = "spherical", hinge = "hinge, axis: [0, 1, 0]";
 
 /// Gravity, nodes, elements and joints of a mechanism file.
-/// @param joint  its type, with what it needs besides nodes and position
+/// @param joint  its type, and keys besides nodes and position
 inline std::string chain(int links, const std::string& joint) {
   std::string nodes, elements, joints;
   for (int k = 0; k < links; ++k) {
@@ -22,7 +22,7 @@ inline std::string chain(int links, const std::string& joint) {
   return "gravity: [0, 0, -9.81]\nnodes:\n" + nodes + "elements:\n" + elements + "joints:\n" + joints;
 }
 
-/// The same of links that bend: each a steel bar of 1 m and 1 kg, one beam element, joined by hinges.
+/// A chain of flexible links: each is a steel bar of 1 m and 1 kg, one beam element, joined by hinges.
 inline std::string flexible_chain(int links) {
   std::string nodes, elements, joints;
   for (int k = 0; k < links; ++k) {

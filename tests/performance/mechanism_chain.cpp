@@ -1,16 +1,16 @@
-// What a step costs, and on what the time goes: chains of rigid links, and a beam.
+// The time of a step and its parts: chains of rigid links, and a beam.
 //
 //   performance_mechanism_chain [LINKS ...]      default 10 100 500, then a beam of 50 elements
 //   performance_mechanism_chain --run MODEL renewed|reused LINKS STEPS      one run, recorded: for step_shares
 //
-// A chain of links of 1 m and 1 kg hangs from the ground by one end and is released from the horizontal; 2 s in steps
-// of 1 ms. Its joints are spherical, the cheapest there are, or hinges, and the links of the latter rigid or elastic
-// (a beam element each). The beam falls likewise. Each model runs
-// with every step recorded, as a user runs it. The parts are then measured one by one at the last state: residuals and
-// tangents (elements with their assembly), energies and memory, the motion of the nodes (rotations and what follows
-// from them), factorisation, solution; and output as the difference of the runs with and without it; all in time of the
-// processor. What is left is the scheme's: predicting, judging convergence, records. What a run does once, when its
-// file is closed, is told apart. What of residuals and tangents is assembly, step_shares tells.
+// Its joints are spherical, the cheapest type, or hinges, and the links of the latter rigid or elastic (a beam element
+// each). Its joints are spherical, the cheapest there are, or hinges, and the links of the latter rigid or elastic (a
+// beam element each). The beam falls likewise. Each model runs with every step recorded, as a user runs it. The parts
+// are then measured one by one at the last state: residuals and tangents (elements with their assembly), energies and
+// memory, the motion of the nodes (rotations and what follows from them), factorisation, solution; and output as the
+// difference of the runs with and without it; all in time of the processor. The rest is the scheme's: prediction, tests
+// of convergence, records. Work that a run does once, when its file is closed, is reported separately. step_shares
+// measures the share of assembly in residuals and tangents.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -50,7 +50,7 @@ joints: {{pivot: {{type: hinge, nodes: [ground, a], axis: [0, 1, 0]}}}}
 
 struct Run {
   double seconds = 0;         ///< elapsed
-  double processor = 0;       ///< of the computing thread in the steps
+  double processor = 0;       ///< processor time of the computing thread in the steps
   double end = 0;             ///< and when the file is closed
   double all_processors = 0;  ///< and of the one that writes
   long iterations = 0, factorisations = 0, evaluations = 0, solutions = 0, orders = 0, steps = 0;
@@ -105,7 +105,7 @@ Run integrate(const MechanismFile& file, const System& system, bool reuse, const
   return run;
 }
 
-/// The fastest of several runs: other work on the machine lengthens some.
+/// The fastest of several runs: other work on the machine lengthens some of them.
 Run fastest(const MechanismFile& file, const System& system, bool reuse, const std::string& results_path) {
   Run best = integrate(file, system, reuse, results_path);
   for (int k = 0; k < 4; ++k) {
@@ -133,7 +133,7 @@ double time_of(const std::function<void()>& call) {
   return best;
 }
 
-/// What components keep from step to step.
+/// Evaluates the memory that components keep from step to step.
 void evaluate_memory(const System& system, const State& state, const Environment& environment) {
   static VectorX memory;
   memory = state.memory;
@@ -147,7 +147,7 @@ std::string results_path() {
   return (std::filesystem::temp_directory_path() / "performance_mechanism_chain.h5").string();
 }
 
-/// A long run alone, for a sampling profiler.
+/// Makes a long run alone, for a sampling profiler.
 int run_only(const std::string& model, const std::string& tangents, int links, long steps) {
   const std::string text = model == "spherical"  ? chain(links, spherical)
                            : model == "hinges"   ? chain(links, hinge)
@@ -189,7 +189,7 @@ void measure(const std::string& title, const std::string& text) {
     std::vector<double> values;
     const State& state = with.state;
     linear.factor(state, environment, weights, &dq);
-    // Each part by how often a step needs it.
+    // Each part is weighted by its calls per step.
     const auto steps = static_cast<double>(with.steps);
     const double iterations = static_cast<double>(with.iterations) / steps;
     const double tangents = static_cast<double>(with.factorisations) / steps;

@@ -1,10 +1,10 @@
-// What contacts cost: a hundred balls that fall to a floor.
+// The cost of contacts: a hundred balls that fall to a floor.
 //
 //   performance_mechanism_contacts [BALLS_ALONG_A_SIDE]      default 10: 100 balls
 //
 // Side by side they touch the floor alone: free fall, contacts of each ball with the floor, and one group in which
-// every ball may touch every other. The difference of the last two is what pairs cost that are far from each other. In
-// a bin they make a heap. Processor time, the least of three runs; all in one run of the program.
+// every ball may touch every other. The difference of the last two is the cost of pairs that are far from each other.
+// In a bin they form a heap. Processor time, the least of three runs; all in one run of the program.
 #include <algorithm>
 #include <cstdlib>
 #include <limits>

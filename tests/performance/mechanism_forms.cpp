@@ -1,5 +1,5 @@
-// Which form of the scheme gives the smallest error for its cost, and which one stays stable: the measurement behind
-// the defaults of dynamic analyses (mechanism/solvers/README.md).
+// The error and stability of the forms of the scheme in relation to their cost: the measurement behind the defaults of
+// dynamic analyses (mechanism/solvers/README.md).
 //
 //   performance_mechanism_forms
 //

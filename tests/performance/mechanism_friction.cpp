@@ -1,4 +1,4 @@
-// What friction in joints costs: chains of hinges without it, and with each of its models.
+// The cost of friction in joints: chains of hinges without it, and with each of its models.
 //
 //   performance_mechanism_friction [LINKS ...]      default 1 10 100
 //

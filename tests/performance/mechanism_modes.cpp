@@ -1,9 +1,9 @@
-// What modes of large models cost: hanging chains of elastic links, hinged in turn about two axes.
+// The cost of modes of large models: hanging chains of elastic links, hinged in turn about two axes.
 //
 //   performance_mechanism_modes [LINKS] [MODES]
 //
-// The slowest frequencies are those of a heavy chain, j_n sqrt(g/L)/2 with the zeros j_n of Bessel's J0, but for its
-// links and their stiffness.
+// The slowest frequencies are those of a heavy chain, j_n sqrt(g/L)/2 with the zeros j_n of Bessel's J0, except for the
+// effect of its links and their stiffness.
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
@@ -38,7 +38,7 @@ std::string hanging_chain(int links) {
   return "gravity: [0, 0, -9.81]\nnodes:\n" + nodes + "elements:\n" + elements + "joints:\n" + joints;
 }
 
-/// Answers at many frequencies: one by one, and as a sum over modes.
+/// Computes answers at many frequencies: one by one, and as a sum over modes.
 void compare_responses(const Session& session, int count, double highest) {
   FrequencyResponseOptions options;
   const int first = *session.model().find_node("b0"), next = *session.model().find_node("b1");

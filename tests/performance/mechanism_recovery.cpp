@@ -1,12 +1,12 @@
-// What fields of a superelement cost: frames recovered together, one by one, and looked through for peaks, next to what
-// memory takes for the same bytes in the same run.
+// The cost of fields of a superelement: frames recovered together, one by one, and searched for peaks, compared with
+// the time for moving the same bytes in memory in the same run.
 //
 //   performance_mechanism_recovery [NODES] [FRAMES] [COORDINATES]      24000 60 32
 //
 // Elapsed times, the fastest of several rounds, with as many threads as OpenMP has (OMP_NUM_THREADS). Bytes are those
-// that have to move at least: the recovery matrices once, and the fields. Bandwidth is that of a copy, of what is read
-// and what is written, by the same threads. With more than some ten coordinates it is not memory but multiplications
-// that limit: they are measured as a product of square matrices.
+// that must be moved at least: the recovery matrices once, and the fields. Bandwidth is that of a copy, counting bytes
+// read and written, by the same threads. With more than about ten coordinates the limit is not memory but
+// multiplications: they are measured as a product of square matrices.
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
@@ -47,7 +47,7 @@ Superelement body_of(int nodes, int coordinates) {
   return body;
 }
 
-/// Of a copy, bytes read and written [B/s].
+/// Bandwidth of a copy, bytes read and written [B/s].
 double bandwidth(std::size_t numbers) {
   std::vector<double> from(numbers, 1.0), to(numbers, 0.0);
   const double time = fastest([&] {

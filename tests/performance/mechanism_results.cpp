@@ -1,10 +1,11 @@
-// What results of large models cost: setting up their rows, making the datasets, writing, closing.
+// The cost of results of large models: setting up their rows, making the datasets, writing, closing.
 //
 //   performance_mechanism_results named|stacked LINKS [ROWS]      ROWS: 20
 //
 // The links are those of a chain: a node, a rigid body and a hinge each, here as components that record as many numbers
-// and compute nothing. All times are of the processor, of both threads; of a row, what its numbers take is told apart,
-// and what copying them in memory takes, within the same run. One size per run, so that the peak of memory is its own.
+// and compute nothing. All times are processor times of both threads; for a row, the times for its numbers and for
+// copying them in memory are given separately, within the same run. One size per run, so that the peak of memory is its
+// own.
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>

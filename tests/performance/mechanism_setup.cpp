@@ -1,15 +1,16 @@
-// What it costs to read, check and set up mechanisms of many parts, phase by phase, and how that grows with their size.
+// The cost of reading, checking and setting up mechanisms of many parts, phase by phase, and its growth with their
+// size.
 //
 //   performance_mechanism_setup [MODEL ...] [PARTS ...]      default: all models, 1000 and 10000 parts
 //   performance_mechanism_setup --orderings [MODEL ...] [PARTS ...]
 //
 // The models are those of tests/support/large_models.hpp. Each size runs in a process of its own, so that its peak of
-// memory is its own; times are processor times. Each figure is followed by its ratio to the size before: 10 for
-// ten times the parts is linear.
+// memory is its own; times are processor times. Each figure is followed by its ratio to that of the previous size: 10
+// for ten times the parts is linear.
 //
 // The second form factorises the matrices of a step, of a consistent start and of statics with both orderings that KLU
-// has, and shows operations, entries of the factors and times. Minimum degree is slow where its pivots leave the
-// diagonal: begin with few parts.
+// has, and shows operations, entries of the factors and times. Minimum degree is slow if its pivots leave the diagonal:
+// begin with few parts.
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -44,11 +45,11 @@ using bielle::test::LargeModel;
 
 struct Phase {
   char name[32] = "";
-  double seconds = 0;  ///< of the processor
+  double seconds = 0;  ///< processor time [s]
   double memory = 0;   ///< peak of the process so far [MB]
 };
 
-/// All phases in a row. @param report  takes each when it is done
+/// Runs all phases in a row. @param report  takes each when it is done
 void run_phases(const std::string& text, bool stands, const std::function<void(const Phase&)>& report) {
   const auto phase = [&](const char* name, const std::function<void()>& work) {
     Phase done;
@@ -88,7 +89,7 @@ void run_phases(const std::string& text, bool stands, const std::function<void(c
   phase("--check", [&] { describe_model(file); });
 }
 
-/// The phases in a process of its own.
+/// Runs the phases in a process of its own.
 std::vector<Phase> run_apart(const LargeModel& model, int parts) {
   int ends[2];
   if (pipe(ends) != 0) throw std::runtime_error("no pipe");
@@ -138,7 +139,7 @@ void measure(const LargeModel& model, const std::vector<int>& sizes) {
   std::fflush(stdout);
 }
 
-/// Factors of the last tangent of a linear step by one of KLU's orderings, scaled as SparseLU does it.
+/// Factorises the last tangent of a linear step by one of KLU's orderings, scaled as in SparseLU.
 void factorise(const System& system, const LinearStep& linear, const char* name, int ordering) {
   const SparsePattern& pattern = system.pattern();
   VectorX scale = VectorX::Ones(pattern.size()), row_size = VectorX::Zero(pattern.size());
@@ -181,7 +182,7 @@ void factorise(const System& system, const LinearStep& linear, const char* name,
   klu_free_symbolic(&symbolic, &common);
 }
 
-/// The same by SparseLU, which chooses.
+/// Factorises it by SparseLU, which chooses the ordering.
 void factorise_by_choice(const System& system, const LinearStep& linear) {
   VectorX scale = VectorX::Ones(system.size());
   scale.tail(system.multipliers()).setConstant(linear.scale());

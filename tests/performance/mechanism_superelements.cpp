@@ -1,14 +1,14 @@
-// What a step costs, and on what the time goes, where superelements have many modes.
+// The time of a step and its parts for superelements with many modes.
 //
 //   performance_mechanism_superelements [BODIES MODES ...]      default 20 50, then 1 100
 //   performance_mechanism_superelements --steps BODIES MODES    the steps alone, for comparisons of two builds
 //
 // A chain of bodies of 1 m and 1 kg hangs from the ground by one end and is released from the horizontal, joined by
 // hinges; 0.1 s in steps of 1 ms. Each is the straight beam of tests/support, reduced to its two ends and a number of
-// fixed-boundary modes, and all are read from the same file. The steps run as they do for a user but for their output.
-// The parts are then measured one by one at the last state.
+// fixed-boundary modes, and all are read from the same file. The steps run as for a user, but without output. The parts
+// are then measured one by one at the last state.
 //
-// Processor time of the calling thread, the fastest of several rounds, except where it says elapsed: that is what other
+// Processor time of the calling thread, the fastest of several rounds, unless labelled elapsed, for work that other
 // threads shorten.
 #include <cstdio>
 #include <cstdlib>
@@ -35,7 +35,7 @@ using namespace bielle::performance;
 
 constexpr double step = 1e-3;
 
-/// The file of the bodies, while it lives.
+/// The file of the bodies, which exists as long as this object.
 class BodyFile {
  public:
   explicit BodyFile(int modes) {
@@ -66,8 +66,10 @@ std::string chain(int bodies, const std::string& file) {
 }
 
 struct Run {
-  double processor = 0;                                                       ///< of the calling thread, per step [s]
-  double all = 0;                                                             ///< of all threads, per step [s]
+  double processor = 0;                                                       ///< processor time of the calling thread,
+                                                                              ///< per step [s]
+  double all = 0;                                                             ///< processor time of all threads, per
+                                                                              ///< step [s]
   double elapsed = 0;                                                         ///< per step [s]
   double iterations = 0, factorisations = 0, evaluations = 0, solutions = 0;  ///< per step
   State state;
@@ -101,7 +103,7 @@ Run integrate(const MechanismFile& file, const System& system, bool reuse) {
   return run;
 }
 
-/// The least of several runs: other work on the machine lengthens some.
+/// Keeps the least of several runs: other work on the machine lengthens some of them.
 void keep_fastest(const Run& run, Run& best) {
   if (best.state.nodes.empty()) best = run;
   best.processor = std::min(best.processor, run.processor);
@@ -180,7 +182,7 @@ class Bodies {
   MatrixX K_, C_, M_;
 };
 
-/// Factors with and without condensation, in turns: what else the machine does meets both.
+/// Measures factors with and without condensation, in turns, so that other work on the machine affects both.
 template <class Line, class Products>
 void compare_factors(const System& system, const LinearStep& linear, const Line& line, const Products& products) {
   VectorX scales = VectorX::Ones(system.size());

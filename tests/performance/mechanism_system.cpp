@@ -1,10 +1,10 @@
-// What a system costs to set up and to evaluate once, as models grow: chains of hinged links, made in memory.
+// The cost of setting up a system and of evaluating it once, as models grow: chains of hinged links, made in memory.
 //
 //   performance_mechanism_system [LINKS ...]      default 1000 10000 100000
 //
-// For each phase its processor time, and per link over that of the chain before: 1 where it grows with the model alone.
-// Names are asked for of one unknown and equation per link, all over the model. Memory is what the heap holds of the
-// system, per entry of the tangent's pattern, and the highest resident memory so far.
+// For each phase it prints the processor time, and its ratio per link to that of the previous chain: 1 if it is
+// proportional to the size of the model. Names are asked for of one unknown and equation per link, all over the model.
+// Memory is the heap memory of the system, per entry of the tangent's pattern, and the highest resident memory so far.
 #include <cstdlib>
 #include <functional>
 #include <memory>

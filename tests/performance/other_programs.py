@@ -1,4 +1,4 @@
-"""What compare_reduction compares with: the rod, other programs run alone, matrices in files."""
+"""The data and programs for compare_reduction: the rod, other programs run alone, matrices in files."""
 
 import glob
 import os
@@ -25,7 +25,7 @@ recovery: {{displacement: all, stress: surface}}
 
 
 class Run:
-    """One program: what it printed, elapsed seconds, and the largest memory of its processes together [GB]."""
+    """One run of a program: its output, elapsed seconds, and the largest memory of its processes together [GB]."""
 
     def __init__(self, command, folder, processes=1, **environment):
         variables = {k: v for k, v in os.environ.items() if not k.startswith("OPENBLAS_")}
@@ -44,8 +44,8 @@ class Run:
 
 
 def petsc_path(package):
-    """Where Debian puts the Python packages of PETSc and SLEPc, which are not on Python's path; empty: `package`
-    ("petsc" or "slepc") is not installed."""
+    """Folder in which Debian puts the Python packages of PETSc and SLEPc, which is not on Python's path; empty:
+    `package` ("petsc" or "slepc") is not installed."""
     places = sorted(glob.glob("/usr/lib/petscdir/*/*real*/lib/python3/dist-packages")
                     + glob.glob("/usr/lib/slepcdir/*/*real*/lib/python3/dist-packages"))
     return os.pathsep.join(places) if any(package + "dir" in place for place in places) else ""
@@ -59,7 +59,7 @@ def on_ranks(command, processes):
 
 
 def read_symmetric(folder, name):
-    """Both triangles, as scipy's CSR."""
+    """Reads both triangles, as scipy's CSR."""
     import scipy.sparse
 
     starts = np.fromfile(os.path.join(folder, name + ".starts"), dtype=np.int64)
@@ -70,7 +70,7 @@ def read_symmetric(folder, name):
 
 
 def petsc_matrix(folder, name):
-    """Of PETSc, each rank its rows: positive definite."""
+    """Makes a matrix of PETSc from the rows of each rank: positive definite."""
     from petsc4py import PETSc
 
     whole = read_symmetric(folder, name)

@@ -1,4 +1,4 @@
-// Time that other work on the machine does not lengthen.
+// Processor time, which other work on the machine does not lengthen.
 #pragma once
 
 #include <time.h>

@@ -1,12 +1,12 @@
-// What the fixed-boundary modes of the connecting rod cost: block Lanczos with blocks of several widths against ARPACK
-// with single vectors, with the same factor, in one run.
+// The cost of the fixed-boundary modes of the connecting rod: block Lanczos with blocks of several widths against
+// ARPACK with single vectors, with the same factor, in one run.
 //
 //   reduce_modes [--size MM ...] [--modes N ...] [--block B ...] [--tolerance T] [--no-arpack] [--rounds R]
 //
 // For each mesh: the time of a solution with 1, 2, 4 .. 64 columns, of a product with the mass, then for each number of
 // modes the time, sweeps (readings of the factor), columns and restarts of each method, its time over ARPACK's, and the
 // largest relative difference of eigenvalues. The methods take turns, `rounds` times, and the fastest counts. Nothing
-// is asserted: times belong to the machine.
+// is asserted, since times depend on the machine.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>

@@ -2,12 +2,12 @@
 //
 //   reduce_parts BODY.yaml FOLDER
 //
-// Writes into the folder what compare_reduction gives to SLEPc and CalculiX: stiffness and mass of the points inside
-// (lower triangles by columns: starts, rows as int64, values as float64), the first unknown of each point and then
-// their number, points [m], cells (their nodes, from 0, as int64) and the numbers of tied points. Rigid ties hold all
-// points of their surfaces; average ties leave them free, and a reduction holds what is then left by a few supports:
-// they are held here too. Prints, as JSON, the speed of a dense product (dgemm), the bandwidth of reading memory, and
-// time and size of the factorisation and of solutions with 1 and 12 columns, all from this run.
+// Writes into the folder the data that compare_reduction gives to SLEPc and CalculiX: stiffness and mass of the points
+// inside (lower triangles by columns: starts, rows as int64, values as float64), the first unknown of each point and
+// then their number, points [m], cells (their nodes, from 0, as int64) and the numbers of tied points. Rigid ties hold
+// all points of their surfaces; average ties leave them free, and a reduction holds the remaining motions by a few
+// supports: they are held here too. Prints, as JSON, the speed of a dense product (dgemm), the bandwidth of reading
+// memory, and time and size of the factorisation and of solutions with 1 and 12 columns, all from this run.
 #include <fstream>
 #include <string>
 #include <vector>

@@ -1,12 +1,12 @@
-// What the reduction of the connecting rod costs, phase by phase, compared with what the same machine can do in the
+// The cost of the reduction of the connecting rod, phase by phase, compared with the speed of the same machine in the
 // same run.
 //
 //   reduce_rod [SIZE_IN_MM ...]      element edges; default 4.6 2.8 2.05: about 50, 150 and 300 thousand dofs
 //
 // For each mesh: dofs, time of each phase, peak memory, the factorisation's speed against a product of dense matrices
-// (dgemm), and the whole reduction (from the mesh to the superelement, meshing and writing aside) against the sum
-// of 2.5 factorisations and 80 solutions with one right-hand side, and against 2.5 times one factorisation with its 80
-// solutions. Nothing is asserted: times belong to the machine.
+// (dgemm), and the whole reduction (from the mesh to the superelement, meshing and writing aside) against the sum of
+// 2.5 factorisations and 80 solutions with one right-hand side, and against 2.5 times one factorisation with its 80
+// solutions. Nothing is asserted, since times depend on the machine.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -61,8 +61,9 @@ void measure(double size, int threads) {
   const Mesh mesh = import_mesh(file.mesh, progress);
   progress.finish();
   const std::size_t meshing = progress.phases().size();
-  // The system gives memory slowly when it is touched first (a virtual machine's host above all): who factorises first
-  // would pay for both. One bare factorisation before makes them equal, and is shown beside the one that counts.
+  // The system provides memory slowly when it is first touched (above all on a virtual machine): the first
+  // factorisation would include that time. A previous bare factorisation makes both equal, and is shown beside the one
+  // that counts.
   const Bare cold = measure_bare(mesh, file.options, threads);
   ReductionReport report;
   const auto start = std::chrono::steady_clock::now();

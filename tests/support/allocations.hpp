@@ -1,5 +1,5 @@
-// How often a piece of code asks for memory. Programs that link Bielle::test_allocations have malloc replaced by one
-// that counts (glibc); Eigen and new allocate through it. Not for sanitizers, which replace malloc themselves.
+// Counts the allocations of a piece of code. Programs that link Bielle::test_allocations use a malloc that counts
+// (glibc); Eigen and new allocate through it. It does not work with sanitizers, which replace malloc themselves.
 #pragma once
 
 namespace bielle::test {

@@ -128,7 +128,8 @@ struct Full {
     return geometric;
   }
 
-  /// n.Gamma_2 + m.kappa_2 at z as a form in the ends' displacements, element axes, for the n and m of others of them.
+  /// n.Gamma_2 + m.kappa_2 at z as a form in the ends' displacements, element axes, where n and m belong to other
+  /// displacements of the ends.
   static Eigen::Matrix<double, 12, 12> second_variation(const BeamProperties& p, double z, double L,
                                                         const Eigen::Matrix<double, 12, 1>& ends) {
     const Rows d1 = shape_functions(z, L, 1), d2 = shape_functions(z, L, 2);

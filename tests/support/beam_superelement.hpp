@@ -1,5 +1,5 @@
-// Superelements to test with: a chain of straight Euler-Bernoulli elements (cubic bending, linear extension and
-// torsion) reduced to some of its nodes and fixed-boundary modes by dense algebra, without the program's own reduction.
+// Superelements for tests: a chain of straight Euler-Bernoulli elements (cubic bending, linear extension and torsion)
+// reduced to some of its nodes and fixed-boundary modes by dense algebra, without the program's own reduction.
 //
 // Translational inertia is that of mass points, four Gauss points per element (exact for the cubic field): the reduced
 // displacement of every one of them is known, so that energies and forces can be computed from positions in space
@@ -34,7 +34,7 @@ struct BeamSuperelement {
   Eigen::VectorXd masses;                     ///< [kg]
   Eigen::MatrixXd field;                      ///< (3p,n): displacement of the mass points, body axes
   Eigen::MatrixXd rotary;                     ///< (n,n): rotary inertia in M~
-  Eigen::MatrixXd full_stiffness, full_mass;  ///< of the chain, 6 unknowns per node in body axes
+  Eigen::MatrixXd full_stiffness, full_mass;  ///< matrices of the chain, 6 unknowns per node in body axes
   Eigen::MatrixXd basis;                      ///< (6 nodes, n): reduction basis
 };
 
@@ -69,8 +69,8 @@ BeamChain straight_beam(const BeamProperties& properties = {}, int modes = 4);
 /// patterns "push" (one point) and "spread" (two).
 BeamChain bent_chain();
 
-/// The bent body with interfaces that keep: everything; forces alone at one; all but a turn at one and a single moment
-/// at another; two translations and two turns; forces alone at all three.
+/// The bent body with different kept directions of its interfaces: all; only forces at one; all but one rotation at one
+/// and a single moment at another; two translations and two rotations; only forces at all three.
 std::vector<BeamChain> bent_chains();
 
 }  // namespace bielle::test

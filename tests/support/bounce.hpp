@@ -1,9 +1,8 @@
-// What is pushed by a constant force against a stop of spring and damper, and thrown back, again and again: closed
+// A body that a constant force pushes against a stop of spring and damper, which throws it back repeatedly: closed
 // form.
 //
-// Free:     q'' = f.                        In contact, p = q - upper:   p'' = f - 2 delta p' - omega^2 p,
-// as long as the stop pushes, omega^2 p + 2 delta p' > 0; after that q'' = f until p = 0, where contact ends. All per
-// unit of mass.
+// Free: q'' = f. In contact, p = q - upper: p'' = f - 2 delta p' - omega^2 p, as long as the stop pushes, omega^2 p + 2
+// delta p' > 0; after that q'' = f until p = 0, where contact ends. All quantities are per unit of mass.
 #pragma once
 
 #include <cmath>
@@ -13,7 +12,8 @@ namespace bielle::test {
 
 class Bounce {
  public:
-  /// From rest at q = 0. @param f  acceleration by the constant force @param omega, delta  of the stop: sqrt(k/m), d/2m
+  /// From rest at q = 0. @param f  acceleration by the constant force @param omega, delta constants of the stop:
+  /// sqrt(k/m), d/2m
   Bounce(double upper, double f, double omega, double delta) : upper_(upper), f_(f), omega_(omega), delta_(delta) {
     pieces_.push_back({Kind::free, 0, 0, 0});
   }

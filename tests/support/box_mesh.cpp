@@ -13,7 +13,7 @@ using reduce::CellBlock;
 using reduce::CellType;
 using reduce::Mesh;
 
-/// Makes each mid-side node once.
+/// Makes each mid-side node only once.
 class Edges {
  public:
   explicit Edges(std::vector<Eigen::Vector3d>& points) : points_(points) {}

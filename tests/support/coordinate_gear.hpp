@@ -1,8 +1,8 @@
-// A gear between coordinates of two joints: the smallest component with a constraint on what others hold.
+// A gear between coordinates of two joints: the smallest component with a constraint on the unknowns of others.
 //
 //   c_1 + ratio c_2 = 0,   of the coordinates c_1, c_2 (displacements or angles)
 //
-// It may be made before its joints are, so that it stands before them in a model.
+// It may be made before its joints, so that it precedes them in a model.
 #pragma once
 
 #include "mechanism/joints/joint.hpp"

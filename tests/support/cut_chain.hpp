@@ -1,4 +1,4 @@
-// A cut body to test with, without a mesh: the straight beam of beam_superelement.hpp in three pieces.
+// A cut body for tests, without a mesh: the straight beam of beam_superelement.hpp in three pieces.
 #pragma once
 
 #include "reduce/superelement/assembled_pieces.hpp"

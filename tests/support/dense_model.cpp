@@ -51,7 +51,7 @@ void DenseModel::number(const mechanism::Component& /*component*/, const Declara
   all_declarations_.push_back(d);
 }
 
-/// Numbers what a component refers to, and that in turn, and completes the slots.
+/// Numbers the components to which a component refers, and their references in turn, and completes the slots.
 void DenseModel::refer(std::size_t placed, const Declaration& declaration, bool carried_axes) {
   const std::function<void(mechanism::Slots&, const Declaration&)> complete = [&](mechanism::Slots& slots,
                                                                                   const Declaration& d) {

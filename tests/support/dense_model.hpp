@@ -1,7 +1,7 @@
-// A model evaluated with dense matrices and without solvers: what the laws and the tests of elements work on.
+// A model evaluated with dense matrices and without solvers, for the laws and the tests of elements.
 //
 // Unknowns in the order [6 per node of the model (dx inertial, dTheta node axes) | amplitudes | first-order |
-// multipliers]; nothing is held, eliminated or scaled. Independent of system/'s assembly on purpose.
+// multipliers]; nothing is held, eliminated or scaled. It deliberately does not use system/'s assembly.
 #pragma once
 
 #include <map>
@@ -23,9 +23,9 @@ using mechanism::VectorX;
 
 class DenseModel {
  public:
-  /// @param only          index of a member to look at alone; all of them otherwise. What it refers to is there as
-  ///                      well, but adds nothing
-  /// @param carried_axes  of constraint rows, see Slots
+  /// @param only          index of the only tested member; all of them otherwise. Components to which it refers are
+  ///                      present but add nothing
+  /// @param carried_axes  kind of axes of constraint rows, see Slots
   explicit DenseModel(const Model& model, std::optional<std::size_t> only = {}, bool carried_axes = true);
 
   int size() const { return multiplier_begin_ + multipliers_; }
@@ -33,7 +33,10 @@ class DenseModel {
   int amplitude_begin() const { return 6 * nodes_; }
   int first_order_begin() const { return amplitude_begin() + amplitudes_; }
   int multiplier_begin() const { return multiplier_begin_; }
-  const std::vector<Declaration>& declarations() const { return declarations_; }  ///< of the members looked at
+  const std::vector<Declaration>& declarations() const {
+    return declarations_;
+  }  ///< declarations of the tested
+     ///< members
   mechanism::ConstraintKind constraint_kind(int multiplier) const {
     return constraint_kinds_[static_cast<std::size_t>(multiplier)];
   }
@@ -53,11 +56,11 @@ class DenseModel {
   State along_motion(const State& state, double s) const;
 
   VectorX residual(const State& state) const;
-  /// One of the three tangents. @throws std::logic_error when a component wrote what was not asked for, or outside of
-  /// the pattern that it declares
+  /// One of the three tangents. @throws std::logic_error if a component wrote a part that was not requested, or outside
+  /// of the pattern that it declares
   enum class Part { K, C, M };
   MatrixX tangent(const State& state, Part part) const;
-  /// Multipliers of the members looked at (they come first), without those of what they refer to.
+  /// Multipliers of the tested members (they come first), without those of components to which they refer.
   int own_multipliers() const { return own_multipliers_; }
   /// First and second time derivatives of the constraint rows.
   void constraint_rates(const State& state, VectorX& velocity, VectorX& acceleration) const;
@@ -74,7 +77,7 @@ class DenseModel {
     std::vector<int> place;  ///< global unknown of each local one
   };
   std::vector<Placed> members_;  ///< looked at
-  /// What they refer to, and those of them that others refer to: stays where it is.
+  /// Slots of components to which they refer, and of further references; the addresses do not change.
   std::map<const mechanism::Component*, std::unique_ptr<mechanism::Slots>> slots_;
   std::vector<Declaration> all_declarations_;  ///< in the order of numbers
   std::vector<Declaration> declarations_;
@@ -86,7 +89,7 @@ class DenseModel {
 
 /// Solves r = 0 at rest (rates and accelerations as in the state) by Newton's method in the `free` unknowns, full
 /// steps.
-/// @returns the number of iterations, or -1 when the largest residual did not fall below `tolerance` in `most`
+/// @returns the number of iterations, or -1 if the largest residual did not fall below `tolerance` in `most` iterations
 int solve_static(const DenseModel& model, State& state, const std::vector<int>& free, double tolerance, int most = 40);
 
 }  // namespace bielle::test

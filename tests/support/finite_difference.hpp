@@ -1,4 +1,4 @@
-// Derivatives of smooth functions by central differences, good enough to hold exact tangents against them.
+// Derivatives of smooth functions by central differences, accurate enough to test exact tangents.
 //
 // Three central differences with steps h, h/2, h/4 are extrapolated to order h^6 (Richardson). For a function that
 // varies on the scale 1 and h = 0.02 the truncation error is below 1e-15 and the rounding error about 3 epsilon / (h/4)

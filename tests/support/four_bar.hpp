@@ -1,4 +1,4 @@
-// The corners of the four-bar that tests release under its weight.
+// The corners of the four-bar that tests release under gravity.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// Mechanisms of any number of parts, as texts of mechanism files: for measurements and tests of how cost grows with
-// size. Each is one connected system, so that a sparse solver cannot take it apart.
+// Mechanisms of any number of parts, as texts of mechanism files, for measurements and tests of the growth of cost with
+// size. Each is one connected system, so that a sparse solver cannot decouple it.
 #pragma once
 
 #include <string>
@@ -10,13 +10,13 @@ namespace bielle::test {
 struct LargeModel {
   std::string name;            ///< "hinges"
   std::string what;            ///< "rigid links on hinges"
-  std::string (*text)(int n);  ///< of a mechanism of n parts
+  std::string (*text)(int n);  ///< text of a mechanism of n parts
   bool stands = true;          ///< has an equilibrium where it is drawn
 };
 
 /// Rigid links of 1 m and 1 kg, horizontal from the ground, each on a hinge with a spring.
 std::string hinged_links(int n);
-/// The same with a drive in each joint, and a measure of each, named in its section.
+/// Links with a drive in each joint, and a measure of each, named in its section.
 std::string driven_links(int n);
 /// Masses off their nodes, joined by spherical joints: each node has one direction about which it has no inertia.
 std::string masses_on_joints(int n);
@@ -24,8 +24,8 @@ std::string masses_on_joints(int n);
 std::string masses_on_springs(int n);
 /// One clamped beam of 100 m, divided into n elements.
 std::string beam_of_elements(int n);
-/// A ladder of planar four-bars with springs, all of whose upper joints come before the lower ones in the file: each
-/// loop has three redundant constraints.
+/// A ladder of planar four-bars with springs, in whose file all upper joints precede the lower ones: each loop has
+/// three redundant constraints.
 std::string ladder_of_loops(int n);
 
 /// All of them.

@@ -3,10 +3,10 @@
 #include <catch2/catch.hpp>
 
 #ifdef __SANITIZE_ADDRESS__
-/// Read by the leak sanitizer at the end: gmsh and OpenCASCADE (libTK*) keep geometry until the process ends.
+/// The leak sanitizer reads it at the end: gmsh and OpenCASCADE (libTK*) keep geometry until the process ends.
 extern "C" __attribute__((visibility("default"))) const char* __lsan_default_suppressions();
 const char* __lsan_default_suppressions() { return "leak:libgmsh\nleak:libTK\n"; }
-/// A refused allocation of a library in C is for it to handle, as without the sanitizer.
+/// A C library handles a refused allocation itself, as without the sanitizer.
 extern "C" __attribute__((visibility("default"))) const char* __asan_default_options();
 const char* __asan_default_options() { return "allocator_may_return_null=1"; }
 #endif

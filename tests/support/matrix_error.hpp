@@ -1,4 +1,4 @@
-// How far two matrices are from each other.
+// The distance of two matrices.
 #pragma once
 
 #include <Eigen/Core>

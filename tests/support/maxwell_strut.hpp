@@ -1,5 +1,5 @@
 // A spring and a damper in series between two nodes: the smallest component with a first-order unknown. Its equation
-// couples a rate of its own with velocities of nodes and itself acts on them, as the pressure in a cylinder does.
+// couples a rate of its own with velocities of nodes, and it acts on them itself, like the pressure in a cylinder.
 //
 //   dN/dt + N/tau - k dl/dt = 0,   N the tension [N], l the distance of the nodes, u its direction
 //   forces on the nodes: +-N u

@@ -1,11 +1,11 @@
-// The message of an exception that is expected, for tests of what users read.
+// The message of an expected exception, for tests of messages.
 #pragma once
 
 #include <string>
 
 namespace bielle::test {
 
-/// What `Error` says when `action` throws it; "(nothing thrown)" otherwise. Other exceptions pass.
+/// Returns the message of `Error` if `action` throws it; "(nothing thrown)" otherwise. Other exceptions pass through.
 template <class Error, class Action>
 std::string message_of(Action&& action) {
   try {

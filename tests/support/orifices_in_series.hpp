@@ -17,7 +17,8 @@ class OrificesInSeries : public mechanism::Component {
     double c_1, c_2;  ///< [m^3/s/Pa^0.5]
     double s_0;       ///< [Pa]
   };
-  /// @param pressure  of the chamber at the start [Pa]. @param guess  of the junction's [Pa]
+  /// @param pressure  pressure of the chamber at the start [Pa]. @param guess  start value of the junction's pressure
+  /// [Pa]
   OrificesInSeries(std::string name, const Law& law, double pressure, double guess);
 
   void declare(mechanism::Declaration& declaration) const override;

@@ -1,4 +1,4 @@
-// Shapes of contacts, made and placed without a model, and the sum of what presses between two.
+// Shapes of contacts, made and placed without a model, and the sum of the contact forces between two.
 #pragma once
 
 #include "mechanism/contacts/pair_touches.hpp"
@@ -43,7 +43,7 @@ inline mechanism::PlacedShape<double> placed_at(const mechanism::ContactShape& s
   return result;
 }
 
-/// Force on the second of two, its moment about the origin of that, and the potential.
+/// Force on the second shape, its moment about that shape's origin, and the potential.
 struct Pressed {
   mechanism::Vector3 force, moment;
   double potential;

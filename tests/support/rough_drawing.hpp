@@ -1,4 +1,4 @@
-// Mechanisms as somebody draws them roughly: every body displaced and turned from where it fits, in random directions.
+// Roughly drawn mechanisms: every body is displaced and turned from its correct place, in random directions.
 #pragma once
 
 #include <string>
@@ -12,11 +12,11 @@ namespace bielle::test {
 
 class RoughDrawing {
  public:
-  /// @param displacement  of each body [m] @param turn  [rad]
+  /// @param displacement  displacement of each body [m] @param turn  its rotation [rad]
   RoughDrawing(unsigned seed, double displacement, double turn)
       : random_(seed), displacement_(displacement), turn_(turn) {}
 
-  /// Adds a body of 1 kg with its node. @param x,R  where it fits
+  /// Adds a body of 1 kg with its node. @param x,R  correct place
   void add_body(const std::string& name, const mechanism::Vector3& x, const mechanism::Matrix3& R) {
     using mechanism::Vector3;
     const Vector3 drawn = x + random_.vector_of_length(displacement_);

@@ -10,7 +10,7 @@
 
 namespace bielle::test {
 
-/// A model with its system, ready to integrate. Redundant constraints are set aside.
+/// A model with its system, ready to integrate. Redundant constraints are removed.
 struct ReadyModel {
   mechanism::MechanismFile file;
   mechanism::System system;

@@ -1,4 +1,4 @@
-// One amplitude by itself on a spring that stiffens, with or without mass:
+// One amplitude by itself on a hardening spring, with or without mass:
 //   m q'' + d q' + k q (1 + (q/b)^2) = k b (1 + sin(w t))
 #pragma once
 

@@ -1,4 +1,4 @@
-// One first-order unknown by itself, with whatever equation a test asks for.
+// One first-order unknown by itself, with any equation.
 #pragma once
 
 #include <functional>

@@ -10,9 +10,9 @@
 namespace bielle::test {
 
 /// Runs `error` (h -> computed minus reference, a vector) at h, h/2, h/4, ... and checks two things: each halving
-/// divides the error by four, and what Richardson's extrapolation of the two finest leaves is small relative to the
-/// finest error, so that it is the reference that the scheme converges to.
-/// @param margin  on the observed order, which is 2 up to the next term of the error's series
+/// divides the error by four, and the remainder after Richardson's extrapolation of the two finest is small relative to
+/// the finest error, so that the scheme converges to the reference.
+/// @param margin  tolerance of the observed order, which is 2 up to the next term of the error's series
 template <class Error>
 void check_second_order(const Error& error, double h, int halvings, double margin = 0.1, double left = 0.1) {
   Eigen::VectorXd coarse = error(h), before = coarse;

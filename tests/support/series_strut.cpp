@@ -7,7 +7,7 @@ namespace bielle::test {
 using namespace mechanism;
 
 double SeriesStrut::Law::solve(double l, double rate) const {
-  // Monotonous and convex on either side of zero: Newton's method gets there from anywhere.
+  // The function is monotonous and convex on either side of zero: Newton's method converges from any start.
   double y = 0;
   for (int k = 0; k < 100; ++k) {
     const double step = (force(y) - k_2 * (l - l_0 - y) - d * rate) / (stiffness(y) + k_2);

@@ -1,6 +1,5 @@
-// Two springs in series between two nodes, a damper parallel to both, and no mass where the springs meet: the
-// elongation y of the first one follows from the balance of forces there. It is an algebraic first-order unknown, or is
-// eliminated.
+// Two springs in series between two nodes, a damper parallel to both, and no mass between the springs: the elongation y
+// of the first one follows from the balance of forces there. It is an algebraic first-order unknown, or is eliminated.
 //
 //   N(y) = k_1 y + c y^3,    0 = N(y) - k_2 (l - l_0 - y) - d dl/dt,    l the distance of the nodes
 //   forces on the nodes: +-N u
@@ -18,7 +17,7 @@ class SeriesStrut : public mechanism::Component {
     double stiffness(double y) const { return k_1 + 3 * c * y * y; }
     double solve(double l, double rate) const;  ///< y
   };
-  /// @param start  of y [m]
+  /// @param start  start value of y [m]
   SeriesStrut(std::string name, int node_a, int node_b, const Law& law, bool eliminated, double start = 0);
 
   void declare(mechanism::Declaration& declaration) const override;

@@ -14,7 +14,7 @@ inline mechanism::Model model_of(const std::string& text) {
 
 inline mechanism::Session session_of(const std::string& text) { return mechanism::Session(model_of(text)); }
 
-/// @param tolerance  of adaptive steps that begin with h
+/// @param tolerance  tolerance of adaptive steps that begin with h
 inline mechanism::DynamicsOptions steps_of(double duration, double h, double tolerance = 0) {
   mechanism::DynamicsOptions options;
   options.duration = duration;

@@ -1,5 +1,4 @@
-// A component that refers to another and adds nothing but zeros: the equations are the same with it, but their unknowns
-// are coupled.
+// A component that refers to another and adds only zeros: the equations do not change, but their unknowns are coupled.
 #pragma once
 
 #include <string>
@@ -11,7 +10,7 @@ namespace bielle::test {
 
 class SilentReader : public mechanism::Component {
  public:
-  /// @param passive  it takes no part in the equations, as a measure
+  /// @param passive  set if it takes no part in the equations, like a measure
   SilentReader(std::string name, const mechanism::Component& other, bool passive = false)
       : Component("silent_reader", std::move(name)), other_(other), passive_(passive) {}
   void declare(mechanism::Declaration& declaration) const override {

@@ -1,4 +1,4 @@
-// A solid with supports, solved directly: what a reduction is compared with.
+// A solid with supports, solved directly, for comparison with a reduction.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// Dense matrices as sparse ones, and what is left of their equations at a solution.
+// Dense matrices as sparse ones, and the residual of their equations at a solution.
 #pragma once
 
 #include <utility>

@@ -1,9 +1,9 @@
-// Forces on all that a component refers to, which depend on all of it: positions, axes, amplitudes, first-order
-// unknowns, multipliers, rates and accelerations, of the components referred to and of those that these refer to.
+// Forces on all components to which a component refers, which depend on all of their unknowns: positions, axes,
+// amplitudes, first-order unknowns, multipliers, rates and accelerations, also of further references.
 //
 //   r = w s(p),   s = sin(p) + p^2/4,   p = sum of each unknown's or rate's share
 //
-// w is a constant vector, zero in rows of constraints; of node axes R, the share is b . R c of constant b, c.
+// w is a constant vector, zero in rows of constraints; for node axes R, the share is b . R c of constant b, c.
 #pragma once
 
 #include "mechanism/model/component.hpp"

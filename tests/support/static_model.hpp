@@ -17,7 +17,8 @@
 
 namespace bielle::test {
 
-/// Nodes `fixed: true` (and `ground`) are held; the others and amplitudes are free, but for what `hold` takes.
+/// Nodes `fixed: true` (and `ground`) are held; the others and amplitudes are free, except for directions given to
+/// `hold`.
 struct StaticModel {
   std::unique_ptr<Model> model;
   DenseModel dense;
@@ -51,7 +52,7 @@ struct StaticModel {
     return factors.sign();
   }
 
-  /// The first load factor above `low` where the stiffness becomes singular: upwards in steps until the sign of its
+  /// The first load factor above `low` at which the stiffness becomes singular: upwards in steps until the sign of its
   /// determinant changes, then by bisection. The state follows.
   double critical_load(double low, double step, double tolerance, double width) {
     const auto sign_at = [&](double factor) {
@@ -72,8 +73,8 @@ struct StaticModel {
     return 0.5 * (low + high);
   }
 
-  /// Displacement control: moves a node's coordinate (0..2) to a value in equal steps, the load factor adapting itself.
-  /// Goes past limit points of the load. @returns the load factor @throws std::runtime_error without convergence
+  /// Displacement control: moves a node's coordinate (0..2) to a value in equal steps; the load factor is an unknown.
+  /// It passes limit points of the load. @returns the load factor @throws std::runtime_error without convergence
   double control(const std::string& name, int coordinate, double value, int steps, double tolerance) {
     const auto row = std::find(free.begin(), free.end(), unknown(name, coordinate)) - free.begin();
     const Eigen::Index n = static_cast<Eigen::Index>(free.size());
@@ -103,8 +104,8 @@ struct StaticModel {
     return dense.environment.load_factor;
   }
 
-  /// Goes to a load factor in equal steps from where it is; a step that does not converge is halved.
-  /// @returns the most iterations of a step; -1: none
+  /// Moves to a load factor in equal steps from the present one; a step that does not converge is halved.
+  /// @returns the largest number of iterations of a step; -1: no convergence
   int load(int steps, double tolerance, double factor = 1, double from = 0) {
     int most = 0;
     for (int k = 1; k <= steps; ++k) {
@@ -124,7 +125,7 @@ struct StaticModel {
     try {
       iterations = solve_static(dense, state, free, tolerance);
     } catch (const ComputationError&) {
-      // A wild iterate that an element refuses.
+      // An element refuses an iterate that is far off.
     }
     if (iterations >= 0) return iterations;
     state = before;

@@ -1,4 +1,4 @@
-// A superelement with nothing else around it: its state, residual, tangent and energy at hand.
+// A superelement alone: its state, residual, tangent and energy.
 #pragma once
 
 #include <memory>
@@ -18,15 +18,15 @@ class SuperelementAlone {
 
   const mechanism::SuperelementBody& body() const { return *body_; }
   int nodes() const { return static_cast<int>(slots_.nodes.size()); }
-  int size() const { return slots_.size(); }  ///< of z: 6 per node, then amplitudes
+  int size() const { return slots_.size(); }  ///< number of unknowns z: 6 per node, then amplitudes
   mechanism::Environment environment;
 
   /// The undeformed body placed at `frame` and moving rigidly: v of the frame's origin [inertial], Om [body axes],
   /// with constant v and Om.
   mechanism::State rigid_state(const mechanism::Frame& frame, const mechanism::Vector3& v = mechanism::Vector3::Zero(),
                                const mechanism::Vector3& Om = mechanism::Vector3::Zero()) const;
-  /// Anywhere in space, deformed by translations and rotations up to `deformation`, with rates and accelerations of
-  /// order `rate`.
+  /// A state anywhere in space, deformed by translations and rotations up to `deformation`, with rates and
+  /// accelerations of order `rate`.
   mechanism::State random_state(Random& random, double deformation, double rate) const;
 
   /// state with positions moved by z and rates and accelerations changed.

@@ -1,5 +1,5 @@
 // Two arms of superelements with enough modes to be condensed and to be evaluated by several threads, next to small
-// members of every sort: a rigid body with a carried node, a beam, a spring, joints with springs, loads.
+// members of all kinds: a rigid body with a carried node, a beam, a spring, joints with springs, loads.
 #pragma once
 
 #include <memory>
@@ -54,8 +54,8 @@ loads: {{push: {{node: tip, force: [0.1, "0.1*sin(20*t)", 0.2]}}}}
   TemporaryFolder folder_;
 };
 
-/// The arms with condensed amplitudes; or the same equations with those coupled to a component that adds nothing, which
-/// keeps them from being condensed.
+/// The arms with condensed amplitudes; or the same equations with amplitudes coupled to a component that adds nothing,
+/// which prevents their condensation.
 struct ArmsSystem {
   mechanism::MechanismFile file;
   mechanism::System system;

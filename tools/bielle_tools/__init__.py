@@ -1,1 +1,2 @@
-"""Python side of Bielle: mesh conversion, pictures of results, ParaView files. Needs Debian's /usr/bin/python3."""
+"""The Python part of Bielle: mesh conversion, pictures of results, ParaView files. It needs Debian's
+/usr/bin/python3."""

@@ -1,12 +1,13 @@
-"""These functions tell the user, in sentences, what an Abaqus or CalculiX file holds besides its mesh.
+"""Functions that report the contents of an Abaqus or CalculiX file besides its mesh.
 
-A superelement takes its materials and interfaces from the body file. Nothing of the input is passed over in silence:
-materials are told as lines of a body file, ties and couplings as interfaces to define, masses and orientations as left out.
+A superelement takes its materials and interfaces from the body file. No part of the input is ignored without a message:
+materials are reported as lines of a body file, ties and couplings as interfaces to define, masses and orientations as
+left out.
 """
 
 from .messages import InputError, counted
 
-# Keywords of constraints and of what adds stiffness or mass, and the words to tell them by.
+# Keywords of constraints and of stiffness or mass, with their names in messages.
 TOLD = {
     "RIGID BODY": "an interface with `tie: rigid` stands for it", "COUPLING": "an interface stands for it: `tie: rigid` for *KINEMATIC, "
     "`tie: average` for *DISTRIBUTING", "DISTRIBUTING COUPLING": "an interface with `tie: average` stands for it",

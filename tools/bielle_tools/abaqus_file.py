@@ -4,9 +4,9 @@ meshio reads .inp too, but drops *SURFACE, stops at the triangles CPS6 that gmsh
 wrong blocks when several *ELEMENT blocks have none or share one. This reader knows
     *NODE, *ELEMENT (INPUT), *SYSTEM, *NSET, *ELSET (GENERATE, sets of sets), *SURFACE (TYPE=ELEMENT, NODE), *INCLUDE, and
     one *PART, or one *INSTANCE that holds a mesh,
-refuses what generates or moves nodes and elements, and tells what a superelement has no place for (abaqus_extras). Labels
-are compared without regard to case, as Abaqus does.
-Faces of tetrahedra: S1 = nodes 1 2 3, S2 = 1 4 2, S3 = 2 4 3, S4 = 3 4 1 (CalculiX manual, "Four-node tetrahedral").
+It refuses keywords that generate or move nodes and elements, and reports those that have no counterpart in a
+superelement (abaqus_extras). Labels are compared without regard to case, as Abaqus does. Faces of tetrahedra: S1 =
+nodes 1 2 3, S2 = 1 4 2, S3 = 2 4 3, S4 = 3 4 1 (CalculiX manual, "Four-node tetrahedral").
 """
 
 import os
@@ -28,7 +28,7 @@ FAMILIES = [
     (r"(MASS|ROTARYI|SPRING[12A]|DASHPOT[12A]|DCOUP3D|CONN3D2|GAPUNI|B[23][123]|T[23]D[23]|FRAME3D)[A-Z]*", None, None),
 ]
 FACES = {"S1": (0, 1, 2), "S2": (0, 3, 1), "S3": (1, 3, 2), "S4": (2, 3, 0)}
-# Keywords that make or move nodes and elements, which this reader does not do.
+# Keywords that generate or move nodes and elements, which this reader does not support.
 GENERATING = ("NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYMMETRIC MODEL GENERATION", "MODEL CHANGE", "TRANSFORM COORDINATES")
 CELL_SIDES = ("SPOS", "SNEG", "")  # both sides of a shell or membrane element
 
@@ -119,7 +119,7 @@ class _Reader:
             self.extras.instance(options.get("PART", ""), options.get("NAME", ""))
 
     def _rows(self, path, where, options, rows):
-        """Data lines with those of the file that INPUT names."""
+        """Data lines, with those of the file that INPUT names."""
         if "INPUT" not in options:
             return rows
         name = os.path.join(os.path.dirname(path), options["INPUT"])
@@ -246,7 +246,7 @@ class _Reader:
             raise InputError(f"element {labels[row]} names node {error.args[0]}, which is not defined") from None
 
     def _resolve(self, keyword, key, seen=()):
-        """Labels of a set, with the sets that it names."""
+        """Labels of a set, including those of the sets that it names."""
         if key not in self.sets[keyword] or key in seen:
             raise InputError(f"set '{key}' is named but not defined" if key not in seen else f"set '{key}' contains itself")
         labels = []
@@ -261,7 +261,7 @@ class _Reader:
         return labels
 
     def _cells_of(self, key):
-        """Rows per block; elements that were left out are skipped."""
+        """Rows per block; omitted elements are skipped."""
         rows = [[] for _ in self.blocks]
         for label in self._resolve("ELSET", key):
             if label in self.cell_place:
@@ -298,7 +298,7 @@ class _Reader:
 
 
 def _system(where, rows):
-    """Origin a and axes of *SYSTEM: b on the first axis, c in the plane of the first two; None where it ends one.
+    """Origin a and axes of *SYSTEM: b on the first axis, c in the plane of the first two; None if it ends a system.
     (Abaqus Keywords Guide, "*SYSTEM".)"""
     words = [word.strip() for row in rows for word in row.rstrip(",").split(",")]
     values = [float(word) if word else 0.0 for word in words]

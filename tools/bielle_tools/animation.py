@@ -1,4 +1,4 @@
-"""A moving picture (GIF) and a sheet of still ones of a mechanism in motion."""
+"""An animation (GIF) and a sheet of still pictures of a mechanism in motion."""
 
 import numpy as np
 from matplotlib.animation import FuncAnimation, PillowWriter

@@ -7,7 +7,7 @@ from .results_file import Results
 
 
 class Parser(argparse.ArgumentParser):
-    """Wrong options are one sentence and status 1, as everywhere in Bielle."""
+    """Wrong options give one sentence and status 1, as in all programs of Bielle."""
 
     raw = argparse.RawDescriptionHelpFormatter
 
@@ -50,7 +50,7 @@ def add_mode_options(parser):
 
 
 def opened_mode(options, results, pictures):
-    """The mode that is asked for as a motion, or None. @raises InputError"""
+    """The requested mode as a motion, or None. @raises InputError"""
     if options.mode is None:
         if options.amplitude is not None or options.decay:
             raise InputError("--amplitude and --decay go with --mode N")
@@ -68,8 +68,8 @@ def opened_mode(options, results, pictures):
 
 
 def superelement_paths(options, results, anywhere=False):
-    """{element: path} of the option --superelement. @raises InputError for elements that the results have not
-    anywhere: they may be in another analysis than the one that is shown"""
+    """{element: path} of the option --superelement. @raises InputError for elements that the results do not contain;
+    with `anywhere` they may be in another analysis than the one that is shown"""
     pairs = {}
     for text in options.superelement:
         element, separator, path = text.partition("=")
@@ -86,13 +86,13 @@ def superelement_paths(options, results, anywhere=False):
 
 
 def _superelements(results):
-    """Names by which --superelement knows them: pieces by themselves and together."""
+    """The names that --superelement accepts: pieces separately and together."""
     known = results.elements_with("frame")
     return known + [results.entry_of(name) for name in known]
 
 
 def names(text, what, known):
-    """`a,b` -> [a, b]; None stays None. @raises InputError for names that are not `known`, and for none at all"""
+    """`a,b` -> [a, b]; None stays None. @raises InputError for names that are not `known`, and if there is none"""
     if text is None:
         return None
     wanted = [name.strip() for name in text.split(",") if name.strip()]

@@ -1,14 +1,17 @@
-"""The loads of a superelement at an instant, on the nodes of its mesh: what its interfaces bear, and its own inertia.
+"""The loads of a superelement at an instant, on the nodes of its mesh: the forces on its interfaces and its own
+inertia.
 
-A body in motion is at rest under its interface forces and -M a, the inertia of its mesh (J. d'Alembert). The acceleration is
+By d'Alembert's principle, a moving body is in equilibrium under its interface forces and -M a, the inertia of its mesh.
+The acceleration is
     a = w x (w x (X + u)) + T b,
 with the angular velocity w of the body's frame and the reduced equations for b,
     M~ b = F - K~ q - T^T M (w x (w x (X + u))),
-in which F are the interface forces and q the coordinates of the deformation, all recorded. T b holds the acceleration and the
-angular acceleration of the body, what its deformation adds, and, with the opposite sign, gravity. Held anywhere, the mesh then
-has K~ q for its reduced stiffness forces, hence the deformation q as far as the superelement has it, and supports bear nothing.
+in which F are the interface forces and q the coordinates of the deformation, all recorded. T b contains the
+acceleration and the angular acceleration of the body, the contribution of its deformation, and, with the opposite sign,
+gravity. If it is supported anywhere, the mesh then has K~ q as its reduced stiffness forces, and hence the deformation
+q, as far as the superelement represents it; the supports carry no load.
 
-What else loads the body inside (load patterns, forces on points) is not recorded: it appears as inertia.
+Other loads inside the body (load patterns, forces on points) are not recorded: they appear as inertia.
 """
 
 from dataclasses import dataclass
@@ -26,7 +29,7 @@ from .tied_surfaces import tied_surfaces
 
 @dataclass
 class BodyLoad:
-    """At one time, everything in the body's axes. Moments are about the origin of the mesh, unless said otherwise."""
+    """The loads at one time, in the body's axes. Moments are about the origin of the mesh, unless stated otherwise."""
 
     time: float
     interface: np.ndarray     # (nb,6) force [N] and moment [N m] about each interface
@@ -35,7 +38,7 @@ class BodyLoad:
     acceleration: np.ndarray  # (3) of the mass centre less gravity [m/s^2]
     angular_acceleration: np.ndarray
     corrected: float          # the largest change of a sum by the balance, relative to the largest force of the body
-    unbalance: tuple          # what is left of force [N] and moment [N m]
+    unbalance: tuple          # residual force [N] and moment [N m]
     q: np.ndarray             # (n)
 
 
@@ -43,7 +46,7 @@ class LoadedBody:
     """A superelement of results with its mesh and the masses of its nodes."""
 
     def __init__(self, results, element, superelements, surfaces=None):
-        """surfaces: {interface: group of the mesh} where its body file does not name one."""
+        """surfaces: {interface: group of the mesh} for interfaces whose group the body file does not name."""
         self.results, self.element = results, element
         self.body = superelement_of(results, element, superelements)
         path = find_superelement(results, element, superelements)
@@ -82,7 +85,7 @@ class LoadedBody:
                         self._sums(interface, inertia), q)
 
     def _angular_velocity(self, row, frame):
-        """Of the rigid motion nearest to those of the interfaces, body axes."""
+        """Angular velocity of the rigid motion nearest to those of the interfaces, body axes."""
         R, L = rotation_matrices(frame[3:]), max(float(np.ptp(self.points, axis=0).max()), 1e-300)
         rows, right = [], []
         for (name, _, _), X in zip(self.interfaces, self.positions):
@@ -114,7 +117,8 @@ class LoadedBody:
         return rigid
 
     def _balanced(self, interface, inertia):
-        """Adds the inertia of a rigid acceleration that is left by rounding, turned interfaces and what is small of second order."""
+        """Adds the inertia of a rigid acceleration that balances the remainder due to rounding, turned interfaces and
+        terms of second order."""
         rigid = self._rigid()
         of_mass = np.stack([self.mesh_mass @ rigid[:, :, k] for k in range(6)], axis=2)
         inverse = np.linalg.inv(np.einsum("pka,pkb->ab", rigid, of_mass))
@@ -125,7 +129,8 @@ class LoadedBody:
         return inertia, float(np.linalg.norm((inertia - before).sum(axis=0)) / size)
 
     def _rigid_acceleration(self, inertia, omega):
-        """Of the mass centre, and angular, by Newton's and Euler's equations of the undeformed body."""
+        """Acceleration of the mass centre, and angular acceleration, by Newton's and Euler's equations of the
+        undeformed body."""
         lumped = np.asarray(self.mesh_mass.sum(axis=1)).ravel()
         centre = lumped @ self.points / lumped.sum()
         r = self.points - centre

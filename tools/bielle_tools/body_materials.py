@@ -1,4 +1,4 @@
-"""Materials of a superelement's mesh as another program needs them, from the text of its body file."""
+"""Materials of a superelement's mesh for another program, from the text of its body file."""
 
 from dataclasses import dataclass
 
@@ -20,7 +20,7 @@ class BodyMaterials:
 
 
 def densities(file, body, path):
-    """@raises InputError where they are not isotropic, or do not make the mass that the superelement has"""
+    """@raises InputError if they are not isotropic, or do not give the mass of the superelement"""
     text = file["input"][()] if "input" in file else file.parent.parent["input"][()]
     data = yaml.safe_load(text.decode() if isinstance(text, bytes) else text)
     names = list(data["materials"])
@@ -45,7 +45,7 @@ def _number(material, key, path, name):
 
 
 def _regions(data, names, file, body):
-    """{type: (n)}: by the nodes of each region's group; the last region that has all nodes of a cell is its own."""
+    """{type: (n)}: by the nodes of each region's group; a cell belongs to the last region that has all its nodes."""
     regions = data["regions"]
     found = {kind: np.zeros(len(cells), int) for kind, cells in body.cells.items() if kind.startswith("tetra")}
     if len(set(regions.values())) == 1:

@@ -45,7 +45,7 @@ def _write_mesh(file, loaded):
 
 
 def _write_ties(file, loaded):
-    """Rigid ties as rigid bodies. @returns {interface: (reference node, rotational node)}"""
+    """Writes rigid ties as rigid bodies. @returns {interface: (reference node, rotational node)}"""
     references, number = {}, len(loaded.points)
     for k, surface in enumerate(loaded.surfaces, 1):
         if not surface.rigid:
@@ -63,7 +63,7 @@ def _write_ties(file, loaded):
 
 
 def _write_support(file, loaded, references):
-    """Statically determinate: a rigid interface, or three nodes far apart."""
+    """Writes statically determinate supports: a rigid interface, or three nodes far apart."""
     file.write("*BOUNDARY\n")
     if references:
         for node in next(iter(references.values())):
@@ -74,13 +74,14 @@ def _write_support(file, loaded, references):
 
 
 def three_supports(points):
-    """Six (node, direction) that hold a body and no more: a node, one far away, and one far from both."""
+    """Six pairs (node, direction) that hold a body statically determinate: a node, one far away, and one far from
+    both."""
     a = int(np.argmin(points @ np.array([1, 0.9, 0.8])))
     b = int(np.argmax(np.linalg.norm(points - points[a], axis=1)))
     axis = (points[b] - points[a]) / np.linalg.norm(points[b] - points[a])
     r = points - points[a]
     c = int(np.argmax(np.linalg.norm(r - np.outer(r @ axis, axis), axis=1)))
-    # b may not turn about a, c not about the line between them: the two best directions of b, the best of c.
+    # b must not turn about a, c not about the line between them: the two best directions of b, the best of c.
     along = int(np.argmax(np.abs(axis)))
     normal = np.cross(axis, points[c] - points[a])
     second = [k for k in range(3) if k != along]

@@ -6,11 +6,11 @@ from . import plot_style as style
 from .messages import InputError
 
 STYLES = {"forwards": "-", "backwards": "--", "plane": ":"}
-CIRCLING = 0.1  # of the whirl number: less is a motion in a plane
+CIRCLING = 0.1  # threshold of the whirl number: below it the motion is in a plane
 
 
 def sense(whirl):
-    """"forwards", "backwards", "plane"; "plane" as well where there is none."""
+    """Returns "forwards", "backwards" or "plane"; "plane" also if there is no whirl number."""
     return "forwards" if whirl > CIRCLING else "backwards" if whirl < -CIRCLING else "plane"
 
 
@@ -43,7 +43,7 @@ def draw(results, at):
 
 
 def _orders(results, panel, speed, top):
-    """Multiples of the speed, and where they meet frequencies."""
+    """Draws multiples of the speed, and their intersections with frequencies."""
     orders = {1.0}
     if results.has("campbell/critical_speed"):
         orders |= set(results.array("campbell/critical_order").tolist())

@@ -1,6 +1,6 @@
-"""Reads meshes of foreign formats: Abaqus, CalculiX and Nastran by our own readers, everything else through meshio.
+"""Reads meshes of foreign formats: Abaqus, CalculiX and Nastran by Bielle's own readers, all others through meshio.
 
-Where a format has no named sets, its numbers become names: Nastran properties `property_3`, Medit references `ref_3`,
+If a format has no named sets, its numbers become names: Nastran properties `property_3`, Medit references `ref_3`,
 integer arrays of VTK files `<array>_3`. MED families give the names of their groups.
 """
 
@@ -21,7 +21,7 @@ from .solid_mesh import RawMesh
 READ_BY_GMSH = (".geo", ".step", ".stp", ".brep", ".iges", ".igs", ".msh", ".unv")
 NASTRAN = (".bdf", ".nas", ".fem")
 MANY_PROGRAMS = (".dat",)
-# Arrays whose integers are references to groups, and the name that goes before the number.
+# Arrays whose integers are references to groups, and the prefix of their names.
 REFERENCES = {"medit:ref": "ref"}
 MOST_GROUPS = 200  # an integer array with more values numbers things and names no groups
 
@@ -50,7 +50,7 @@ def _check_points(mesh, path):
 
 
 def _read(path, shown=None, file_format=None):
-    """meshio's mesh; whatever it prints or throws, or that it ends the program, becomes one sentence."""
+    """Reads meshio's mesh; its output, its exceptions and its calls of exit become one sentence."""
     import meshio
 
     said = io.StringIO()
@@ -64,7 +64,7 @@ def _read(path, shown=None, file_format=None):
 
 
 def _nastran_mesh(path):
-    """The mesh with the sets and notes of what is no mesh."""
+    """The mesh with the sets, and the notes on other contents."""
     cards = read_cards(path)
     raw, nodes = read_mesh(cards)
     if not len(raw.points):
@@ -76,7 +76,7 @@ def _nastran_mesh(path):
 
 
 def _is_nastran(path):
-    """Whether a file of a name that several programs use is Nastran's."""
+    """Tells whether a file with a name that several programs use is Nastran's."""
     with open(path, encoding="utf-8", errors="replace") as file:
         for line in file:
             if re.match(r"\s*(BEGIN\s+BULK|GRID\b|GRID\*|CTETRA|SOL\s+\d|INCLUDE\s)", line, re.IGNORECASE):
@@ -111,7 +111,7 @@ def _raw_mesh(mesh):
 
 
 def _names(key, values, dtype, families, raw):
-    """Groups that an array means: pairs of name and the values that belong to it."""
+    """Groups that an array defines: pairs of name and values."""
     if not np.issubdtype(dtype, np.integer) or not len(values):
         return []
     if families.get(key):

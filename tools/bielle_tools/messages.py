@@ -1,4 +1,4 @@
-"""Errors that users see as one clear sentence, and how a command turns them into exit statuses."""
+"""Errors that users see as one clear sentence, and their exit statuses."""
 
 import contextlib
 import difflib
@@ -11,7 +11,7 @@ import traceback
 import warnings
 
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
-# The last: reading never ends.
+# The last one: reading does not end.
 CRASHES = (signal.SIGSEGV, signal.SIGBUS, signal.SIGABRT, signal.SIGFPE, signal.SIGILL, signal.SIGPROF)
 longest_reading = 0  # [s] of processor time in one call; 0: without limit. A process that crashes alone has one
 
@@ -21,16 +21,17 @@ class InputError(Exception):
 
 
 def run(name, main, crashing=False):
-    """Runs a command's main(arguments) and exits: 0 on success, 1 with one sentence on a wrong input, 2 where a disk is full or
-    something failed that nobody foresaw (BIELLE_TRACEBACK=1 shows where).
+    """Runs a command's main(arguments) and exits: 0 on success, 1 with one sentence on a wrong input, 2 if a disk is
+    full or on an unexpected error (BIELLE_TRACEBACK=1 shows the traceback).
 
-    name: of the command, put before the sentence; main: takes the arguments and returns nothing; crashing: whether it uses a
-    library that damaged files make crash: it then runs in a process of its own.
+    name: name of the command, which precedes the sentence; main: takes the arguments and returns nothing; crashing: set
+    if it uses a library that crashes on damaged files: it then runs in a child process.
     """
     _open_closed_streams()
     if crashing:
         _survive(name)
-    warnings.simplefilter("ignore")  # of numpy and matplotlib, about numbers that the command has judged itself
+    warnings.simplefilter("ignore")  # warnings of numpy and matplotlib about numbers that the command has checked
+                                     # itself
     try:
         main(sys.argv[1:])
         with contextlib.suppress(AttributeError):  # a stream that is closed
@@ -55,7 +56,7 @@ def run(name, main, crashing=False):
 
 @contextlib.contextmanager
 def limited_reading():
-    """Ends a process that crashes alone (`run`) where reading never ends."""
+    """Ends a child process (`run`) whose reading does not end."""
     before = signal.setitimer(signal.ITIMER_PROF, longest_reading)[0] if longest_reading else 0
     try:
         yield
@@ -65,7 +66,7 @@ def limited_reading():
 
 
 def _end(status, sentence=""):
-    """Ends the process, without a word of streams that nobody reads any more."""
+    """Ends the process, without a message about streams that are no longer read."""
     with contextlib.suppress(OSError, AttributeError):
         if sentence:
             print(sentence, file=sys.stderr)
@@ -76,14 +77,14 @@ def _end(status, sentence=""):
 
 
 def _what_failed(error):
-    """Of an error of the operating system, in words."""
+    """Describes an error of the operating system."""
     full = os.strerror(errno.ENOSPC)
     reason = full if full in str(error) else error.strerror or str(error)
     return f"'{error.filename}': {reason}" if error.filename else f"cannot write: {reason}" if error.errno in FULL else reason
 
 
 def _open_closed_streams():
-    """A file that is opened next must not get the number of a closed stream."""
+    """Opens closed streams, so that a file that is opened next does not get the number of one."""
     for number in range(3):
         try:
             os.fstat(number)
@@ -92,7 +93,7 @@ def _open_closed_streams():
 
 
 def _survive(name):
-    """Goes on in a child; the parent waits for it, and says so when it crashes."""
+    """Continues in a child process; the parent waits for it, and reports a crash."""
     global longest_reading
     child = os.fork()
     if not child:
@@ -111,7 +112,7 @@ def _survive(name):
 
 
 def require(*modules):
-    """Ends the command with advice when this Python has not all the modules: another python3 may stand first in PATH."""
+    """Ends the command with advice if this Python lacks one of the modules: another python3 may come first in PATH."""
     missing = [module for module in modules if importlib.util.find_spec(module) is None]
     if not missing:
         return
@@ -124,12 +125,12 @@ def require(*modules):
 
 
 def note(text):
-    """Says on standard error what a user should know though nothing is wrong."""
+    """Prints a note for the user on standard error."""
     print(f"note: {text}", file=sys.stderr)
 
 
 def counted(count, noun, plural=None):
-    """A number with its noun: "1 step", "3 steps"; plural: where it is not the noun with an s."""
+    """A number with its noun: "1 step", "3 steps"; plural: the plural if it is not the noun with an s."""
     return f"{count} {noun if count == 1 else plural or noun + 's'}"
 
 
@@ -141,6 +142,6 @@ def check_names(what, wanted, known):
 
 
 def did_you_mean(name, known):
-    """`; did you mean 'bore'?`, or what there is when nothing is near."""
+    """`; did you mean 'bore'?`, or all known names if none is near."""
     near = difflib.get_close_matches(name, known, 1)
     return f"; did you mean '{near[0]}'?" if near else f" (there are: {', '.join(known) or 'none'})"

@@ -10,7 +10,7 @@ from .render import Scene
 MOST_SHAPES = 12
 MARKERS = {"oscillating": ("o", style.COLOURS[0]), "decaying": ("s", style.COLOURS[2]), "growing": ("^", style.COLOURS[1]),
            "rigid": ("D", style.COLOURS[6])}
-RATIOS = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5]  # whose lines are drawn in the complex plane
+RATIOS = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5]  # damping ratios whose lines are drawn in the complex plane
 
 
 def draw(results, at, superelements):
@@ -68,7 +68,8 @@ def eigenvalues(modes, at):
 
 
 def shapes(scenery, at):
-    """A panel for each of the first modes, where it is farthest from the state; the beams and nodes of the state behind it."""
+    """Draws a panel for each of the first modes, at its largest deviation from the state, with the beams and nodes of
+    the state behind it."""
     modes = scenery.modes
     count = min(len(modes), MOST_SHAPES)
     if count < len(modes):

@@ -1,12 +1,13 @@
 """Modes of an analysis `eigen`, and one of them as a motion that can be drawn like any other.
 
-A mode moves as Re(a Phi exp(s t)). It is shown over one period of its oscillation, by default without its decay: a Phi exp(i w t), with a
-such that the largest displacement is a share of the model's size. Modes that do not oscillate (rigid, decaying, growing) are shown as
-if they did. Displacements are added to positions, rotation vectors turn the axes; a superelement moves with its coordinates, all of
-which belong to nodes and to the unknowns of its inner modes: its field is U q in its frame, which stays.
+A mode moves as Re(a Phi exp(s t)). It is shown over one period of its oscillation, by default without its decay: a Phi
+exp(i w t), with a such that the largest displacement is a share of the model's size. Modes that do not oscillate
+(rigid, decaying, growing) are shown as if they did. Displacements are added to positions, rotation vectors turn the
+axes; a superelement moves with its coordinates, which belong to nodes and to the unknowns of its inner modes: its field
+is U q in its frame, which does not move.
 
-The results name nodes and beams. What superelements and rigid bodies look like they say of analyses with rows only: an `assembly` before
-`eigen` is enough.
+The results name nodes and beams. The shapes of superelements and rigid bodies are in analyses with rows only: an
+`assembly` before `eigen` is sufficient.
 """
 
 import re
@@ -19,7 +20,7 @@ from .results_file import Results, reading
 from .rotations import rotation_matrices
 from .superelement_body import find_superelement, interfaces_of, superelement_of
 
-SHARE = 0.1  # of the model's size: the largest displacement as drawn
+SHARE = 0.1  # largest drawn displacement as a share of the model's size
 MOST_TURN = 5.0  # [rad] per share: the largest rotation as drawn is half a radian at a share of 0.1
 
 
@@ -65,7 +66,7 @@ class Modes:
         return f"mode {number}, {self.frequency[k]:.5g} Hz{damping}{kind}"
 
     def check(self, number):
-        """@raises InputError where there is no such mode, or no shapes"""
+        """@raises InputError if there is no such mode, or there are no shapes"""
         if not 1 <= number <= len(self):
             raise InputError(f"there is no mode {number}: '{self.results.path}' has {len(self)}, counted from 1")
         if self.displacement is None:
@@ -87,7 +88,8 @@ def _complex(group, name, dimensions):
 
 
 class ModeScenery:
-    """What is drawn of all modes of an analysis: nodes, beams and, where some analysis of the file has rows of this state, bodies."""
+    """The parts that are drawn for all modes of an analysis: nodes, beams and, if some analysis of the file has rows of
+    this state, bodies."""
 
     def __init__(self, modes, superelements=None):
         self.modes, self.superelements = modes, superelements or {}
@@ -105,7 +107,7 @@ class ModeScenery:
             self.bodies[name] = self._body(name)
 
     def _beams(self):
-        """{beam: its nodes from start to end}; the ends stand in the model alone."""
+        """{beam: its nodes from start to end}; the end nodes are in the model alone."""
         inner = {}
         for name in self.modes.nodes:
             found = re.fullmatch(r"(.+)\.(\d+)", name)
@@ -116,12 +118,14 @@ class ModeScenery:
             for name, entry in (yaml.load(self.modes.results.text_of("input"), Loader=yaml.BaseLoader).get("elements") or {}).items():
                 if entry.get("type") == "beam" and all(node in self.index for node in entry.get("nodes", [])):
                     ends[name] = entry["nodes"]
-        except (yaml.YAMLError, AttributeError, TypeError):  # of what the program has read in another way, beams are left out
+        except (yaml.YAMLError, AttributeError, TypeError):  # beams are left out of models that the program reads
+                                                             # differently
             pass
         return {name: [first, *(node for _, node in sorted(inner.get(name, []))), last] for name, (first, last) in ends.items()}
 
     def _state(self):
-        """The analysis and the row that show the state which the modes are about: the end of one before, or the start of one after."""
+        """The analysis and the row with the state about which the modes are: the end of an earlier analysis, or the
+        start of a later one."""
         own = self.modes.results
         place = own.root["eigen"].parent.name.strip("/")
         number = int(place[9:]) if re.fullmatch(r"analysis_\d+", place) else 0
@@ -178,7 +182,8 @@ class ModeScenery:
 
 
 class ModeMotion:
-    """One mode over a period: what drawing a motion asks of results (`Results`), with a row per phase. number: from 1."""
+    """One mode over a period: the interface of `Results` that drawing a motion needs, with a row per phase. number:
+    from 1."""
 
     static = False
     stress_label = "von Mises as drawn [MPa]"
@@ -196,7 +201,8 @@ class ModeMotion:
             self.factor = self.factor * np.exp(s.real * self.time)
 
     def _factor(self, share):
-        """Of the shape, such that its largest displacement is the share of the model's size, and no rotation is too large."""
+        """Factor of the shape such that its largest displacement is the share of the model's size, and no rotation is
+        too large."""
         size, u = self.scenery.extent(), [_largest(self.modes.displacement[self.k])]
         for name, (_, _, shapes) in self.scenery.bodies.items():
             body = superelement_of(self.scenery.base, name, self.scenery.superelements)
@@ -214,7 +220,7 @@ class ModeMotion:
         field = u if np.abs(u).max(initial=0) > 1e-9 * np.abs(turn).max(initial=0) else turn
         return int(np.argmax([(np.real(factor * field) ** 2).sum() for factor in self.factor]))
 
-    # -- as Results
+    # -- interface of Results
     @property
     def title(self):
         return f"{self.modes.results.title}: {self.modes.named(self.number)}"
@@ -291,7 +297,7 @@ class ModeMotion:
         raise KeyError(quantity)
 
     def reach(self):
-        """(3) how far the model and its motion go along the inertial axes: decides from where to look."""
+        """(3) the extent of the model and its motion along the inertial axes, which determines the view."""
         motion = 2 * np.abs(self.modes.displacement[self.k]).max(axis=0, initial=0)
         largest = motion.max()
         scaled = motion / largest * self.scenery.extent() if largest > 0 else motion
@@ -307,6 +313,6 @@ def turned(vectors, quaternions):
 
 
 def _largest(field):
-    """Of complex vectors (...,3): the largest length of Re(v exp(i phase)), sqrt((|v|^2 + |v.v|) / 2)."""
+    """Largest length of Re(v exp(i phase)) for complex vectors v (...,3): sqrt((|v|^2 + |v.v|) / 2)."""
     squares = (np.abs(field) ** 2).sum(axis=-1) + np.abs((field * field).sum(axis=-1))
     return float(np.sqrt(0.5 * squares.max(initial=0)))

@@ -16,7 +16,7 @@ GMSH_TYPE = {"triangle": 2, "tetra": 4, "triangle6": 9, "tetra10": 11}
 
 
 def write_msh(mesh, path):
-    """Writes a SolidMesh beside `path` and renames it. @raises InputError when the file cannot be written"""
+    """Writes a SolidMesh beside `path` and renames it. @raises InputError if the file cannot be written"""
     beside = f"{path}.part"
     try:
         with open(beside, "wb") as file:
@@ -51,7 +51,7 @@ def _write(mesh, file):
         file.write(np.uint64(0).tobytes())  # bounding entities: unknown
     file.write(b"\n$EndEntities\n")
 
-    # All nodes are stored with the first volume: which entity owns a node does not matter to readers of cells.
+    # All nodes are stored with the first volume: the entity that owns a node does not matter to readers of cells.
     owner = next(e for e in entities if e[0] == 3)
     count = len(mesh.points)
     file.write(b"$Nodes\n" + np.array([1, count, 1, count], np.uint64).tobytes())

@@ -67,7 +67,7 @@ def _bulk_lines(path):
 
 
 def _lines(path, depth):
-    """Upper case, without comments, empty ones left out; file and line number of each."""
+    """Lines in upper case, without comments and empty lines, with file and line number of each."""
     if depth > DEEPEST:
         raise InputError(f"'{path}' is included by itself")
     lines = lines_of(path)
@@ -90,7 +90,7 @@ def _lines(path, depth):
 
 
 def _split(line):
-    """The fields of one line after the first, always as many as its form has, and the first."""
+    """The fields of one line after the first, always as many as its format has, and the first."""
     if "," in line:
         parts = [part.strip() for part in line.split(",")]
         name = parts[0]

@@ -1,7 +1,8 @@
-"""What a Nastran file holds besides its mesh: materials, rigid elements, point masses.
+"""The contents of a Nastran file besides its mesh: materials, rigid elements, point masses.
 
-A superelement has no place for some of it. Nothing of it is passed over in silence: materials are told as lines of a body
-file, the nodes of RBE2 and RBE3 become sets that an interface can name, everything else is told with its numbers.
+Some of them have no counterpart in a superelement. Nothing is ignored without a message: materials are reported as
+lines of a body file, the nodes of RBE2 and RBE3 become sets that an interface can name, everything else is reported
+with its numbers.
 """
 
 from collections import Counter
@@ -12,7 +13,7 @@ import numpy as np
 from .messages import InputError, counted
 from .nastran_mesh import CELLS
 
-# Cards that hold stiffness, mass or conditions that no tetrahedron has.
+# Cards of stiffness, mass or conditions that tetrahedra do not represent.
 LOST = ("CONM1", "CMASS1", "CMASS2", "CMASS3", "CMASS4", "CELAS1", "CELAS2", "CELAS3", "CELAS4", "CBUSH", "CBUSH1D", "CBAR", "CBEAM", "CROD",
         "CONROD", "CTUBE", "CSHEAR", "CVISC", "CDAMP1", "CDAMP2", "RBAR", "RBE1", "RROD", "RSPLINE", "RTRPLT", "MPC", "CGAP", "CWELD", "CFAST",
         "MAT2", "MAT3", "MAT8", "MAT9", "MAT9ORT", "MATORT", "GENEL", "DMIG")
@@ -34,8 +35,8 @@ class Extras:
 
 
 def read_extras(all_cards, nodes, points):
-    """@param nodes: the row of each grid point among the points, by its number. @returns Extras. @raises InputError where a
-    card of those that are read has no number where one belongs."""
+    """@param nodes: the row of each grid point among the points, by its number. @returns Extras. @raises InputError if
+    a field of a card that is read should be a number and is not."""
     cards = {name: [] for name in READ}
     for card in all_cards:
         if card.name in cards:
@@ -91,7 +92,7 @@ def _add_tie(extras, card, tie, reference, members, nodes, places, tied):
 
 
 def _nodes_of_rbe3(card):
-    """Groups of weight, components, nodes; a weight is written with a point. UM and ALPHA end them."""
+    """Groups of weight, components, nodes; a weight contains a decimal point. UM and ALPHA end them."""
     members, k = [], 5
     while k < len(card.fields) and card.fields[k] not in ("UM", "ALPHA"):
         if card.fields[k] and not card.is_integer(k):

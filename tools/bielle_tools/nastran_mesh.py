@@ -5,7 +5,7 @@ import numpy as np
 from .messages import InputError
 from .solid_mesh import RawMesh
 
-# Card: nodes -> meshio type. Nodes stand from field 3 on, in VTK's order.
+# Card: nodes -> meshio type. Nodes follow from field 3 on, in VTK's order.
 CELLS = {
     "CTETRA": {4: "tetra", 10: "tetra10"},
     "CTRIA3": {3: "triangle"}, "CTRIAR": {3: "triangle"}, "CTRIA6": {6: "triangle6"},
@@ -70,7 +70,7 @@ def _points(cards):
 
 
 class _Systems:
-    """Coordinate systems, each found when it is asked for: they may refer to each other and to grid points."""
+    """Coordinate systems, each computed on demand: they may refer to each other and to grid points."""
 
     def __init__(self, cards, grids, rows, default):
         self.grids, self.rows, self.default = grids, rows, default
@@ -118,7 +118,7 @@ class _Systems:
 
 
 def _cartesian(kind, coordinates):
-    """Coordinates of a system's own kind, angles in degrees, to Cartesian ones in its axes."""
+    """Converts coordinates of a system's own kind, angles in degrees, to Cartesian ones in its axes."""
     r, second, third = coordinates
     if kind == "C":
         return np.array([r * np.cos(np.radians(second)), r * np.sin(np.radians(second)), third])

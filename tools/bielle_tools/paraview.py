@@ -129,7 +129,7 @@ def _beams(results):
 
 
 def _beam_stress(results, name, elements, row):
-    """(elements) highest von Mises stress at the section's stress points [Pa]; not a number where there are none."""
+    """(elements) highest von Mises stress at the section's stress points [Pa]; not a number if there are none."""
     place = f"elements/{name}/von_mises"
     return results.rows(place, row).max(axis=1) if results.has(place) else np.full(elements, np.nan)
 
@@ -153,7 +153,7 @@ def _nodes(results):
 
 
 def _joints(results):
-    """Joints stand at their second node, which the results name in an attribute."""
+    """Joints are drawn at their second node, which the results name in an attribute."""
     places = {}
     for joint in results.names("joints"):
         node = results.text(f"joints/{joint}", "second_node")
@@ -194,7 +194,8 @@ def _file_name(part):
 
 
 def legend(results):
-    """Lines that say which number in the files is which node, beam or rigid body, and what the time is in statics."""
+    """Lines that map the numbers in the files to nodes, beams and rigid bodies, and give the meaning of the time in
+    statics."""
     numbered = (("node", results.names("nodes")), ("beam", results.elements_with("position", "rotation")),
                 ("rigid_body", [body.name for body in rigid_bodies(results) if body.extended]))
     lines = [f"array '{title}': " + ", ".join(f"{k} {name}" for k, name in enumerate(names))

@@ -1,4 +1,4 @@
-"""One look for all figures: readable sizes, quiet grid, colours that colour-blind readers can tell apart."""
+"""A common style for all figures: readable sizes, quiet grid, colours that colour-blind readers can distinguish."""
 
 import matplotlib
 
@@ -26,12 +26,12 @@ def figure(rows, title, width=9.0, height=2.6, columns=1, **options):
 
 
 def curves_of(points):
-    """A context in which curves of few points show them."""
+    """A context in which curves of few points have markers."""
     return plt.rc_context({"lines.marker": "o", "lines.markersize": 4} if points <= 25 else {})
 
 
 def label(quantity, units):
-    """`angle [rad]`; without brackets when there is no unit."""
+    """`angle [rad]`; without brackets if there is no unit."""
     return f"{quantity} [{units}]" if units and units not in ("1", "-") else quantity
 
 

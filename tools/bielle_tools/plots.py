@@ -1,6 +1,6 @@
-"""Figures of a results file: what there is of energies, joints, nodes, bodies, beams, eigenvalues and responses.
+"""Figures of a results file: energies, joints, nodes, bodies, beams, eigenvalues and responses.
 
-Every function draws one subject and returns the paths it wrote: none where the results hold nothing of it.
+Every function draws one subject and returns the paths it wrote: none if the results contain nothing of it.
 """
 
 import os
@@ -51,7 +51,7 @@ def draw_all(results, folder, extension="png", nodes=None, joints=None, superele
 
 
 def energy(results: Results, at):
-    """Stored energies and input; those that the large ones hide, on a scale of their own; what the balance misses."""
+    """Draws stored energies and input; small energies on a scale of their own; the error of the balance."""
     values = {name: results.rows(f"energy/{name}") for name in ("kinetic", "elastic", "gravity", "dissipated", "input")
               if results.has(f"energy/{name}")}
     reach = {name: _reach(v) for name, v in values.items()}
@@ -129,7 +129,7 @@ def joint_reactions(results, at, joints=None):
 
 
 def drives(results, at, joints=None):
-    """What drives exert along the coordinates of their joints: a panel for forces, one for torques."""
+    """Draws the efforts of drives along the coordinates of their joints: a panel for forces, one for torques."""
     panels = {}
     for joint in joints or results.names("joints"):
         place = f"joints/{joint}/drive_force"
@@ -150,7 +150,7 @@ def drives(results, at, joints=None):
 
 
 def node_paths(results, at, nodes=None):
-    """Paths in the inertial plane in which the nodes move most, and how far each goes over time."""
+    """Draws paths in the inertial plane in which the nodes move most, and the distance of each over time."""
     names = nodes or results.names("nodes")
     paths = {name: results.rows(f"nodes/{name}/position") for name in names if results.has(f"nodes/{name}/position")}
     reach = {name: np.array([_reach(column) for column in path.T]) for name, path in paths.items()}
@@ -199,7 +199,8 @@ def node_rotations(results, at, nodes=None, quantity="rotation_vector"):
 
 
 def bodies(results, at, superelements):
-    """Per superelement: elastic displacement of the node that moves most, and the highest stress of the body."""
+    """Draws for each superelement the elastic displacement of the node that moves most, and the highest stress of the
+    body."""
     written = []
     for name in results.elements_with("frame", "coordinates"):
         body = superelement_of(results, name, superelements)
@@ -263,9 +264,10 @@ def beams(results, at):
 
 
 def circuit(results, at):
-    """A hydraulic circuit as a whole: pressures of places, flows of lines, openings of valves, powers.
+    """Draws a hydraulic circuit: pressures of places, flows of lines, openings of valves, powers.
 
-    Of what has many columns (cells of pipes) the first and the last are drawn; of too many curves those that vary most.
+    If a dataset has many columns (cells of pipes), the first and the last are drawn; of too many curves those that vary
+    most.
     """
     panels = []
     for quantity in ("pressure", "flow", "opening", "power"):
@@ -297,9 +299,10 @@ def circuit(results, at):
 
 
 def signals(results, at):
-    """What is left: actuators, springs, contacts, points; a panel per dataset of few columns over time.
+    """Draws the remaining datasets: actuators, springs, contacts, points; a panel per dataset with few columns over
+    time.
 
-    Rigid bodies are not: their nodes' paths say the same.
+    Rigid bodies are left out: the paths of their nodes show the same.
     """
     written = []
     drawn = set(results.elements_with("frame") + results.elements_with("rotation") + results.elements_with("angular_momentum"))
@@ -395,11 +398,11 @@ def binned(time, values, most=150):
 
 
 def _varies(values):
-    """Whether there is more than rounding to see: steps that meet a given time differ in their last digits."""
+    """Tells whether values vary by more than rounding: steps that end at a given time differ in their last digits."""
     return len(values) > 0 and _reach(values) > 1e-6 * np.nanmax(np.abs(values))
 
 
 def _reach(values):
-    """Largest less smallest of the values that are numbers; 0 where there are none."""
+    """Largest minus smallest of the finite values; 0 if there are none."""
     values = values[np.isfinite(values)]
     return np.ptp(values) if len(values) else 0.0

@@ -41,7 +41,8 @@ def count_cycles(signal):
 
 
 def in_bins(cycles, bins):
-    """(bins, 3) cycles put together by range: the middle of each bin that holds some, their mean stress, and how many."""
+    """(bins, 3) cycles sorted into bins of range: the middle of each non-empty bin, their mean stress, and their
+    number."""
     edges = np.linspace(0, cycles[:, 0].max(), bins + 1)
     place = np.clip(np.digitize(cycles[:, 0], edges) - 1, 0, bins - 1)
     rows = []

@@ -1,6 +1,7 @@
 """Draws the mechanism at one time with matplotlib: bodies coloured by stress, rigid ones grey, beams as lines, nodes as dots.
 
-An orthographic view, painted from back to front: no graphics card, no display, small files. For more there is ParaView.
+An orthographic view, painted from back to front: no graphics card, no display, small files. ParaView serves larger
+needs.
 """
 
 import numpy as np
@@ -22,7 +23,7 @@ VIEWS = {  # rows: right, up; the viewer looks from right x up
 
 
 class Scene:
-    """All that is drawn, prepared once; `draw` paints it for one row of the results."""
+    """All drawn parts, prepared once; `draw` paints them for one row of the results."""
 
     def __init__(self, results, view=None, scale=1.0, superelements=None):
         self.results = results
@@ -61,7 +62,8 @@ class Scene:
         self.norm = Normalize(0, 1e-6 * stress if stress > 0 else 1)
 
     def draw(self, panel, row):
-        """Paints the mechanism at a row of the results. @returns what a colour bar needs, or None without stresses"""
+        """Paints the mechanism at a row of the results. @returns the object that a colour bar needs, or None without
+        stresses"""
         panel.set_aspect("equal")
         panel.set_axis_off()
         panel.set_xlim(self.limits[0][0], self.limits[1][0])
@@ -126,7 +128,8 @@ class Scene:
 
 
 def _view_axes(results, view):
-    """(3,3): right, up, towards the viewer. Without a wish: a little from above on the plane of the largest motion."""
+    """(3,3): right, up, towards the viewer. The default looks slightly from above on the plane of the largest
+    motion."""
     if view in VIEWS:
         right, up = (np.array(v, float) for v in VIEWS[view])
         return np.array([right, up, np.cross(right, up)])

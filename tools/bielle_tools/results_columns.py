@@ -2,7 +2,7 @@
 
 
 def column_names(results, place):
-    """Names of a dataset's columns: its description where it lists as many (`displacement, angle`, also after a colon), or
+    """Names of a dataset's columns: its description if it lists as many (`displacement, angle`, also after a colon), or
     1, 2, ..."""
     count = len(columns_of(results, place))
     names = [name.strip() for name in results.text(place, "description").split(": ")[-1].split(",")]
@@ -10,14 +10,14 @@ def column_names(results, place):
 
 
 def column_units(results, place):
-    """Units of a dataset's columns: one for all, or `m, rad` one for each; empty where the dataset is missing."""
+    """Units of a dataset's columns: one for all, or `m, rad` one for each; empty if the dataset is missing."""
     count = len(columns_of(results, place))
     units = [unit.strip() for unit in results.units(place).split(",")]
     return units if len(units) == count else [results.units(place)] * count
 
 
 def columns_of(results, place):
-    """Columns of a dataset over time, as a list of vectors; empty where the dataset is missing or not over time."""
+    """Columns of a dataset over time, as a list of vectors; empty if the dataset is missing or not over time."""
     if not results.has(place):
         return []
     values = results.rows(place)

@@ -16,15 +16,15 @@ from .messages import InputError, counted, limited_reading, note
 from .rotations import ROTATION_QUANTITIES, made_of, rotation_quantity
 from .stacked_layout import StackedLayout
 
-# Dimensions after the rows of what the tools use; None: any number.
+# Dimensions after the rows of the datasets that the tools use; None: any number.
 SHAPES = {("nodes", "position"): (3,), ("nodes", "rotation"): (4,), ("nodes", "velocity"): (6,),
           ("joints", "coordinate"): (None,), ("joints", "rate"): (None,), ("joints", "drive_force"): (None,),
           ("joints", "reaction"): (6,), ("joints", "reaction_inertial"): (6,),
           ("elements", "frame"): (7,), ("elements", "coordinates"): (None,), ("elements", "rotation"): (None, 4),
           ("elements", "position"): (None, 3), ("elements", "resultants"): (None, 6)}
 LARGEST = 1e100  # no quantity is larger
-WITHOUT_ROWS = ("eigen", "campbell", "frequency_response", "state_space")  # what analyses write that record nothing over time
-# What other files of Bielle are for.
+WITHOUT_ROWS = ("eigen", "campbell", "frequency_response", "state_space")  # analyses that record nothing over time
+# Purpose of other files of Bielle.
 OTHERS = {"bielle superelement": "'bielle-reduce --inspect {0}' describes it",
           "bielle cut body": "'bielle-reduce --inspect {0}' describes it",
           "bielle study": "its runs are the groups /runs/1, /runs/2, ...; h5py and HDFView show them"}
@@ -34,7 +34,7 @@ WORDS = {"bielle superelement": "a superelement", "bielle cut body": "a body in 
 
 @contextlib.contextmanager
 def reading(path, what):
-    """Whatever the HDF5 library says of a damaged file, and what does not fit together in it, becomes one sentence.
+    """Converts errors of the HDF5 library on a damaged file, and inconsistencies in it, to one sentence.
     @raises InputError"""
     try:
         with limited_reading():
@@ -45,7 +45,7 @@ def reading(path, what):
 
 
 def _told(method):
-    """A method whose first argument is a place in the file: what cannot be read there is told."""
+    """Decorates a method whose first argument is a place in the file: a place that cannot be read is reported."""
     @functools.wraps(method)
     def reads(self, place, *arguments, **options):
         with reading(self.path, place):
@@ -54,10 +54,10 @@ def _told(method):
 
 
 class Results:
-    """An open results file, or one analysis of it. Use as a context manager."""
+    """An open results file, or one analysis of it. It is a context manager."""
 
     def __init__(self, path, analysis=None):
-        """analysis: number of one analysis (1, 2, ...); None: each group as the last analysis that has it left it."""
+        """analysis: number of one analysis (1, 2, ...); None: each group from the last analysis that wrote it."""
         self.path = os.path.abspath(path)
         self.file = open_hdf5(path, "bielle results", "results of bielle-mechanism")
         self.root = self.file
@@ -100,11 +100,11 @@ class Results:
 
     @property
     def axis(self):
-        """What the horizontal axis of a figure over the rows is called."""
+        """Label of the horizontal axis of a figure over the rows."""
         return "load factor" if self.static else "time [s]"
 
     def moment(self, row):
-        """`t = 0.1230 s`: which row it is, in words."""
+        """`t = 0.1230 s`: describes a row."""
         return f"load factor {self.time[row]:.4g}" if self.static else f"t = {self.time[row]:.4f} s"
 
     def __enter__(self):
@@ -120,7 +120,7 @@ class Results:
 
     @_told
     def names(self, section):
-        """Names under `nodes`, `joints`, `elements`, ...; empty when there are none."""
+        """Names under `nodes`, `joints`, `elements`, ...; empty if there are none."""
         stacked = self._stacked and self._stacked.names(section)
         if stacked is not None:
             return stacked
@@ -135,7 +135,7 @@ class Results:
 
     @_told
     def array(self, place):
-        """A dataset that is not over time, whole."""
+        """A complete dataset that is not over time."""
         found = self._found(place)
         return self._judged(place, np.asarray(self.root[place])) if found is None else self._stacked.value(found)
 
@@ -160,7 +160,8 @@ class Results:
         return names + [name for name in ROTATION_QUANTITIES if made and name not in names]
 
     def _found(self, place):
-        """Where the stacked layout has what the layout by names calls `place`; None where it stands under its name."""
+        """Place in the stacked layout of the dataset that the layout by names calls `place`; None if it exists under
+        its name."""
         return self._stacked.split(place) if self._stacked else None
 
     @_told
@@ -181,12 +182,12 @@ class Results:
             return [int(name[9:]) for name, group in found if "time" in group and len(group["time"])]
 
     def text_of(self, name):
-        """A text at the root, `input`; empty where there is none."""
+        """A text at the root, `input`; empty if there is none."""
         with reading(self.path, name):
             return _text(self.file[name][()]) if name in self.file else ""
 
     def entry_of(self, element):
-        """The element of the mechanism file: of the piece `blade.2` of a body it is `blade`."""
+        """The element of the mechanism file: for the piece `blade.2` of a body it is `blade`."""
         return element.rpartition(".")[0] if self.text(f"elements/{element}", "group") else element
 
     @_told
@@ -219,13 +220,13 @@ class Results:
         return self._judged(place, np.asarray(data[:len(self.time)] if index is None else data[index]))
 
     def _judged(self, place, values):
-        """Numbers without those that nothing can be done with. Says once where there are some."""
+        """Replaces values that cannot be used. Reports once that there are some."""
         if values.dtype.kind != "f":
             return values
         bad = ~(np.abs(values) < LARGEST)
         if not bad.any():
             return values
-        # On purpose: of nodes without stress, of modes that were lost or have no sense of whirl.
+        # These are intended: nodes without stress, modes that were lost or have no sense of whirl.
         if place not in self._doubted and not place.endswith(("von_mises", "stress", "strain")) and not place.startswith("campbell/"):
             self._doubted.add(place)
             note(f"{self.path}: '{place}' holds values that are no numbers, or larger than {LARGEST:g}: they are left out")
@@ -255,7 +256,7 @@ class Results:
 
 
 def modes_to_show(results):
-    """` (--mode 1 shows one of its 6 modes)` where there are modes."""
+    """` (--mode 1 shows one of its 6 modes)` if there are modes."""
     if not isinstance(results, Results) or not results.has("eigen/frequency"):
         return ""
     return f"; it has {counted(len(results.array('eigen/frequency')), 'mode')}: --mode 1 shows the first"
@@ -285,7 +286,7 @@ def open_hdf5(path, expected, meaning):
 
 
 def _what_it_is(path):
-    """Of a file that HDF5 does not open, in words."""
+    """Describes a file that HDF5 does not open."""
     with open(path, "rb") as file:
         head = file.read(4096)
     if not head:

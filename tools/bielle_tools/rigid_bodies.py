@@ -1,7 +1,7 @@
-"""Rigid bodies to look at: of each the ellipsoid of uniform density that has its mass, centre and inertia.
+"""Shapes for rigid bodies: for each the ellipsoid of uniform density that has its mass, centre and inertia.
 
-The results hold no shapes. An ellipsoid with semi-axes a, b, c has J_x = m (b^2 + c^2) / 5, ..., so that
-a^2 = 5 (J_y + J_z - J_x) / (2 m): about the size of the body, a little larger where it is a box or a cylinder.
+The results contain no shapes. An ellipsoid with semi-axes a, b, c has J_x = m (b^2 + c^2) / 5, ..., so that a^2 = 5
+(J_y + J_z - J_x) / (2 m): about the size of the body, slightly larger if it is a box or a cylinder.
 """
 
 import numpy as np
@@ -30,7 +30,7 @@ class RigidBody:
 
 
 def rigid_bodies(results):
-    """The rigid bodies and point masses of which the results name node and mass."""
+    """The rigid bodies and point masses whose node and mass the results contain."""
     found = []
     for name in results.names("elements"):
         place = f"elements/{name}"

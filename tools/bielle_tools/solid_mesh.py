@@ -1,8 +1,8 @@
 """A tetrahedral mesh with named groups, checked and put into gmsh's node order.
 
 Readers deliver a RawMesh: any cells, in VTK's node order (as meshio, Abaqus and CalculiX have it), and named sets of
-cells, of cell faces and of nodes. `solid_mesh` makes of it what the reduction reads: tetrahedra and boundary triangles
-of positive orientation with gmsh's node order, every set a surface or a volume group.
+cells, of cell faces and of nodes. `solid_mesh` converts it to the mesh that the reduction reads: tetrahedra and
+boundary triangles of positive orientation with gmsh's node order, every set as a surface or a volume group.
 
 Second-order tetrahedra, mid-side nodes 4..9:   VTK, Abaqus: 01 12 02 03 13 23      gmsh: 01 12 02 03 23 13
 """
@@ -16,10 +16,10 @@ from .messages import InputError, counted
 TRIANGLES = {"triangle": 3, "triangle6": 6}
 FARTHEST = 1e15  # in whatever unit: no body reaches there
 TETRAHEDRA = {"tetra": 4, "tetra10": 10}
-# Cells that carry no volume and no surface: axes, springs, point masses, corner points.
+# Cells that have neither volume nor surface: axes, springs, point masses, corner points.
 IGNORED = ("vertex", "line", "line3", "line4")
 
-EDGES = np.array([[0, 1], [1, 2], [0, 2], [0, 3], [1, 3], [2, 3]])  # of VTK's mid-side nodes
+EDGES = np.array([[0, 1], [1, 2], [0, 2], [0, 3], [1, 3], [2, 3]])  # edges of VTK's mid-side nodes
 VTK_TO_GMSH = {"triangle": range(3), "triangle6": range(6), "tetra": range(4), "tetra10": [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]}
 # Corners of the four faces, outward for a tetrahedron of positive volume, and the mid-side nodes that follow them.
 FACES = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
@@ -31,11 +31,11 @@ MIRRORED = {"triangle": [0, 2, 1], "triangle6": [0, 2, 1, 5, 4, 3], "tetra": [0,
 
 @dataclass
 class RawMesh:
-    """What a reader found. Sets may overlap; names are as in the file.
+    """The result of a reader. Sets may overlap; names are those of the file.
 
     points (p,3); cells: list of (meshio type, (n,k) node numbers from 0);
     cell_sets: name -> one index array per entry of `cells`; point_sets: name -> node numbers;
-    face_sets: name -> (f,3) corner nodes of faces; notes: sentences about what was left out.
+    face_sets: name -> (f,3) corner nodes of faces; notes: sentences about omitted parts.
     """
 
     points: np.ndarray
@@ -58,7 +58,7 @@ class SolidMesh:
 
 
 def solid_mesh(raw):
-    """Checks a RawMesh and completes it. @raises InputError when it is not a mesh of tetrahedra."""
+    """Checks a RawMesh and completes it. @raises InputError if it is not a mesh of tetrahedra."""
     notes = list(raw.notes)
     cells, place = _merge_blocks(raw, notes)
     _check_numbers(raw.points, cells)
@@ -104,7 +104,7 @@ def tetrahedron_faces(cells):
 
 
 def boundary_faces(faces):
-    """Those of `tetrahedron_faces` that belong to one tetrahedron only."""
+    """The faces of `tetrahedron_faces` that belong to one tetrahedron only."""
     corners = np.concatenate([np.sort(block[:, :3], axis=1) for block in faces.values()])
     _, inverse, count = np.unique(corners, axis=0, return_inverse=True, return_counts=True)
     once = np.split(count[inverse.ravel()] == 1, np.cumsum([len(block) for block in faces.values()])[:-1])
@@ -211,7 +211,7 @@ def _members(parts, place, cells):
 
 
 def _add_surface(surfaces, volumes, name, members, notes):
-    """Adds a surface group; when its name is taken by another group, with `_surface` or a number appended."""
+    """Adds a surface group; if its name is taken by another group, with `_surface` or a number appended."""
     if name in surfaces and _same(surfaces[name], members):
         return
     free, count = name, 1
@@ -237,7 +237,7 @@ def _drop_unused(points, cells, notes):
 
 
 class _FaceTable:
-    """Triangles of the mesh, each once: those of the file, and those of tetrahedra that sets ask for."""
+    """Triangles of the mesh, each once: those of the file, and those of tetrahedra that sets contain."""
 
     def __init__(self, cells):
         self.cells = {kind: block for kind, block in cells.items()}
@@ -251,7 +251,7 @@ class _FaceTable:
         self.lookup = None
 
     def of_nodes(self, nodes):
-        """Boundary triangles whose nodes are all in the set (their corners, where the set holds no mid-side node)."""
+        """Boundary triangles whose nodes are all in the set (their corners, if the set contains no mid-side node)."""
         wanted = set(np.asarray(nodes).tolist())
         found = {}
         for flat, faces in self.boundary.items():

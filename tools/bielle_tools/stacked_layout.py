@@ -1,9 +1,9 @@
-"""The stacked layout of results: names of entries, and where the numbers of each are found.
+"""The stacked layout of results: names of entries, and the places of their numbers.
 
     /nodes/node/name      (n)         names
     /nodes/node/position  (nt,n,3)    the quantity of all of them
     /nodes/node/attributes/carrier (n)  texts, empty where an entry has no such attribute
-A section holds one such group per kind: entries that record the same.
+A section contains one such group per kind; entries of a kind record the same quantities.
 """
 
 import numpy as np
@@ -12,7 +12,8 @@ SECTIONS = ("nodes", "elements", "joints", "measures")
 
 
 class StackedLayout:
-    """Finds what `joints/main/coordinate` is called in the layout by names. root: group of an analysis, or of the file."""
+    """Finds the dataset that the layout by names calls `joints/main/coordinate`. root: group of an analysis, or of the
+    file."""
 
     def __init__(self, root):
         self.root = root
@@ -21,7 +22,7 @@ class StackedLayout:
         self._row = {}  # path of a dataset -> (row, numbers of all entries)
 
     def names(self, section):
-        """In the order of their kinds; None where the section is not stacked."""
+        """Names in the order of their kinds; None if the section is not stacked."""
         return list(self._section(section)) if section in SECTIONS else None
 
     def split(self, place):
@@ -39,11 +40,11 @@ class StackedLayout:
         return bool(found) and (not found[2] or found[2] in found[0])
 
     def datasets(self, found):
-        """Names of what an entry holds."""
+        """Names of the datasets of an entry."""
         return [name for name in found[0] if name not in ("name", "attributes")]
 
     def text(self, found, attribute):
-        """An attribute of an entry or of its dataset; empty where there is none."""
+        """An attribute of an entry or of its dataset; empty if there is none."""
         group, number, field = found
         if field:
             return group[field].attrs.get(attribute, "") if field in group else ""
@@ -57,7 +58,7 @@ class StackedLayout:
         return "" if texts is None else texts[number]
 
     def read(self, found, rows):
-        """Rows of one entry. What is asked of many entries for one row is read at once."""
+        """Rows of one entry. Rows of many entries at one time are read together."""
         group, number, field = found
         data = group[field]
         if isinstance(rows, slice) or np.ndim(rows):
@@ -68,12 +69,12 @@ class StackedLayout:
         return kept[1][number]
 
     def shape(self, found):
-        """As the dataset of the entry alone has it."""
+        """Shape of the dataset for the entry alone."""
         shape = found[0][found[2]].shape
         return shape[:1] + shape[2:] if len(shape) > 1 else ()  # a number that is no row over time
 
     def value(self, found):
-        """A number of an entry that is no row over time."""
+        """A number of an entry that is not over time."""
         return float(found[0][found[2]][found[1]])
 
     def _section(self, section):

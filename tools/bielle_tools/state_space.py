@@ -1,4 +1,4 @@
-"""State spaces that the analysis `state_space` has written: read, and reduced to their slow part.
+"""State spaces written by the analysis `state_space`: reading, and reduction to their slow part.
 
     system = read("arm.h5")
     small = reduced(system, below=200)                      # modes up to 200 Hz, the others as statics
@@ -48,9 +48,9 @@ def response(system, frequency):
 
 
 def reduced(system, below):
-    """Modal truncation: the modes with |s|/2 pi up to `below` [Hz], real; what is faster follows without delay, so that
-    the response at 0 Hz stays exact. The split is one of invariant subspaces (ordered QZ), which double eigenvalues of
-    rigid motions do not disturb."""
+    """Modal truncation: the modes with |s|/2 pi up to `below` [Hz], real; faster ones follow without delay, so that the
+    response at 0 Hz stays exact. The split is one of invariant subspaces (ordered QZ), which works with double
+    eigenvalues of rigid motions."""
     limit = 2 * np.pi * below
     if not below > 0:
         raise InputError(f"expected a frequency above 0 Hz, got {below}")
@@ -58,7 +58,7 @@ def reduced(system, below):
     n = int(np.sum(np.abs(alpha) <= limit * np.abs(beta)))
     A1, A12, A2 = AA[:n, :n], AA[:n, n:], AA[n:, n:]
     E1, E12, E2 = EE[:n, :n], EE[:n, n:], EE[n:, n:]
-    # [1, -L; 0, 1] and [1, R; 0, 1] take the coupling away: R - S R G = X with slow S and inverse fast G, by doubling.
+    # [1, -L; 0, 1] and [1, R; 0, 1] remove the coupling: R - S R G = X with slow S and inverse fast G, by doubling.
     S, G = np.linalg.solve(E1, A1), np.linalg.solve(A2, E2)
     R = np.linalg.solve(E1, A12 @ G - E12)
     while n and len(A2) and np.linalg.norm(S) * np.linalg.norm(G) > 0:

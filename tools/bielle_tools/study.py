@@ -8,8 +8,8 @@
     /identity (runs) by which a later study knows runs that it need not make again
     /runs/<k>/...   k = 1, 2, ...: the groups kept of that run's results, as bielle-mechanism wrote them
 
-Next to it stands a CSV table of parameters, status and what was gathered. Until all runs are there, they wait as files
-(bielle_tools/study_runs.py) in a folder, <name>.runs-XXXXXXXX (bielle_tools/study_folder.py).
+A CSV table of parameters, status and gathered numbers is written next to it. Until all runs are finished, they are kept
+as files (bielle_tools/study_runs.py) in a folder, <name>.runs-XXXXXXXX (bielle_tools/study_folder.py).
 """
 
 import concurrent.futures
@@ -32,7 +32,7 @@ from .study_runs import copy_results, facts, is_done, make_run, run_path
 
 @dataclasses.dataclass
 class Collected:
-    """Of all runs: status (-1: not run yet), messages, and what was gathered by name, with units."""
+    """Data of all runs: status (-1: not run yet), messages, and gathered numbers by name, with units."""
 
     status: np.ndarray
     messages: list
@@ -49,7 +49,7 @@ class Collected:
 
 
 def run_study(plan, *, jobs=1, fresh=False, report=print):
-    """Makes all runs that are not there yet, `jobs` at a time, and gathers them. @returns Collected. @raises InputError"""
+    """Makes all missing runs, `jobs` at a time, and gathers them. @returns Collected. @raises InputError"""
     check_outputs(plan)
     with work_folder(plan.output) as folder:
         prepare(plan, folder, fresh)
@@ -71,7 +71,7 @@ def run_study(plan, *, jobs=1, fresh=False, report=print):
 
 
 def prepare(plan, folder, fresh=False):
-    """Makes the folder of the runs, with the plan and those runs that an earlier study of this name has. @raises InputError"""
+    """Makes the folder of the runs, with the plan and the runs of an earlier study of this name. @raises InputError"""
     if fresh and os.path.isdir(folder):
         forget_runs(folder)
     try:
@@ -79,14 +79,14 @@ def prepare(plan, folder, fresh=False):
     except OSError as error:
         raise InputError(f"cannot write '{plan.output}': '{folder}': {error.strerror}") from None
     for name in os.listdir(folder):
-        if name.endswith(".part") and OF_RUNS.fullmatch(name):  # of a study that was killed
+        if name.endswith(".part") and OF_RUNS.fullmatch(name):  # left by a study that was killed
             os.remove(os.path.join(folder, name))
     if not fresh and os.path.exists(plan.output):
         _take_over(plan, folder)
 
 
 def _take_over(plan, folder):
-    """Runs of the study file become files again."""
+    """Converts the runs of the study file to files again."""
     with h5py.File(plan.output, "r") as study:
         if "identity" not in study:
             return
@@ -104,7 +104,7 @@ def _take_over(plan, folder):
 
 
 def pending(plan, folder):
-    """Numbers, from 0, of the runs to make: one of each identity."""
+    """Numbers, from 0, of the runs to make: one for each identity."""
     first = {}
     for index, identity in enumerate(plan.identities):
         if first.setdefault(identity, index) != index:
@@ -136,13 +136,13 @@ def told(plan, index, status, message):
 
 
 def check_no_parameter(message):
-    """@raises InputError where a run says that the model has no such parameter: no run can succeed"""
+    """@raises InputError if a run reports that the model has no such parameter: no run can succeed then"""
     if "has no parameter" in message:
         raise InputError(message.rpartition("error: ")[2])
 
 
 def check_gather(plan, folder, index):
-    """Of the first run, so that a wrong name does not cost a night. @raises InputError"""
+    """Checks the gathered names with the first run, so that a wrong name is found early. @raises InputError"""
     for each in plan.wanted:
         try:
             with Results(run_path(folder, plan.identities[index])) as results:
@@ -154,7 +154,7 @@ def check_gather(plan, folder, index):
 
 
 def collect(plan, folder):
-    """Writes the study's file and table from the runs that are there. @returns Collected"""
+    """Writes the study's file and table from the finished runs. @returns Collected"""
     check_outputs(plan)
     with replacing(plan.output) as partial:
         try:
@@ -211,7 +211,7 @@ def _gather(plan, path, index, numbers, units):
 
 
 def units_of(gathered, results):
-    """Of a gathered number."""
+    """Units of a gathered number."""
     if gathered.place is None:
         return ""
     if (gathered.take or "").startswith("time_of_"):
@@ -230,7 +230,7 @@ def _write_table(plan, status, numbers):
 
 
 def find_program():
-    """bielle-mechanism of BIELLE_BIN, of this repository's build, beside an installed tool, or on the PATH."""
+    """bielle-mechanism in BIELLE_BIN, in this repository's build, beside an installed tool, or on the PATH."""
     tools = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
     folders = [os.environ.get("BIELLE_BIN", ""), os.path.join(tools, "..", "build", "release", "bin"),
                os.path.join(tools, "..", "..", "..", "bin"), *os.environ.get("PATH", "").split(os.pathsep)]

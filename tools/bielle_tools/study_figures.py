@@ -38,7 +38,7 @@ class Figure:
 
 
 def read_figures(plan):
-    """What `draw` asks for. @raises InputError"""
+    """Reads the entries of `draw`. @raises InputError"""
     return [_read(text, plan) for text in plan.draw or ()]
 
 
@@ -74,7 +74,7 @@ def _read(text, plan):
 
 
 def suggested(plan):
-    """Figures that suggest themselves: of all that is gathered, over the parameters that vary, where these are one or two."""
+    """Default figures: of all gathered numbers, over the parameters that vary, if these are one or two."""
     varying = [name for k, name in enumerate(plan.names) if len({row[k] for row in plan.rows}) > 1]
     if not 1 <= len(varying) <= 2:
         if len(varying) > 2 and plan.wanted:
@@ -120,7 +120,7 @@ def draw(plan, collected, folder, extension="png"):
 
 
 def numbers_of(texts):
-    """Values of a parameter as numbers; None where some are formulas: they then stand in their order."""
+    """Values of a parameter as numbers; None if some are formulas, which are then drawn in their order."""
     try:
         values = [float(text) for text in texts]
     except ValueError:
@@ -129,7 +129,7 @@ def numbers_of(texts):
 
 
 def _axis(texts):
-    """Positions of values on an axis, and labels where they are no numbers."""
+    """Positions of values on an axis, and labels if they are no numbers."""
     numbers = numbers_of(texts)
     if numbers is not None:
         return np.array(numbers), None

@@ -1,4 +1,4 @@
-"""The file of a study: which model, which values, what to gather and to draw.
+"""The file of a study: model, values, gathered numbers and figures.
 
     model: rotor.yaml                       # names of files are relative to this one
     set: {height: 1.2}                      # the same in all runs
@@ -42,7 +42,7 @@ class StudyFile:
                        for name, entry in (self._map(top["gather"], "gather") if "gather" in top else {}).items()]
 
     def _values(self, top):
-        """The table, the grid and what is set, in this order."""
+        """The table, the grid and the set values, in this order."""
         names, rows = self._table(top["table"]) if "table" in top else ([], [[]])
         axes = {name: self._axis(name, entry) for name, entry in (self._map(top["grid"], "grid") if "grid" in top else {}).items()}
         same = {name: [self._text(entry, f"set.{name}")] for name, entry in (self._map(top["set"], "set") if "set" in top else {}).items()}
@@ -148,6 +148,6 @@ def _compose(path):
 
 
 def is_study_file(path):
-    """Whether a YAML file has the key `model`, and is thus no model itself."""
+    """Tells whether a YAML file has the key `model`, and is thus no model itself."""
     node = _compose(path)[1]
     return isinstance(node, yaml.MappingNode) and any(isinstance(key, yaml.ScalarNode) and key.value == "model" for key, _ in node.value)

@@ -1,8 +1,7 @@
-"""Runs of a study wait for each other in a folder <name>.runs-XXXXXXXX next to its file, held by one study at a time.
+"""The runs of a study are kept in a folder <name>.runs-XXXXXXXX next to its file, which is used by one study at a time.
 
-The folder is new (mkdtemp), or one that an earlier study of the same file has left: its plan says so. A lock in it is
-held while a study works, so that a second study of the same file is told. Studies remove nothing from the folder but
-what they make.
+The folder is new (mkdtemp), or was left by an earlier study of the same file, as its plan says. A study holds a lock in
+it, so that a second study of the same file reports an error. Studies remove only their own files from the folder.
 """
 
 import contextlib
@@ -22,7 +21,8 @@ OF_RUNS = re.compile(r"[0-9a-f]{24}\.h5(\.\d+\.\d+)?(\.part)?")
 
 @contextlib.contextmanager
 def work_folder(output):
-    """The folder of a study's runs, held until the end. @raises InputError where another study of this file is at work"""
+    """The folder of a study's runs, held until the end. @raises InputError if another study of this file is in
+    progress"""
     with _locked_together(os.path.dirname(output)):
         folder, lock = _left_by_an_earlier_study(output)
         if folder is None:
@@ -34,7 +34,7 @@ def work_folder(output):
 
 
 def discard(folder):
-    """Removes a folder of runs with what studies have made in it; where there is more, that stays, and is told."""
+    """Removes a folder of runs with the files of studies in it; other files stay and are reported."""
     forget_runs(folder)
     for name in (PLAN, LOCK):
         with contextlib.suppress(FileNotFoundError):
@@ -53,7 +53,7 @@ def forget_runs(folder):
 
 
 def check_folder_of_jobs(folder):
-    """@raises InputError where a folder for jobs holds other things"""
+    """@raises InputError if a folder for jobs contains other files"""
     if not os.path.isdir(folder) or not os.listdir(folder):
         return
     try:
@@ -73,7 +73,7 @@ def _new(output):
 
 
 def _left_by_an_earlier_study(output):
-    """@returns folder and lock, or None, None. @raises InputError where its study is still at work"""
+    """@returns folder and lock, or None, None. @raises InputError if its study is still in progress"""
     for folder in sorted(glob.glob(glob.escape(os.path.splitext(output)[0]) + ".runs-*")):
         with contextlib.suppress(FileNotFoundError):  # its study ends just now
             if os.path.isdir(folder) and _is_of(folder, output):
@@ -85,7 +85,8 @@ def _left_by_an_earlier_study(output):
 
 
 def _is_of(folder, output):
-    """A plan tells; a folder that holds nothing but a lock is of a study that has just begun, or ended."""
+    """The plan identifies the study; a folder that contains only a lock belongs to a study that has just begun or
+    ended."""
     if os.listdir(folder) == [LOCK]:
         return True
     try:
@@ -113,7 +114,7 @@ def _hold(folder, output):
 
 @contextlib.contextmanager
 def _locked_together(folder):
-    """One study at a time looks for its folder of runs."""
+    """Lets one study at a time look for its folder of runs."""
     try:
         place = os.open(folder, os.O_RDONLY)
     except OSError:

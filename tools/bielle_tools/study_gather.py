@@ -3,10 +3,9 @@
     [TAKE] DATASET[COLUMN] [at T] [from T] [to T] [in analysis N]
     text "limit point at load factor"[1]
 
-A dataset over time is taken as the polygon through its rows: `mean` and `rms` are integrals of it over time, `at` is
-interpolated; of one without rows (modes, peaks) a number is picked by its columns. Columns count from 1 or have the names that
-the results give them; `[1:4]` makes four columns of the table. `text` is a number that follows these words in what the program
-printed, where the results do not hold it.
+Columns count from 1 or have the names in the results; `[1:4]` makes four columns of the table. `text` is a number that
+follows these words in the program's output, for values that the results do not contain. `text` is a number that follows
+these words in what the program printed, where the results do not hold it.
 """
 
 import re
@@ -26,7 +25,7 @@ TEXT = re.compile(r'\s*text\s+"(?P<words>[^"]+)"\s*(?:\[(?P<number>\d+)\])?\s*')
 
 
 class Missing(Exception):
-    """What is asked for, this run does not have."""
+    """This run does not contain the requested value."""
 
 
 class Gathered:
@@ -82,14 +81,15 @@ class Gathered:
 
     @property
     def needs(self):
-        """The dataset that a run must keep; nothing for texts, which are kept always."""
+        """The dataset that a run must keep; none for texts, which are always kept."""
         if self.place is None:
             return None
         _, place = made_of(self.place)
         return f"analysis_{self.analysis}/{place}" if self.analysis else place
 
     def value(self, results):
-        """The number. @raises Missing, in words; InputError where the results have no such dataset. results: an open run"""
+        """The number. @raises Missing, with the reason; InputError if the results have no such dataset. results: an
+        open run"""
         if self.printed is not None:
             return self._printed(results)
         if self.analysis:
@@ -182,7 +182,7 @@ def window(time, values, begin, end):
 
 
 def take(what, time, values):
-    """@returns a number of a signal. @raises Missing where the signal has values that are no numbers"""
+    """@returns a number of a signal. @raises Missing if the signal has values that are no numbers"""
     if not np.all(np.isfinite(values)):
         raise Missing("the signal has values that are no numbers")
     if what.startswith("time_of_"):

@@ -36,7 +36,7 @@ def schedule(plan, folder, study, *, share=1, options=(), fresh=False):
     with open(os.path.join(folder, TASKS), "w", encoding="utf-8") as file:
         file.writelines(f"{index + 1}\n" for index in todo)
     name = "".join(letter if letter.isprintable() else "_" for letter in os.path.splitext(os.path.basename(plan.output))[0])
-    logs = folder.replace("%", "%%")  # of which Slurm makes patterns
+    logs = folder.replace("%", "%%")  # Slurm replaces patterns with %
     command = f"{shlex.quote(os.path.abspath(study))}"
     tasks = -(-len(todo) // share)
     array = ["#!/bin/sh", f"#SBATCH --job-name={shlex.quote(name)}", f"#SBATCH --array=1-{max(tasks, 1)}", "#SBATCH --cpus-per-task=1",

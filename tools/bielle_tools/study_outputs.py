@@ -1,4 +1,4 @@
-"""Files that a study writes: none of them in the place of what it reads, or of what somebody else has made."""
+"""Output files of a study: none may replace an input or a file that is no study."""
 
 import contextlib
 import os
@@ -14,7 +14,7 @@ def table_path(plan):
 
 
 def check_outputs(plan):
-    """@raises InputError where the study would write over an input, or over what is no study"""
+    """@raises InputError if the study would overwrite an input, or a file that is no study"""
     _check_study(plan.output)
     outputs = [("the file of the study", plan.output)] + ([("the table of what is gathered", table_path(plan))] if plan.wanted else [])
     for what, path in outputs:
@@ -27,7 +27,7 @@ def check_outputs(plan):
 
 @contextlib.contextmanager
 def replacing(path):
-    """The path of a new file that takes the place of another one once it is whole. @raises InputError where none can be made"""
+    """The path of a new file that replaces another one when it is complete. @raises InputError if it cannot be made"""
     partial = _new_file(path)
     try:
         yield partial
@@ -78,7 +78,7 @@ def _check_study(path):
 
 
 def _check_table(path):
-    """A table of an earlier study begins with the column `run` and has one of the status."""
+    """A table of an earlier study begins with the column `run` and has a column for the status."""
     if not os.path.exists(path):
         return
     known = False

@@ -1,7 +1,7 @@
-"""What a study consists of, as a file that every process of it can read: plan.json in the folder of its runs.
+"""The description of a study, as a file that each of its processes can read: plan.json in the folder of its runs.
 
-A run is known by its identity: a sum over the model, the files that the model names, the program, and the values of the
-parameters. Finished runs of the same identity are not run again, whatever else has changed in the study.
+A run is identified by a sum over the model, the files that the model names, the program, and the values of the
+parameters. Finished runs with the same identity are not repeated, whatever else has changed in the study.
 """
 
 import dataclasses
@@ -46,12 +46,12 @@ class Plan:
 
     @property
     def needed(self):
-        """Groups and datasets that each run has to keep."""
+        """Groups and datasets that each run must keep."""
         return list(dict.fromkeys([*self.keep, *filter(None, (each.needs for each in self.wanted))]))
 
     @property
     def needs_text(self):
-        """Whether what the program prints is gathered from."""
+        """Tells whether numbers are gathered from the program's output."""
         return any(each.printed is not None for each in self.wanted)
 
     def values(self, index):
@@ -67,7 +67,7 @@ class Plan:
 
 
 def read_plan(folder):
-    """@raises InputError where the folder holds none"""
+    """@raises InputError if the folder contains none"""
     path = os.path.join(folder, PLAN)
     try:
         with open(path, encoding="utf-8", errors="surrogatepass") as file:
@@ -88,7 +88,7 @@ def _sum(text):
 
 
 def _common(model, program):
-    """What all runs share: the model, the program, and the contents of the files that the model names."""
+    """The data that all runs share: the model, the program, and the contents of the files that the model names."""
     text = read_model(model)
     folder = os.path.dirname(os.path.abspath(model))
     files = [(word, _file_sum(os.path.join(folder, word))) for word in _words_like_files(text)]
@@ -96,7 +96,7 @@ def _common(model, program):
 
 
 def named_files(model):
-    """Paths of the files that a model names and that are there."""
+    """Paths of the existing files that a model names."""
     folder = os.path.dirname(os.path.abspath(model))
     paths = [os.path.join(folder, word) for word in _words_like_files(read_model(model))]
     return [path for path in paths if os.path.isfile(path)]
@@ -107,7 +107,7 @@ def _words_like_files(text):
 
 
 def read_model(path):
-    """Its text. @raises InputError"""
+    """Text of a model. @raises InputError"""
     try:
         with open(path, encoding="utf-8") as file:
             return file.read()
@@ -118,7 +118,7 @@ def read_model(path):
 
 
 def _file_sum(path):
-    """Of a file's content; nothing where it is none."""
+    """Checksum of a file's content; empty if there is no such file."""
     if not os.path.isfile(path):
         return None
     total = hashlib.sha256()

@@ -1,4 +1,4 @@
-"""One run of a study, and the file in which it waits for the others: <folder>/<identity>.h5.
+"""One run of a study, and the file in which it is kept until the others are finished: <folder>/<identity>.h5.
 
 The file is one of results (bielle_tools/results_file.py), cut down to what the study keeps, with these attributes in addition:
 study_status (exit status of the program), study_message (what a failed run said), study_kept; and the text /study_said, what the program
@@ -24,13 +24,13 @@ def run_path(folder, identity):
 
 
 def is_done(plan, folder, index):
-    """Whether the run has succeeded before, and what the study needs of it was kept."""
+    """Tells whether the run has succeeded before, and the data that the study needs were kept."""
     about = facts(run_path(folder, plan.identities[index]))
     return about is not None and about["status"] == 0 and covers(about, plan)
 
 
 def facts(path):
-    """Status, message and what was kept of a run that was made; None where there is none."""
+    """Status, message and kept data of a finished run; None if there is none."""
     if not os.path.isfile(path):
         return None
     try:
@@ -46,7 +46,7 @@ def _facts_of(group):
 
 
 def covers(about, plan):
-    """Whether what was kept of a run is enough for the plan."""
+    """Tells whether the kept data of a run are sufficient for the plan."""
     kept = set(about["kept"])
     enough = "all" in kept or all(need in kept or need.split("/")[0] in kept for need in plan.needed)
     return enough and (about["said"] or not plan.needs_text)
@@ -94,7 +94,7 @@ def _write_run(plan, path, results, status, message, said):
 
 
 def copy_results(source, group, kept):
-    """The attributes of results and what of them is kept; all: with the analyses that links lead to."""
+    """Copies the attributes of results and the kept groups; all: with the analyses to which links lead."""
     for key, value in source.attrs.items():
         group.attrs[key] = value
     everything = "all" in kept
@@ -110,7 +110,8 @@ def copy_results(source, group, kept):
         elif name in source:
             if name not in group:
                 _copy(source, group, name)
-        elif "/" in name and name.split("/")[0] in source:  # of the stacked layout, where it has no name of its own
+        elif "/" in name and name.split("/")[0] in source:  # dataset of the stacked layout, which has no name of its
+                                                            # own
             parts = name.split("/")
             section = "/".join(parts[:2]) if parts[0].startswith("analysis_") else parts[0]
             if section in source and section not in group:

@@ -1,7 +1,7 @@
 """Values of parameters in studies: lists, ranges, tables, and all combinations of several parameters.
 
-Values are texts from beginning to end, so that what a user writes ("2*pi", "0.10") reaches the program as it stands. A range
-is computed in decimal numbers: 0:0.3:4 gives 0, 0.1, 0.2, 0.3, not 0.30000000000000004.
+Values are texts throughout, so that a user's text ("2*pi", "0.10") reaches the program unchanged. A range is computed
+in decimal numbers: 0:0.3:4 gives 0, 0.1, 0.2, 0.3, not 0.30000000000000004.
 """
 
 import csv
@@ -53,7 +53,7 @@ def stepped(begin, end, step, where):
 
 
 def _split(text):
-    """At commas outside of brackets: `max(1, 2), 3` are two values."""
+    """Splits at commas outside of brackets: `max(1, 2), 3` are two values."""
     parts, depth = [""], 0
     for letter in text:
         depth += (letter == "(") - (letter == ")")
@@ -81,7 +81,7 @@ def _count(word, where):
 
 
 def _text(number):
-    """The shortest text of the nearest double: as people would write it."""
+    """The shortest text of the nearest double."""
     value = float(number)
     return str(int(value)) if value == int(value) and abs(value) < 1e15 else repr(value)
 
@@ -97,7 +97,7 @@ def grid(axes):
 
 
 def combined(first, second):
-    """Each row of a table with each row of another. @raises InputError for a parameter that both have"""
+    """Each row of a table with each row of another. @raises InputError for a parameter that is in both"""
     (names, rows), (more, others) = first, second
     for name in more:
         if name in names:

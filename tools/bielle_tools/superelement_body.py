@@ -1,8 +1,8 @@
-"""The mesh of a superelement and what its reduced coordinates say about every node: displacement and stress.
+"""The mesh of a superelement, and displacement and stress of every node as functions of its reduced coordinates.
 
 points(row) = x_0 + R_0 (X + U q), with the body's frame (x_0, R_0) and its reduced coordinates q from the results, and
-the recovery matrix U from the superelement file. Stress is linear in q: S q, six components per node. One time reads whole
-matrices for a few operations per number; several times at once (`blocks`) take little longer than one.
+the recovery matrix U from the superelement file. Stress is linear in q: S q, six components per node. A single time
+reads whole matrices for a few operations per number; several times together (`blocks`) take little longer than one.
 """
 
 import os
@@ -23,7 +23,7 @@ class SuperelementBody:
     """points (p,3) as meshed; cells {meshio type: (n,k)} in VTK's order; results at times through `at`."""
 
     def __init__(self, path, group=""):
-        """group: of a piece in the file of a body that is cut into pieces ("/pieces/2")."""
+        """group: group of a piece in the file of a cut body ("/pieces/2")."""
         self.path = path
         with _open(path, group) as opened, reading(path, group or "/"):
             file = opened[group] if group else opened
@@ -65,7 +65,7 @@ class SuperelementBody:
         return u
 
     def von_mises(self, q):
-        """(...,p) [Pa], not a number where no stress was kept; None without stress recovery. q: (...,n)."""
+        """(...,p) [Pa], not a number if no stress was kept; None without stress recovery. q: (...,n)."""
         if self.stress is None:
             return None
         xx, yy, zz, yz, xz, xy = np.moveaxis((q @ self.stress.T).reshape(q.shape[:-1] + (-1, 6)), -1, 0)
@@ -75,7 +75,7 @@ class SuperelementBody:
         return value
 
     def blocks(self, rows):
-        """The rows in pieces whose fields are recovered together: as many as make some 100 MB."""
+        """Divides the rows into blocks of some 100 MB whose fields are recovered together."""
         numbers = len(self.displacement) + (0 if self.stress is None else len(self.stress))
         together = int(np.clip(100e6 / (8 * max(numbers, 1)), 1, 64))
         return [rows[begin:begin + together] for begin in range(0, len(rows), together)]
@@ -88,13 +88,13 @@ class SuperelementBody:
         return self.placed(frame, self.local_displacement(q), scale)
 
     def placed(self, frame, u, scale=1.0):
-        """The same of displacements (p,3) in the body's frame."""
+        """Positions and elastic displacements from displacements (p,3) in the body's frame."""
         R = rotation_matrices(frame[3:])
         return frame[:3] + (self.points + scale * u) @ R.T, u @ R.T
 
 
 def interfaces_of(path, group=""):
-    """[(name, directions that are kept (6), rotation matrix: interface axes -> body axes)] in the order of the coordinates."""
+    """[(name, kept directions (6), rotation matrix: interface axes -> body axes)] in the order of the coordinates."""
     with _open(path, group) as opened, reading(path, "interface"):
         found = (opened[group] if group else opened)["interface"]
         names, dofs, rotations = found["names"].asstr()[:], np.asarray(found["dofs"]) != 0, np.asarray(found["rotations"], float)
@@ -116,7 +116,7 @@ def _open(path, group):
 
 
 def _matrix(dataset, columns=None):
-    """@raises ValueError where a dataset is no matrix of finite numbers, or of another width"""
+    """@raises ValueError if a dataset is no matrix of finite numbers, or of another width"""
     values = np.asarray(dataset)
     if values.ndim != 2 or columns not in (None, values.shape[1]) or not np.all(np.abs(values) < LARGEST):
         raise ValueError

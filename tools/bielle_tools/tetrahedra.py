@@ -1,11 +1,11 @@
-"""Consistent mass of tetrahedra with 4 or 10 nodes, and areas that belong to the nodes of their faces."""
+"""Consistent mass of tetrahedra with 4 or 10 nodes, and surface integrals on their faces."""
 
 import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.special import roots_jacobi
 
 DEGREE = 4  # points along each direction: exact up to polynomials of degree 7
-EDGES = ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))  # of the mid-side nodes, in VTK's order
+EDGES = ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))  # edges of the mid-side nodes, in VTK's order
 SIDES = ((0, 1), (1, 2), (2, 0))
 
 
@@ -24,7 +24,7 @@ def simplex_points(dimension):
 
 
 def shapes(barycentric, pairs, quadratic):
-    """N (nodes) and its derivatives by the barycentric coordinates (nodes, corners) at one point."""
+    """N (nodes) and its derivatives with respect to the barycentric coordinates (nodes, corners) at one point."""
     L = barycentric
     corners = len(L)
     if not quadratic:

@@ -1,10 +1,11 @@
-"""Lines of text files of other programs."""
+"""Lines of text files from other programs."""
 
 from .messages import InputError
 
 
 def lines_of(path, told=""):
-    """@param told: what goes before the sentence, a place in another file. @raises InputError where it cannot be read"""
+    """@param told: text before the sentence, such as a place in another file. @raises InputError if it cannot be
+    read"""
     try:
         with open(path, encoding="utf-8", errors="replace") as file:
             return file.read().splitlines()

@@ -14,14 +14,15 @@ from .messages import InputError, did_you_mean
 class TiedSurface:
     name: str
     rigid: bool
-    position: np.ndarray  # of the interface, body axes [m]
-    nodes: np.ndarray     # of the mesh, from 0
+    position: np.ndarray  # position of the interface, body axes [m]
+    nodes: np.ndarray     # mesh nodes, from 0
     spread: np.ndarray    # (nodes,3,6) forces on the nodes per unit force and moment on the interface; of rigid ones None
 
 
 def tied_surfaces(path, group, body, interfaces, positions, given):
-    """One for each interface. A rigid tie shows in the displacements: its nodes move with the interface alone. Of an average one the
-    surface is the group that the body file names, or `given` {interface: group}."""
+    """Returns one surface for each interface. A rigid tie is recognised in the displacements: its nodes move with the
+    interface alone. For an average tie the surface is the group that the body file names, or `given` {interface:
+    group}."""
     with h5py.File(path) as file:
         opened = file[group] if group else file
         text = (opened["input"] if "input" in opened else file["input"])[()]
@@ -76,7 +77,8 @@ def _group_nodes(name, path, surface, groups):
 
 
 def _spread(name, path, points, faces, nodes, position):
-    """By the surface's mean motion: force F and moment M about the centroid are the traction F/A + (J^-1 M) x r."""
+    """Forces for the surface's mean motion: force F and moment M about the centroid are the traction F/A + (J^-1 M) x
+    r."""
     on = np.zeros(len(points), bool)
     on[nodes] = True
     chosen = {kind: block[on[block].all(axis=1)] for kind, block in faces.items()}

@@ -1,7 +1,8 @@
-# Install: programs, tools, libraries with their headers, and the CMake package that lets others link them:
+# Installs programs, tools, libraries with their headers, and the CMake package by which others link them:
 #     find_package(Bielle 0.1)
 #     target_link_libraries(mine PRIVATE Bielle::superelement)
-# Headers keep the folders of the sources below include/bielle, so that `#include "reduce/common/error.hpp"` holds anywhere.
+# Headers keep the folders of the sources below include/bielle, so that `#include "reduce/common/error.hpp"` works
+# anywhere.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(BIELLE_INSTALL_CMAKE ${CMAKE_INSTALL_LIBDIR}/cmake/Bielle)
@@ -13,7 +14,7 @@ foreach(program bielle-reduce bielle-reduce-mpi bielle-mechanism)
   endif()
 endforeach()
 
-# The tools stand together beside their Python package; the programs for users are linked from where programs are.
+# The tools are installed beside their Python package; those for users are linked from the folder of programs.
 install(PROGRAMS ${PROJECT_SOURCE_DIR}/tools/convert_mesh.py DESTINATION ${BIELLE_INSTALL_TOOLS})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/bielle_tools DESTINATION ${BIELLE_INSTALL_TOOLS} FILES_MATCHING PATTERN "*.py"
         PATTERN __pycache__ EXCLUDE)

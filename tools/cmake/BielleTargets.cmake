@@ -1,19 +1,20 @@
 # Warnings, one library per folder, one test program per folder of tests.
 
-# Templates compiled into our programs must not take the place of the same templates inside shared libraries: gmsh carries
-# an Eigen of its own, compiled with other alignment, and memory of one freed by the other is undefined behaviour.
+# Templates compiled into Bielle's programs must not replace the same templates inside shared libraries: gmsh contains
+# an Eigen compiled with another alignment, and freeing memory of one by the other is undefined behaviour.
 set(CMAKE_CXX_VISIBILITY_PRESET hidden)
 set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
 
 add_library(bielle_warnings INTERFACE)
 target_compile_options(bielle_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow)
 if(BIELLE_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
-  # A class of a source may have members of types that are the source's own; in a batch GCC takes sources for headers.
+  # A class of a source may have members of types that are local to the source; in a batch GCC takes sources for
+  # headers.
   target_compile_options(bielle_warnings INTERFACE -Wno-subobject-linkage)
 endif()
 
-# Linked after bielle_warnings: in a batch of tests a local variable may be called as a constant of another source. Builds
-# without batches warn of one in the same source.
+# Linked after bielle_warnings: in a batch of tests a local variable may have the name of a constant of another source.
+# Builds without batches warn about one in the same source.
 add_library(bielle_batched_tests INTERFACE)
 if(BIELLE_UNITY)
   target_compile_options(bielle_batched_tests INTERFACE -Wno-shadow)
@@ -23,9 +24,10 @@ add_library(bielle_options INTERFACE)
 target_include_directories(bielle_options INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
                                                     $<INSTALL_INTERFACE:include/bielle>)
 target_compile_features(bielle_options INTERFACE cxx_std_20)
-# Eigen must not start threads of its own inside ours.
+# Eigen must not start threads of its own inside Bielle's threads.
 target_compile_definitions(bielle_options INTERFACE EIGEN_DONT_PARALLELIZE BIELLE_VERSION="${PROJECT_VERSION}")
-# In every library and test: sources share a precompiled header, and flags that define macros have to agree with it.
+# The option applies to every library and test: sources share a precompiled header, and flags that define macros must
+# agree with it.
 target_compile_options(bielle_options INTERFACE $<BUILD_INTERFACE:${OpenMP_CXX_FLAGS}>)
 if(BIELLE_NATIVE)
   target_compile_options(bielle_options INTERFACE -march=native)
@@ -35,8 +37,8 @@ if(BIELLE_SANITIZE)
   target_link_options(bielle_options INTERFACE -fsanitize=address,undefined)
 endif()
 
-# A precompiled header, or Eigen alone, is larger than the memory [kB] from which on GCC collects garbage: it would then do so
-# all the time, which is a fifth of the whole.
+# A precompiled header, or Eigen alone, exceeds the memory [kB] from which on GCC collects garbage: it would then do so
+# continually, which takes a fifth of the time.
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   add_compile_options($<$<COMPILE_LANGUAGE:CXX>:--param=ggc-min-heapsize=600000> $<$<COMPILE_LANGUAGE:CXX>:--param=ggc-min-expand=100>)
 endif()
@@ -54,8 +56,8 @@ function(bielle_library name)
   set_property(GLOBAL APPEND PROPERTY BIELLE_LIBRARIES bielle_${name})
 endfunction()
 
-# bielle_tests(NAME SOURCES a.cpp ... DEPENDS Bielle::x ... [LABELS long] [SERIAL]): one Catch2 program; each test case is a
-# ctest. SERIAL ones compare times: no other test runs meanwhile.
+# bielle_tests(NAME SOURCES a.cpp ... DEPENDS Bielle::x ... [LABELS long] [SERIAL]): one Catch2 program; each test case
+# is a ctest. Tests with SERIAL compare times: no other test runs at the same time.
 function(bielle_tests name)
   cmake_parse_arguments(ARG "SERIAL" "" "SOURCES;DEPENDS;LABELS" ${ARGN})
   add_executable(test_${name} ${ARG_SOURCES})
@@ -74,14 +76,14 @@ function(bielle_tests name)
   catch_discover_tests(test_${name} TEST_PREFIX "${name}: " ${properties})
 endfunction()
 
-# bielle_fast_to_compile(SOURCE ...): sources of the current folder that are full of somebody's headers and never wait for the
-# processor (CLI11, Catch2's main): to optimise them takes the compiler seconds and saves the program nothing.
+# bielle_fast_to_compile(SOURCE ...): sources of the current folder that consist of headers of others and are not
+# critical for speed (CLI11, Catch2's main): optimising them takes the compiler seconds and has no benefit.
 function(bielle_fast_to_compile)
   set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:-O1>" SKIP_PRECOMPILE_HEADERS ON)
 endfunction()
 
-# bielle_library_headers(NAME header ...): a precompiled header for all libraries that follow, besides the heavy headers.
-# Libraries are position-independent code, and their precompiled header has to be.
+# bielle_library_headers(NAME header ...): a precompiled header for all libraries that follow, besides the heavy
+# headers. Libraries are position-independent code, and so must be their precompiled header.
 function(bielle_library_headers name)
   bielle_precompiled_header(${name} ${BIELLE_HEAVY_HEADERS} ${ARGN})
   if(TARGET ${name})

@@ -1,7 +1,8 @@
-# ccache, where there is one.
+# Uses ccache if it is installed.
 #
-# GCC's precompiled headers are cached when ccache may overlook that macros (and __TIME__) of a precompiled header are not
-# seen in the preprocessed source; the header itself is compared by its content. What the user lets it overlook stays.
+# GCC's precompiled headers can be cached if ccache may ignore that macros (and __TIME__) of a precompiled header are
+# not visible in the preprocessed source; the header itself is compared by its content. The user's settings of ccache
+# are kept.
 find_program(CCACHE ccache)
 if(CCACHE)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})

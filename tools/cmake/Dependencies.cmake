@@ -1,5 +1,5 @@
-# Finds every library that Bielle links. What is missing is collected and reported at once, with the Debian package that
-# brings it, so that one reading and one apt-get are enough.
+# Finds every library that Bielle links. Missing libraries are collected and reported at once, with their Debian
+# packages, so that one apt-get is sufficient.
 find_package(PkgConfig)
 set(BIELLE_MISSING "")
 
@@ -50,7 +50,7 @@ bielle_find_package(fmt "{fmt}" libfmt-dev)
 bielle_find_package(yaml-cpp "yaml-cpp" libyaml-cpp-dev)
 bielle_find_package(CLI11 "CLI11" libcli11-dev)
 bielle_find_package(muparser "muParser" libmuparser-dev)
-# With an MPI HDF5 installed beside it, plain `hdf5` may be the parallel build: name the serial one.
+# If an MPI build of HDF5 is installed as well, plain `hdf5` may be the parallel one: name the serial one.
 bielle_find_pkgconfig(hdf5 hdf5-serial "HDF5, serial" libhdf5-dev)
 bielle_find_pkgconfig(arpack arpack "ARPACK-NG" libarpack2-dev)
 bielle_find_pkgconfig(openblas openblas "OpenBLAS" libopenblas-dev)
@@ -66,7 +66,7 @@ if(BIELLE_PERFORMANCE)
   bielle_find_package(benchmark "Google Benchmark" libbenchmark-dev)
 endif()
 
-# What bielle-reduce-mpi alone links; libraries that others link know nothing of it.
+# Libraries that only bielle-reduce-mpi links; no other library depends on them.
 set(BIELLE_MPI_FOUND FALSE)
 if(BIELLE_MPI AND NOT CMAKE_FIND_PACKAGE_NAME)
   set(needed "${BIELLE_MISSING}")
@@ -75,7 +75,8 @@ if(BIELLE_MPI AND NOT CMAKE_FIND_PACKAGE_NAME)
   bielle_find_plain(mumps dmumps_c.h "" dmumps "MUMPS" libmumps-dev)
   if("${needed}" STREQUAL "${BIELLE_MISSING}")
     set(BIELLE_MPI_FOUND TRUE)
-    # Where headers are is enough: flags of those who packed PETSc would not fit our precompiled headers.
+    # Only the include folders are used: the compiler flags of PETSc's package would not match Bielle's precompiled
+    # headers.
     set_target_properties(PkgConfig::slepc PkgConfig::mpi PROPERTIES INTERFACE_COMPILE_OPTIONS "")
   elseif(NOT BIELLE_MPI STREQUAL AUTO)
     set(BIELLE_INSTALL_OPTION " --with-mpi")

@@ -1,15 +1,15 @@
-# Precompiled headers: what takes most of the time that compilers spend on reading, and is not ours.
+# Precompiled headers: the headers of other projects that take most of the compilers' reading time.
 #
-# They save time and nothing else: every source and header includes what it uses, and compiles with BIELLE_PRECOMPILE=OFF,
-# as the preset `sanitize` does. A header of ours belongs here only where almost every source reads it anyway: a change of it
-# compiles everything anew.
+# They only save time: every source and header includes what it uses, and compiles with BIELLE_PRECOMPILE=OFF, as the
+# preset `sanitize` does. A header of Bielle belongs here only if almost every source includes it: a change of it
+# recompiles everything.
 set(BIELLE_HEAVY_HEADERS
     <Eigen/Dense> <Eigen/SparseCore>
     <fmt/format.h> <fmt/ranges.h>
     <algorithm> <array> <cmath> <cstdint> <filesystem> <fstream> <functional> <limits> <map> <memory> <numbers> <numeric>
     <optional> <set> <span> <sstream> <stdexcept> <string> <utility> <variant> <vector>)
 
-# bielle_precompiled_header(NAME header ...): headers that are compiled once, with the flags of our targets.
+# bielle_precompiled_header(NAME header ...): headers that are compiled once, with the flags of Bielle's targets.
 function(bielle_precompiled_header name)
   if(NOT BIELLE_PRECOMPILE)
     return()
@@ -30,7 +30,7 @@ function(bielle_precompile target name)
   endif()
 endfunction()
 
-# ccache needs to see in GCC's preprocessed source that a precompiled header was read.
+# ccache must see in GCC's preprocessed source that a precompiled header was read.
 function(bielle_cache_precompiled target)
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
     target_compile_options(${target} PRIVATE -fpch-preprocess)

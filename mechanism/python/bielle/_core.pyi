@@ -1,4 +1,4 @@
-"""The compiled part of the package. Users meet State and Node, and the exceptions; the rest has its form in the package."""
+"""The compiled part of the package. State, Node and the exceptions are public; the package wraps the rest."""
 
 from typing import Any
 

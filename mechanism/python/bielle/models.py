@@ -1,4 +1,4 @@
-"""Models: read from a file, a text or a dictionary."""
+"""Models, read from a file, a text or a dictionary."""
 
 from __future__ import annotations
 
@@ -29,11 +29,12 @@ def read(model: str | Mapping[str, Any], parameters: Parameters | None = None, *
          folder: str | os.PathLike | None = None) -> Model:
     """Reads a model from a YAML text or from a dictionary with the same names and keys as a file.
 
-    In a dictionary numbers may be those of NumPy, lists tuples and arrays; formulas are texts. Numbers arrive to the last bit.
-    parameters: as of `load`.
+    In a dictionary numbers may be those of NumPy, lists tuples and arrays; formulas are texts. Numbers are passed to
+    the last bit.
+    parameters: as for `load`.
     name: stands for the file in messages.
-    folder: that names of files in the model are relative to; the working folder, unless given.
-    Raises InputError; of a dictionary with the path of the key, of a text with its line as well.
+    folder: the folder of relative file names in the model; the working folder, unless given.
+    Raises InputError; for a dictionary with the path of the key, for a text with its line as well.
     """
     place = os.path.join(os.fspath(folder), name) if folder is not None else name
     if isinstance(model, os.PathLike) or isinstance(model, str) and model.endswith((".yaml", ".yml")):
@@ -52,7 +53,8 @@ def _overrides(parameters: Parameters | None) -> dict[str, str]:
 
 
 class Model:
-    """A mechanism as described: made by `load` or `read`, never changed. Any number of sessions may share it."""
+    """The description of a mechanism, made by `load` or `read` and never changed. Any number of sessions may share
+    it."""
 
     def __init__(self, core: _core.Model):
         if not isinstance(core, _core.Model):
@@ -60,9 +62,9 @@ class Model:
         self._core = core
 
     def session(self, threads: int = 1) -> Session:
-        """A session: the model at work.
+        """Makes a session of the model.
 
-        threads: that evaluate costly components at the same time; results do not depend on them.
+        threads: number of threads for costly components; results do not depend on it.
         """
         from .sessions import Session
         return Session(self, threads)
@@ -73,7 +75,7 @@ class Model:
         return run(self, output, **options)
 
     def describe(self) -> str:
-        """What `bielle-mechanism --check` prints: counts, degrees of freedom, every entry and what became of it."""
+        """The output of `bielle-mechanism --check`: counts, degrees of freedom, and the values of every entry."""
         return self._core.describe()
 
     @property
@@ -83,22 +85,22 @@ class Model:
 
     @property
     def text(self) -> str:
-        """The YAML text; of a dictionary the one that was made of it."""
+        """The YAML text; for a dictionary the text that was made of it."""
         return self._core.text
 
     @property
     def path(self) -> str:
-        """Of the file; empty where there is none."""
+        """Path of the file; empty if there is none."""
         return self._core.path
 
     @property
     def parameters(self) -> dict[str, float]:
-        """Values of the parameters, those that were given included."""
+        """Values of the parameters, including the given ones."""
         return self._core.parameters
 
     @property
     def doubts(self) -> list[str]:
-        """Sentences on values that are possible and probably not meant."""
+        """Messages about values that are possible but probably unintended."""
         return self._core.doubts
 
     @property

@@ -1,4 +1,4 @@
-"""Motions under way."""
+"""Motions in progress."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ class Motion:
             ...                                             # after each step
         motion.advance_to(0.5); motion.finish()
 
-    Its session shows its state: session["joints/main/coordinate"]. It ends when the session starts something else: it can
-    still be read then, but moves no further (Error). Ctrl-C is heard after the step under way; the motion stands there,
-    and may go on.
+    Its session shows its state: session["joints/main/coordinate"]. It ends when the session starts something else: it
+    can still be read then, but not continued (Error). Ctrl-C takes effect after the current step; the motion stays
+    there and may be continued.
     """
 
     def __init__(self, session: Session, core: _core.Motion):
@@ -30,23 +30,24 @@ class Motion:
         self._session = session
 
     def step(self) -> bool:
-        """Takes a step. With fixed steps, smaller ones may lie between two times of the grid. False: none is left.
+        """Takes a step. With fixed steps, there may be smaller ones between two times of the grid. Returns False if no
+        step is left.
 
-        Raises ComputationError when it fails; the motion then stands where it was before.
+        Raises ComputationError if it fails; the motion then stays in the state before the step.
         """
         return self._core.step(self._session._callbacks)
 
     def advance_to(self, time: float) -> bool:
-        """Steps until the time [s] is reached: exactly where it is on the grid of steps, otherwise beyond it by less than
-        a step. False when a callback stopped it, or the end came first."""
+        """Steps until the time [s] is reached: exactly if it is on the grid of steps, otherwise beyond it by less than
+        a step. Returns False if a callback stopped it, or the motion ended before."""
         return self._core.advance_to(time, self._session._callbacks)
 
     def finish(self) -> bool:
-        """Steps to the end. False when a callback stopped it."""
+        """Steps to the end. Returns False if a callback stopped it."""
         return self._core.finish(self._session._callbacks)
 
     def __iter__(self) -> Iterator[Motion]:
-        """The motion after each of the steps that are left."""
+        """Yields the motion after each of the remaining steps."""
         step, callbacks = self._core.step, self._session._callbacks
         while step(callbacks):
             yield self
@@ -54,22 +55,22 @@ class Motion:
 
     @property
     def session(self) -> Session:
-        """That it belongs to."""
+        """The session to which it belongs."""
         return self._session
 
     @property
     def time(self) -> float:
-        """[s]"""
+        """Time [s]."""
         return self._core.time()
 
     @property
     def begin(self) -> float:
-        """[s]"""
+        """Start time [s]."""
         return self._core.begin()
 
     @property
     def end(self) -> float:
-        """[s]"""
+        """End time [s]."""
         return self._core.end()
 
     @property
@@ -84,22 +85,22 @@ class Motion:
 
     @property
     def last_event(self) -> str:
-        """Name of the last crossing that was met; empty: there was none."""
+        """Name of the last crossing; empty if there was none."""
         return self._core.last_event()
 
     @property
     def balance(self) -> float:
-        """What is missing in the balance of energy [J]."""
+        """Error of the energy balance [J]."""
         return self._core.balance()
 
     @property
     def log(self) -> dict[str, int | float | str]:
-        """What the steps have cost: "steps", "iterations", "factorisations", refused steps and why."""
+        """Cost of the steps: "steps", "iterations", "factorisations", refused steps with the reasons."""
         return self._core.log()
 
     @property
     def start(self) -> str:
-        """What the consistent start has changed, in lines; empty where that is nothing."""
+        """Changes made by the consistent start, as lines; empty if there are none."""
         return self._core.start()
 
     @property

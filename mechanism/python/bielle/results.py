@@ -13,16 +13,16 @@ ROTATION_QUANTITIES = ("rotation_vector", "bryant", "euler")
 
 
 class Dataset(NamedTuple):
-    """What a dataset holds."""
+    """Shape and units of a dataset."""
 
-    shape: tuple[int, ...]  # of one row, or of the whole where it has none
+    shape: tuple[int, ...]  # shape of one row, or of the whole dataset if it has no rows
     units: str
     description: str
     rows: bool  # whether it has one entry per row
 
 
 class Event(NamedTuple):
-    """A crossing that a motion has met: the end of a contact, an event of the model."""
+    """A crossing that a motion has passed: the end of a contact, an event of the model."""
 
     time: float  # [s]
     name: str
@@ -37,7 +37,7 @@ def made_of(name: str) -> tuple[str, str]:
 
 
 class NothingKept:
-    """In place of what was recorded: an analysis whose rows are not in memory."""
+    """Stands in place of the results of an analysis whose rows are not in memory."""
 
     def __init__(self, type_: str):
         self._type = type_
@@ -59,7 +59,7 @@ class NothingKept:
 
 
 class Results(Mapping):
-    """What one analysis recorded, by the names of a results file: results["joints/main/coordinate"].
+    """The records of one analysis, by the names of a results file: results["joints/main/coordinate"].
 
     Datasets over time have one row per recorded instant: "time" (rows), "nodes/pin/position" (rows, 3). They are arrays of
     NumPy that are not to be written: views of the recorded numbers, without a copy. (While the analysis is still under way,
@@ -78,32 +78,33 @@ class Results(Mapping):
 
     @property
     def type(self) -> str:
-        """As in a model: "dynamic"."""
+        """The type as in a model: "dynamic"."""
         return self._recorder.type(self._number)
 
     @property
     def time(self) -> np.ndarray:
-        """(rows) [s]; of a static analysis the load factors."""
+        """(rows) [s]; for a static analysis the load factors."""
         return self["time"]
 
     @property
     def summary(self) -> str:
-        """What the program prints of the analysis. Empty for motions that were stepped by hand."""
+        """The text that the program prints for the analysis. It is empty for motions that were stepped by the
+        caller."""
         return self._summary
 
     @property
     def numbers(self) -> dict[str, list[float]]:
-        """What the summary says in numbers: "steps", "load_factor", "limit_points"."""
+        """The numbers of the summary: "steps", "load_factor", "limit_points"."""
         return self._numbers
 
     @property
     def events(self) -> list[Event]:
-        """Crossings, in the order of time."""
+        """The crossings in the order of time."""
         return [Event(*event) for event in self._recorder.events(self._number)]
 
     @property
     def datasets(self) -> dict[str, Dataset]:
-        """What there is, besides "time": shapes and units by name."""
+        """The datasets besides "time": shapes and units by name."""
         return {name: Dataset(*about) for name, about in self._recorder.datasets(self._number).items()}
 
     def __getitem__(self, name: str) -> np.ndarray | float | list[str]:

@@ -20,13 +20,14 @@ def run(model: Model | str | os.PathLike | Mapping[str, Any], output: str | os.P
 
     model: a Model, the path of a model file, or a dictionary (see `read`).
     output: a results file to write as well; without it no file is written.
-    parameters: as of `load`; not for a Model, which has been read with its own.
-    restart: a results file to go on from; with `output` only. Rows from before are in the file alone.
-    threads: that evaluate costly components; results do not depend on them.
+    parameters: as for `load`; not for a Model, which was read with its own.
+    restart: a results file to continue; with `output` only. Earlier rows are in the file alone.
+    threads: number of threads for costly components; results do not depend on it.
     progress: shows a bar on standard error.
-    memory: rows are kept there, not only written to `output`: for runs whose results are larger than it.
-    Raises InputError, ComputationError; the file then holds every row so far, memory none (a session that records keeps
-    them: Session.record). Ctrl-C ends the run after the step under way.
+    memory: rows are kept in memory, not only written to `output`; set it to False for results that are larger than the
+    memory.
+    Raises InputError, ComputationError; the file then contains all rows so far, but none are in memory (a session that
+    records keeps them: Session.record). Ctrl-C ends the run after the current step.
     """
     if isinstance(model, Model):
         if parameters:
@@ -43,7 +44,7 @@ def run(model: Model | str | os.PathLike | Mapping[str, Any], output: str | os.P
 
 
 class Run(Sequence):
-    """What the analyses of a run recorded: `run[0]` is the first, `run.analyses` are all.
+    """The records of the analyses of a run: `run[0]` is the first, `run.analyses` are all.
 
     `run["nodes/pin/position"]`, `run.time` and `run.events` are those of the last analysis.
     """
@@ -70,17 +71,17 @@ class Run(Sequence):
 
     @property
     def time(self) -> np.ndarray:
-        """Of the last analysis [s]; of a static one the load factors."""
+        """Times of the last analysis [s]; for a static one the load factors."""
         return self.analyses[-1].time
 
     @property
     def events(self) -> list[Event]:
-        """Of the last analysis."""
+        """Events of the last analysis."""
         return self.analyses[-1].events
 
     @property
     def summary(self) -> str:
-        """What the program prints of all analyses."""
+        """The text that the program prints for all analyses."""
         return "".join(each.summary for each in self.analyses)
 
     def __repr__(self) -> str:

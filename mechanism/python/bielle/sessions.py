@@ -1,4 +1,4 @@
-"""Sessions: a model at work."""
+"""Sessions of a model."""
 
 from __future__ import annotations
 
@@ -20,17 +20,17 @@ _SILENT = _core.Callbacks(None, None)
 
 
 class Session:
-    """A model at work: assemble it, bring it into equilibrium, move it, read it, save it. Made by `Model.session`.
+    """A session of a model: assemble it, bring it into equilibrium, move it, read it, save it. Made by `Model.session`.
 
-    What is asked for one after the other starts where the last thing ended. Nothing is printed and no file written.
+    Each computation starts from the state in which the previous one ended. Nothing is printed and no file written.
 
         session.statics(steps=5)
         motion = session.dynamics(duration=2, step=1e-3)
         motion.advance_to(0.5)
         session["nodes/pin/position"], session.measure("main.angle"), session.energy["kinetic"]
 
-    While it computes, other threads of Python run; they may compute with other sessions, of the same model as well. A
-    session itself works for one thread at a time and refuses others with an Error.
+    While it computes, other Python threads run; they may compute with other sessions, also of the same model. A session
+    serves one thread at a time and raises an Error in others.
     """
 
     def __init__(self, model: Model, threads: int = 1):
@@ -44,7 +44,7 @@ class Session:
 
     @property
     def model(self) -> Model:
-        """That is at work."""
+        """The model of the session."""
         return self._model
 
     # -- computing
@@ -60,7 +60,7 @@ class Session:
         steps: equal increments of the load, or "auto". branch: leaves an equilibrium that becomes unstable.
         arc_length: {"until": {...}, "points": n}, past limit points.
         newton: {"tolerance": ..., "iterations": ..., "line_search": ...}.
-        Raises ComputationError where there is none near; the session then stands in the last equilibrium.
+        Raises ComputationError if there is none nearby; the session then stays in the last equilibrium.
         """
         return self.run(_given(type="static", steps=steps, branch=branch, arc_length=arc_length, newton=newton), record=record)
 
@@ -69,13 +69,14 @@ class Session:
         return self.run({"type": "kinematic", "duration": duration, "step": step}, record=record)
 
     def inverse_dynamics(self, duration: float | str, step: float | str, *, record: bool = True) -> Results:
-        """The same with the forces of drives and joints that bring the motion about: the analysis `inverse_dynamics`."""
+        """Does the same and computes the forces of drives and joints that cause the motion: the analysis
+        `inverse_dynamics`."""
         return self.run({"type": "inverse_dynamics", "duration": duration, "step": step}, record=record)
 
     def modes(self, *, count: int | None = None, near: float | None = None, below: float | None = None,
               rotation: Any = None, shapes: bool | None = None, record: bool = True) -> Results:
-        """Frequencies, damping and complex shapes of small motions about where the session stands, which stays: the analysis
-        `eigen`, with its keys.
+        """Frequencies, damping and complex shapes of small motions about the state of the session, which does not
+        change: the analysis `eigen`, with its keys.
 
             modes = session.modes(count=6)
             modes["eigen/frequency"], modes["eigen/kind"]
@@ -86,8 +87,8 @@ class Session:
 
     def campbell(self, speeds: Any, *, parameter: str | None = None, rotation: Any = None, modes: int | None = None,
                  orders: Sequence[float] | None = None, node: str | None = None, record: bool = True) -> Results:
-        """Modes over the speed of a rotor, each followed by its shape, with critical speeds: the analysis `campbell`, with its
-        keys. The session stays where it stands.
+        """Modes over the speed of a rotor, each followed by its shape, with critical speeds: the analysis `campbell`,
+        with its keys. The state of the session does not change.
 
             found = session.campbell({"from": 0, "to": 300}, parameter="speed")
             found["campbell/speed"], found["campbell/damped_frequency"]       # (speeds), (speeds, modes)
@@ -102,24 +103,26 @@ class Session:
                  largest_step: float | None = None, scheme: str | None = None, rho: float | None = None,
                  alpha: float | None = None, constraints: str | None = None, start: str | dict | None = None,
                  newton: dict | None = None, saved: np.ndarray | None = None) -> Motion:
-        """A motion from where the session stands: the analysis `dynamic`, with its keys and defaults, not yet moved.
+        """A motion from the state of the session, which does not move yet: the analysis `dynamic`, with its keys and
+        defaults.
 
         duration, step: [s]; with a tolerance steps are adaptive and `step` is the first.
-        scheme: "generalized_alpha" (rho), "hht" (alpha) or "newmark". constraints: "corrected", "position", "stabilized".
-        start: "as_given", "equilibrium", or {"equilibrium": True, "hold": ["shaft"]}, which keeps coordinates of joints where
-        they are while the rest settles. newton: {"tolerance": ..., "tangent": "reused" or "renewed", ...}.
-        saved: what `save` gave in a motion of this model: the motion goes on from there, to the last bit.
+        scheme: "generalized_alpha" (rho), "hht" (alpha) or "newmark". constraints: "corrected", "position",
+        "stabilized".
+        start: "as_given", "equilibrium", or {"equilibrium": True, "hold": ["shaft"]}, which holds coordinates of joints
+        while the rest moves to equilibrium. newton: {"tolerance": ..., "tangent": "reused" or "renewed", ...}.
+        saved: a result of `save` in a motion of this model, which the motion continues to the last bit.
         """
         keys = _given(type="dynamic", duration=duration, step=step, tolerance=tolerance, largest_step=largest_step,
                       scheme=scheme, rho=rho, alpha=alpha, constraints=constraints, start=start, newton=newton)
         return Motion(self, self._core.dynamics(yaml_text(keys, "Session.dynamics"), saved, self._callbacks))
 
     def run(self, analysis: dict | int, *, record: bool = True) -> Results:
-        """Does one analysis, from where the session stands.
+        """Runs one analysis from the state of the session.
 
-        analysis: its keys as in a model file, {"type": "static", "steps": 5}, of any type; or the number of one that the
-        model lists, from 0.
-        record: rows in memory (Results); otherwise there are the summary and its numbers alone.
+        analysis: its keys as in a model file, {"type": "static", "steps": 5}, of any type; or the number of one that
+        the model lists, from 0.
+        record: keeps rows in memory (Results); otherwise only the summary and its numbers.
         """
         if isinstance(analysis, int):
             if not -len(self._model.analyses) <= analysis < len(self._model.analyses):
@@ -154,23 +157,23 @@ class Session:
         return rotations.convert(value, "quaternion", quantity) if quantity else value
 
     def measure(self, name: str) -> float:
-        """What formulas call by this name: "arm.angle", "arm.angle.rate", "arm.reaction.x", "pin.position.x", or a measure,
-        an input or a state of the model. Raises InputError with the nearest name."""
+        """The value of a name in formulas: "arm.angle", "arm.angle.rate", "arm.reaction.x", "pin.position.x", or a
+        measure, an input or a state of the model. Raises InputError with the nearest name."""
         return self._core.measure(name)
 
     @property
     def datasets(self) -> dict[str, Dataset]:
-        """What can be read, besides "time": shapes and units by name."""
+        """The readable datasets besides "time": shapes and units by name."""
         return {name: Dataset(*about) for name, about in self._core.datasets().items()}
 
     @property
     def time(self) -> float:
-        """[s]"""
+        """Time [s]."""
         return self._core.time()
 
     @property
     def moving(self) -> bool:
-        """Whether a motion is under way."""
+        """Tells whether a motion is in progress."""
         return self._core.moving()
 
     def node(self, name: str) -> _core.Node:
@@ -179,7 +182,7 @@ class Session:
 
     @property
     def state(self) -> _core.State:
-        """A copy of all numbers that move. To set one (session.state = changed) ends a motion."""
+        """A copy of all state variables. Setting it (session.state = changed) ends a motion."""
         return self._core.state()
 
     @state.setter
@@ -193,29 +196,30 @@ class Session:
 
     @property
     def balance(self) -> float:
-        """What is missing in the balance of energy [J]."""
+        """Error of the energy balance [J]."""
         return self._core.balance()
 
     @property
     def redundant(self) -> list[str]:
-        """Constraints that repeat others and were set aside, by joint."""
+        """Redundant constraints that were removed, by joint."""
         return self._core.redundant()
 
     @property
     def mobility(self) -> dict[str, Any]:
-        """Where the model starts: "degrees" of freedom, "independent" constraints, "nearly_redundant" ones by joint."""
+        """The mobility of the model at its start: "degrees" of freedom, "independent" constraints, "nearly_redundant"
+        ones by joint."""
         return self._core.mobility()
 
     @property
     def notes(self) -> list[str]:
-        """Sentences that the user should read, each once."""
+        """Messages for the user, each once."""
         return self._core.notes()
 
     def forget_notes(self) -> None:
-        """Begins a new list of them."""
+        """Clears the messages."""
         self._core.forget_notes()
 
-    # -- steering
+    # -- inputs and callbacks
 
     @property
     def inputs(self) -> Inputs:
@@ -223,20 +227,20 @@ class Session:
         return Inputs(self)
 
     def set_input(self, name: str, value: float, *, smooth: bool = False) -> None:
-        """Sets an input of the model, which holds from here on. Raises InputError with the nearest name.
+        """Sets an input of the model to a value that holds from now on. Raises InputError with the nearest name.
 
-        In a motion forces jump, and the motion is restarted with its next step. smooth: the value is one of a smooth
-        function of time that is seen once a step: nothing jumps, and the step costs no restart.
+        In a motion forces jump, and the motion is restarted with its next step. smooth: the values are samples of a
+        smooth function of time, one per step: nothing jumps, and the step needs no restart.
         """
         self._core.set_input(name, value, smooth)
 
     def stop(self) -> None:
-        """Ends what is computing (`finish`, `advance_to`, an analysis) after the current step: for callbacks."""
+        """Ends the current computation (`finish`, `advance_to`, an analysis) after the current step; for callbacks."""
         self._core.stop()
 
     def on_step(self, callback: Callable[[Session], Any]) -> Callable[[Session], Any]:
-        """Calls callback(session) after each step of a motion and each point of statics. It may read the session, set its
-        inputs and stop it; what it raises ends the computation. Can decorate a function."""
+        """Calls callback(session) after each step of a motion and each point of statics. It may read the session, set
+        its inputs and stop it; an exception that it raises ends the computation. It can be used as a decorator."""
         self._on_step.append(callback)
         return callback
 
@@ -246,7 +250,7 @@ class Session:
         return callback
 
     def remove_callback(self, callback: Callable) -> None:
-        """Calls it no more."""
+        """Removes a callback."""
         for callbacks in (self._on_step, self._on_event):
             while callback in callbacks:
                 callbacks.remove(callback)
@@ -268,13 +272,13 @@ class Session:
     # -- saving
 
     def save(self) -> np.ndarray:
-        """Everything that the session needs to continue, as numbers."""
+        """All numbers that the session needs to continue."""
         return self._core.save()
 
     def restore(self, saved: np.ndarray) -> None:
-        """Goes back to what was saved, by this session or another one of the same model, to the last bit.
+        """Restores a saved state, of this session or another one of the same model, to the last bit.
 
-        What was saved in motion needs a motion under way, or `dynamics(..., saved=saved)`.
+        A state that was saved in a motion needs a motion in progress, or `dynamics(..., saved=saved)`.
         """
         self._core.restore(saved)
 
@@ -282,14 +286,15 @@ class Session:
 
     def record(self, output: str | os.PathLike | None = None, *, every: int | None = None,
                times: Sequence[float] | None = None, memory: bool = True) -> Recording:
-        """Records what is computed in a `with` block: each analysis and motion by itself.
+        """Records the computations in a `with` block, each analysis and motion separately.
 
             with session.record() as recording:
                 session.dynamics(duration=2, step=1e-3).finish()
             recording[-1]["joints/main/coordinate"]
 
-        output: a results file to write as well, which is complete at the end of the block. every, times: which rows of
-        motions; as the model's `output` says, unless given. memory: rows are kept there, not only written to a file.
+        output: a results file to write as well, which is complete at the end of the block. every, times: recorded rows
+        of motions; as the model's `output` says, unless given. memory: rows are kept in memory, not only written to a
+        file.
         """
         return Recording(self, output, every, times, memory)
 
@@ -328,7 +333,7 @@ class Inputs(MutableMapping):
 
 
 class Recording(Sequence):
-    """What is recorded in a block of `Session.record`: Results of one analysis or motion after the other."""
+    """The records of a block of `Session.record`: Results of one analysis or motion after the other."""
 
     def __init__(self, session: Session, output: str | os.PathLike | None, every: int | None,
                  times: Sequence[float] | None, memory: bool):

@@ -1,4 +1,4 @@
-"""Dictionaries as the YAML text that the reader of model files reads."""
+"""Conversion of dictionaries to YAML text for the reader of model files."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _SPECIAL = {"null", "true", "false", "yes", "no", "on", "off", "y", "n"}
 def yaml_text(value: Any, name: str) -> str:
     """The text of a dictionary: maps in block style, lists in one line.
 
-    `name` stands for the whole in messages. What YAML has no form for raises an InputError with its path.
+    `name` stands for the dictionary in messages. A value without a YAML form raises an InputError with its path.
     """
     if not isinstance(value, dict):
         raise InputError(f"{name}: expected keys with values, found {_kind(value)}")
@@ -63,7 +63,7 @@ def _inline(value: Any, name: str, path: str) -> str:
 
 
 def _number(value: float) -> str:
-    """To the last bit."""
+    """The shortest text that gives the same number."""
     if math.isfinite(value):
         return repr(float(value))
     return ".nan" if math.isnan(value) else ".inf" if value > 0 else "-.inf"

@@ -19,7 +19,7 @@ ARM = {
 
 
 class Pid:
-    """kp e + ki z + kd e', within a limit; z stands still while the limit holds (anti-windup)."""
+    """kp e + ki z + kd e', within a limit; z is constant while the limit is reached (anti-windup)."""
 
     def __init__(self, kp, ki, kd, limit, period):
         self.kp, self.ki, self.kd, self.limit, self.period = kp, ki, kd, limit, period

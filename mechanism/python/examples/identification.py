@@ -22,7 +22,7 @@ TIMES = np.linspace(0, 2, 101)
 
 
 def measured(stiffness=37.0, damping=0.4, noise=1e-3):
-    """What a sensor has seen [rad]: the closed form of such a vibration, and noise."""
+    """The signal of a sensor [rad]: the closed form of such a vibration, and noise."""
     decay, omega = damping / (2 * INERTIA), np.sqrt(stiffness / INERTIA)
     damped = np.sqrt(omega**2 - decay**2)
     angle = START * np.exp(-decay * TIMES) * (np.cos(damped * TIMES) + decay / damped * np.sin(damped * TIMES))

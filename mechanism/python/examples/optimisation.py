@@ -3,8 +3,9 @@
 
     PYTHONPATH=build/release/python mechanism/python/examples/optimisation.py
 
-The crank turns once and its angle is given at each place (a synthesis with prescribed timing). Nothing has mass: the analysis
-is kinematic. The model is a dictionary, made anew for each set of lengths, since these say where the joints are.
+The crank turns once and its angle is given at each place (a synthesis with prescribed timing). Nothing has mass: the
+analysis is kinematic. The model is a dictionary, made anew for each set of lengths, since these determine the places of
+the joints.
 
                  coupler point
                  o
@@ -26,7 +27,7 @@ LIMITS = [0.1, 0.75, 0.75, 0.0, 0.0], [0.4, 1.5, 1.5, 1.5, 1.0]  # within them t
 
 
 def closing(B, D, coupler, rocker):
-    """C above the line BD, at these distances from its ends."""
+    """The point C above the line BD, at these distances from its ends."""
     span = np.linalg.norm(D - B)
     e = (D - B) / span
     x = (span**2 + coupler**2 - rocker**2) / (2 * span)
@@ -34,7 +35,7 @@ def closing(B, D, coupler, rocker):
 
 
 def coupler_path(crank, coupler, rocker, along, across, angles):
-    """The same in closed form, (n,2) [m]."""
+    """The path of the coupler point in closed form, (n,2) [m]."""
     places = []
     for angle in angles:
         B = crank * np.array([np.cos(angle), np.sin(angle)])
@@ -44,7 +45,7 @@ def coupler_path(crank, coupler, rocker, along, across, angles):
 
 
 def four_bar(crank, coupler, rocker, along, across):
-    """The model, drawn with the crank along x. Each link is a node; that of the coupler stands at the coupler point."""
+    """The model, drawn with the crank along x. Each link is a node; the node of the coupler is at the coupler point."""
     B, D = np.array([crank, 0.0]), np.array([1.0, 0.0])
     C = closing(B, D, coupler, rocker)
     e = (C - B) / coupler
@@ -69,7 +70,7 @@ def computed(lengths):
 
 
 def synthesise(wanted, start=START):
-    """Lengths whose path comes nearest to the places (PLACES,2) [m], and the largest distance that is left [m]."""
+    """Lengths whose path is nearest to the places (PLACES,2) [m], and the largest remaining distance [m]."""
     fit = least_squares(lambda lengths: (computed(lengths) - wanted).ravel(), start, bounds=LIMITS, x_scale=0.1, xtol=1e-12, ftol=1e-12,
                         gtol=1e-12)
     return fit.x, np.linalg.norm(fit.fun.reshape(-1, 2), axis=1).max()

@@ -3,7 +3,8 @@
 
     PYTHONPATH=build/release/python mechanism/python/examples/sweep.py [MODEL.yaml PARAMETER FROM TO COUNT]
 
-Sessions compute without Python's lock, so that threads use all cores; `tools/study` does the same with processes and files.
+Sessions compute without Python's global lock, so that threads use all cores; `tools/study` does the same with processes
+and files.
 """
 
 import os
@@ -18,7 +19,7 @@ SERVO = os.path.join(os.path.dirname(__file__), "..", "..", "examples", "servo.y
 
 
 def sweep(model, parameter, values, result, threads=None):
-    """result(run) for each value of the parameter; an Error in place of a run that failed."""
+    """Returns result(run) for each value of the parameter, and an Error in place of a run that failed."""
 
     def one(value):
         try:

@@ -17,7 +17,7 @@ namespace {
 constexpr int most_at_a_time = 100;
 
 /// Locks a file for as long as the descriptor is open; HDF5's own locks are of another kind.
-/// @returns false when another run has it; true where the file system knows no locks
+/// @returns false if another run holds the lock; true if the file system supports no locks
 bool lock(int file) {
   struct flock whole {};
   whole.l_type = F_WRLCK;
@@ -25,7 +25,7 @@ bool lock(int file) {
   return fcntl(file, F_OFD_SETLK, &whole) == 0 || (errno != EAGAIN && errno != EACCES);
 }
 
-/// Whether the name still belongs to the open file: another run may have renamed it in the meantime.
+/// Tells whether the name still belongs to the open file: another run may have renamed it in the meantime.
 bool has_name(int file, const std::string& path) {
   struct stat opened {
   }, named{};

@@ -5,10 +5,10 @@
 
 namespace bielle {
 
-/// A file that takes its name only when it is complete: written as `<path>.partial` in the same folder, renamed by
-/// `commit()`, removed when destroyed without it. An earlier file of that name is replaced by a complete one only.
-/// Where another run writes the same file at the same time, this one writes `<path>.2.partial`: both become whole, the
-/// later one stays.
+/// A file that is written as `<path>.partial` in the same folder, renamed by `commit()` when it is complete, and
+/// removed if it is destroyed before. An earlier file of that name is replaced only by a complete one. If another run
+/// writes the same file at the same time, this one writes `<path>.2.partial`: both files become complete, and the one
+/// that is committed last stays.
 class AtomicOutput {
  public:
   explicit AtomicOutput(std::string path);

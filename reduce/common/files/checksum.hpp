@@ -1,4 +1,4 @@
-// Whether numbers in a file are still those that were written.
+// A checksum that tells whether numbers in a file are still those that were written.
 #pragma once
 
 #include <bit>
@@ -8,7 +8,7 @@
 
 namespace bielle {
 
-/// A sum of 52 bits over numbers and texts in their order: against damage and edits, not against forgery.
+/// A sum of 52 bits over numbers and texts in their order. It detects damage and edits, but no deliberate forgery.
 class Checksum {
  public:
   void add(std::span<const double> values) {
@@ -26,7 +26,7 @@ class Checksum {
   std::int64_t value() const { return static_cast<std::int64_t>(sum_ >> 12); }
 
  private:
-  /// Fowler, Noll and Vo's prime, a word at a time; the shift lets high bits act on low ones.
+  /// Multiplies by the prime of Fowler, Noll and Vo, one word at a time; the shift lets high bits affect low ones.
   void add_word(std::uint64_t word) {
     sum_ = (sum_ ^ word) * 0x100000001b3u;
     sum_ ^= sum_ >> 29;

@@ -14,7 +14,7 @@ namespace bielle {
 
 namespace {
 
-/// Of a file name; what is added to it until the file is complete needs some as well.
+/// The longest file name, less room for the suffix that it has until the file is complete.
 constexpr std::size_t longest_name = 255 - 16;
 
 [[noreturn]] void fail(const std::string& path, const std::string& what) {

@@ -1,12 +1,12 @@
-// Whether a file can be read, or written, before the work begins.
+// Checks before the work begins that a file can be read or written.
 #pragma once
 
 #include <string>
 
 namespace bielle {
 
-/// @throws InputError when there is none, or it is a folder, a device or a named pipe. (The standard input and what a
-///         shell hands over under /dev may be pipes.)
+/// @throws InputError if there is no file of that name, or it is a folder, a device or a named pipe. (The standard
+///         input and what a shell hands over under /dev may be pipes.)
 void check_input_file(const std::string& path);
 
 /// @throws InputError when no file of that name can be written: no such folder, not permitted, a folder, a device or a

@@ -83,7 +83,7 @@ void Hdf5File::hold_back(bool held) {
   H5AC_cache_config_t cache;
   cache.version = H5AC__CURR_CACHE_CONFIG_VERSION;
   handle_->checked(H5Fget_mdc_config(handle_->file, &cache), "", "the cache cannot be set");
-  // HDF5 evicts nothing only where the size of the cache does not follow its use.
+  // HDF5 keeps all metadata in the cache only if the size of the cache does not adapt to its use.
   cache.evictions_enabled = !held;
   cache.incr_mode = held ? H5C_incr__off : H5C_incr__threshold;
   cache.flash_incr_mode = held ? H5C_flash_incr__off : H5C_flash_incr__add_space;
@@ -108,7 +108,7 @@ void Hdf5File::write_attribute(const std::string& object, const std::string& nam
 void Hdf5File::write_attribute(const std::string& object, const std::string& name, std::int64_t value) {
   const Hdf5Id opened = handle_->open_object(object);
   Hdf5Id attribute;
-  // Overwriting in place, so that a killed writer leaves the old value or the new one.
+  // The attribute is overwritten in place, so that a killed writer leaves the old value or the new one.
   if (H5Aexists(opened, name.c_str()) > 0) {
     attribute = Hdf5Id(H5Aopen(opened, name.c_str(), H5P_DEFAULT), H5Aclose);
   } else {
@@ -169,7 +169,7 @@ void Hdf5File::create_rows(const std::string& dataset, const Shape& row_shape, c
   const Hdf5Id space(H5Screate_simple(static_cast<int>(size.size()), size.data(), most.data()), H5Sclose);
   const Hdf5Id creation = dataset_properties(), access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
   H5Pset_chunk(creation, static_cast<int>(chunk.size()), chunk.data());
-  // Without a chunk cache rows go to the file as they are written: a flush has nothing but the index to write.
+  // Without a chunk cache rows are written to the file at once, and a flush only has to write the index.
   H5Pset_chunk_cache(access, 0, 0, 1);
   H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);
   handle_->make_groups_above(dataset);

@@ -49,8 +49,8 @@ Hdf5Id access_properties() {
 }
 
 void silence_hdf5() {
-  // HDF5 1.10 crashes at exit when a file could not be closed because the disk is full. Ours are closed by their
-  // owners.
+  // HDF5 1.10 crashes at exit if a file could not be closed because the disk is full. Bielle's files are closed by
+  // their owners.
   static const herr_t no_clearing_at_exit = H5dont_atexit();
   static_cast<void>(no_clearing_at_exit);
   thread_local const herr_t silenced = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
@@ -143,7 +143,7 @@ Shape Hdf5File::Handle::shape(hid_t dataset, const std::string& name) const {
 std::size_t Hdf5File::Handle::stored_count(hid_t dataset, const std::string& name) const {
   const std::size_t count = count_of(shape(dataset, name));
   const Hdf5Id type(H5Dget_type(dataset), H5Tclose);
-  // Deflate makes at most 1032 bytes of one; what was never written takes no space.
+  // Deflate compresses by a factor of at most 1032; parts that were never written take no space.
   constexpr double densest = 1100, never_written = 1 << 20;
   const double bytes = static_cast<double>(count) * static_cast<double>(H5Tget_size(type));
   if (bytes > densest * static_cast<double>(H5Dget_storage_size(dataset)) + never_written)

@@ -1,4 +1,5 @@
-// The inside of Hdf5File: identifiers that close themselves, and what its parts share. Not for others.
+// Implementation of Hdf5File: identifiers that close themselves, and functions that its source files share. Other files
+// do not include it.
 #pragma once
 
 #include <array>
@@ -41,19 +42,19 @@ class Hdf5Id {
 
 /// Text of variable length in UTF-8.
 Hdf5Id hdf5_text_type();
-/// A space of fixed size; a scalar for an empty shape.
+/// Makes a dataspace of fixed size; a scalar for an empty shape.
 Hdf5Id hdf5_space(const Shape& shape);
 std::size_t count_of(const Shape& shape);   ///< the largest number where there are more
 std::string to_string(const Shape& shape);  ///< "(2, 3)"
-/// Properties of a file or group that remembers the order in which its members are made.
+/// Makes properties of a file or group that keeps the order in which its members are created.
 /// @param kind  H5P_FILE_CREATE or H5P_GROUP_CREATE
 Hdf5Id ordered_group_properties(hid_t kind);
-/// Properties of a dataset. Like groups, datasets hold no dates: equal content makes equal files.
+/// Makes properties of a dataset. Like groups, datasets hold no dates: equal content makes equal files.
 Hdf5Id dataset_properties();
-/// Properties with which files are opened: of the format that every HDF5 since 1.0 reads, and that stays readable when
-/// its writer is killed after a flush.
+/// Makes the properties with which files are opened: their format can be read by every HDF5 since 1.0, and stays
+/// readable if the writer is killed after a flush.
 Hdf5Id access_properties();
-/// HDF5 prints its own errors on standard error unless told not to, by each thread.
+/// Stops HDF5 from printing its own errors on standard error. It is called in each thread.
 void silence_hdf5();
 
 /// A dataset to which rows are appended, kept open.
@@ -105,7 +106,7 @@ struct Hdf5File::Handle {
   Shape shape(hid_t dataset, const std::string& name) const;
   void check_class(hid_t dataset, const std::string& name, H5T_class_t expected) const;
   std::vector<std::string> read_strings(const std::string& dataset) const;
-  /// How many values a dataset holds. Fails when the file is far too small for them.
+  /// Returns the number of values in a dataset. Throws if the file is far too small for them.
   std::size_t stored_count(hid_t dataset, const std::string& name) const;
   GrowingDataset growing_from(Hdf5Id dataset, const std::string& name) const;
   GrowingDataset& growing_dataset(const std::string& dataset);  // opens it when it is not

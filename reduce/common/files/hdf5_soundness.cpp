@@ -19,13 +19,13 @@ namespace bielle {
 
 namespace {
 
-/// A walk reads what describes the numbers, a few kB per dataset: the largest files take a second or two. Texts come
-/// whole.
+/// The check reads metadata only, a few kB per dataset, in a second or two for the largest files. Texts are read
+/// completely.
 ChildLimits limits_of_a_walk(std::uint64_t size) {
   return {.seconds = 3 + static_cast<int>(size / 10'000'000), .memory = 3 * size + 200'000'000};
 }
 
-/// What a file is and when it was written last: device, inode, size, time.
+/// Identity of a file and of its last change: device, inode, size, time.
 using Identity = std::array<std::int64_t, 5>;
 
 Identity identity_of(const std::string& path) {
@@ -35,9 +35,9 @@ Identity identity_of(const std::string& path) {
           static_cast<std::int64_t>(found.st_size), found.st_mtim.tv_sec, found.st_mtim.tv_nsec};
 }
 
-/// What a walk has found: HDF5 calls back from C, through which nothing may be thrown.
+/// Findings of the check. HDF5 calls back from C, so that no exception may be thrown.
 struct Walk {
-  std::string damaged;  ///< what is wrong with an object
+  std::string damaged;  ///< fault of an object
 };
 
 std::string name_of(hid_t object) {
@@ -48,7 +48,7 @@ std::string name_of(hid_t object) {
 
 std::string unreadable_text(hid_t object) { return fmt::format("a text at {} cannot be read", name_of(object)); }
 
-/// Texts have lengths that stand elsewhere in the file. Where they are damaged, HDF5 clears gigabytes before it fails.
+/// The lengths of texts are stored elsewhere in the file. If they are damaged, HDF5 clears gigabytes before it fails.
 /// @returns whether they could be read
 bool read_texts(hid_t type, hid_t space, std::size_t count, const auto& read) {
   if (H5Tis_variable_str(type) <= 0) {
@@ -66,7 +66,7 @@ herr_t walk_attribute(hid_t object, const char* name, const H5A_info_t*, void* d
   if (!attribute.valid()) return 0;
   const Hdf5Id type(H5Aget_type(attribute), H5Tclose), space(H5Aget_space(attribute), H5Sclose);
   const hssize_t count = H5Sget_simple_extent_npoints(space);
-  if (count != 1) return 0;  // of other shapes none is read
+  if (count != 1) return 0;  // data of other shapes is not read
   const auto read = [&](hid_t memory, void* into) { return H5Aread(attribute, memory, into); };
   if (H5Tget_class(type) == H5T_STRING && !read_texts(type, space, 1, read)) {
     static_cast<Walk*>(data)->damaged = unreadable_text(object);
@@ -77,13 +77,13 @@ herr_t walk_attribute(hid_t object, const char* name, const H5A_info_t*, void* d
   return 0;
 }
 
-/// Pieces of a dataset are read as they are stored: from one that is shorter than it should be, HDF5 reads what stands
-/// behind it in memory. What is compressed may have any size.
+/// Chunks are read as they are stored: HDF5 reads beyond the end of a chunk that is too short. Compressed chunks may
+/// have any size.
 bool has_whole_chunks(hid_t dataset, hid_t type, hid_t space, hid_t creation) {
   if (H5Pget_layout(creation) != H5D_CHUNKED) return true;
   hsize_t chunks = 0;
-  // Of a dataset that was being made when the program was killed there may be no index yet; reading it fails as it
-  // should.
+  // A dataset that was being created when the program was killed may have no index yet; reading it fails in the
+  // ordinary way.
   if (H5Dget_num_chunks(dataset, space, &chunks) < 0 || H5Pget_nfilters(creation) > 0) return true;
   std::array<hsize_t, H5S_MAX_RANK> shape{};
   const int rank = H5Pget_chunk(creation, H5S_MAX_RANK, shape.data());
@@ -92,7 +92,7 @@ bool has_whole_chunks(hid_t dataset, hid_t type, hid_t space, hid_t creation) {
   return H5Dget_storage_size(dataset) == chunks * bytes;
 }
 
-/// @returns what is wrong with it; empty: nothing
+/// @returns a description of the fault; empty if there is none
 std::string walk_dataset(hid_t dataset) {
   const Hdf5Id type(H5Dget_type(dataset), H5Tclose), space(H5Dget_space(dataset), H5Sclose);
   const Hdf5Id creation(H5Dget_create_plist(dataset), H5Pclose);
@@ -144,7 +144,7 @@ void walk(const std::string& path) {
 
 void check_sound(const std::string& path) {
   static std::mutex guard;
-  static std::map<Identity, std::string> faults;  // of files that were walked through; none: ""
+  static std::map<Identity, std::string> faults;  // faults of the files that were checked; "" if there is none
   const Identity identity = identity_of(path);
   const auto known = [&]() -> std::optional<std::string> {
     const std::lock_guard lock(guard);

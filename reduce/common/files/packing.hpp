@@ -1,6 +1,6 @@
-// Numbers, texts, lists and matrices in one string of bytes and back, by one and the same walk over what is kept:
+// Packs numbers, texts, lists and matrices into one string of bytes and unpacks them, both by the same function:
 //     void exchange(Packing& packing, Mesh& mesh) { packing(mesh.points); .. }
-// For the same program only: what one process hands to another.
+// The format is for exchange between processes of the same program only.
 #pragma once
 
 #include <cstdint>
@@ -58,7 +58,7 @@ class Packing {
       (*this)(map[key]);
     }
   }
-  /// Everything else has a function `exchange` next to it.
+  /// Every other type has a function `exchange` in its namespace.
   template <class Part>
   requires std::is_class_v<Part>
   void operator()(Part& part) { exchange(*this, part); }

@@ -17,7 +17,8 @@ namespace bielle {
 
 namespace {
 
-/// The cells of a line. A comma, semicolon or tab separates (even an empty cell); blanks separate where none stands.
+/// Splits a line into cells. Commas, semicolons and tabs separate cells, which may be empty; in a line without these,
+/// blanks separate them.
 std::vector<std::string> cells_of(const std::string& line) {
   const bool delimited = line.find_first_of(",;\t") != std::string::npos;
   const std::string delimiters = delimited ? ",;\t" : " ";

@@ -7,11 +7,11 @@
 
 namespace bielle {
 
-/// Reads rows of numbers separated by commas, semicolons, tabs or blanks. Empty lines and what follows a `#` are
-/// skipped; one heading line of words may stand before the numbers.
-/// @param columns  how many numbers each row must hold
+/// Reads rows of numbers separated by commas, semicolons, tabs or blanks. Empty lines and the text after a `#` are
+/// skipped; one heading line of words may precede the numbers.
+/// @param columns  number of values that each row must have
 /// @returns (rows, columns)
-/// @throws InputError `file:line: what is wrong` when the file is missing, a row has another length, something is no
+/// @throws InputError `file:line: what is wrong` if the file is missing, a row has another length, an entry is no
 ///         finite number, or there are no rows
 Eigen::MatrixXd read_table(const std::string& path, Eigen::Index columns);
 

@@ -15,8 +15,8 @@ namespace bielle {
 /// Immutable, hence shared by all copies.
 struct Expression::Implementation {
   FormulaTree tree;
-  std::string text;                    ///< as the user wrote it
-  std::vector<std::string> variables;  ///< as the user calls them
+  std::string text;                    ///< text of the user
+  std::vector<std::string> variables;  ///< names in the user's text
   std::string place = {};              ///< in a file; empty where it is not known
 
   [[noreturn]] void fail(const std::string& message, std::span<const double> values) const {

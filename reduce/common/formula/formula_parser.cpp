@@ -18,7 +18,8 @@ namespace bielle {
 namespace {
 
 // muParser evaluates while it parses. Here the "numbers" that it handles are the indices of terms of the tree, so that
-// one evaluation of the formula by muParser builds the tree. Its callbacks for operators take no user data, hence:
+// one evaluation of the formula by muParser builds the tree. Its callbacks for operators have no argument for user
+// data, hence this thread-local object.
 struct Building {
   FormulaTree tree;
   std::string folder;
@@ -178,7 +179,7 @@ const std::vector<std::string>& function_names() {
 
 bool is_name_character(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
 
-/// The formula with blanks in place of what stands in quotes.
+/// Returns the formula with blanks in place of quoted parts.
 std::string without_quoted(std::string text) {
   bool inside = false;
   for (char& c : text) {
@@ -188,7 +189,7 @@ std::string without_quoted(std::string text) {
   return text;
 }
 
-/// Where the name or number that begins at `i` ends.
+/// Returns the end of the name or number that begins at `i`.
 std::size_t end_of_word(const std::string& text, std::size_t i) {
   while (i < text.size() && is_name_character(text[i])) ++i;
   return i;
@@ -203,7 +204,7 @@ std::vector<std::string> names_in(const std::string& text) {
   return names;
 }
 
-/// A part of the formula as the user wrote it: with what stands for the variables.
+/// Returns a part of the formula with the user's names of the variables.
 std::string as_shown(const std::string& text, const std::vector<std::string>& variables,
                      const std::vector<std::string>& shown) {
   std::string result;
@@ -216,7 +217,7 @@ std::string as_shown(const std::string& text, const std::vector<std::string>& va
   return result;
 }
 
-/// The nearest known name, or all that may stand there.
+/// Returns the nearest known name, or all allowed names.
 std::string known_names(const std::string& name, const std::vector<std::string>& names) {
   if (!nearest_name(name, names).empty()) return did_you_mean(name, names);
   std::vector<std::string> own;
@@ -273,7 +274,7 @@ std::string explanation(const mu::ParserError& error, std::string token, const s
   }
 }
 
-/// The names that a formula may use, given to muParser with the terms that stand for them.
+/// The names that a formula may use, registered with muParser together with their terms.
 class Vocabulary {
  public:
   Vocabulary(mu::Parser& parser, Building& mine, const std::vector<std::string>& variables,
@@ -322,7 +323,7 @@ const std::vector<std::string>& built_in_names() {
 FormulaTree parse_formula(const std::string& text, const std::vector<std::string>& variables,
                           const std::vector<std::string>& shown, const std::map<std::string, double>& constants,
                           const std::string& folder) {
-  // muParser knows double quotes only, and evaluates `c ? a : b` by jumps that a tree cannot follow.
+  // muParser accepts double quotes only, and it evaluates `c ? a : b` by jumps, which a tree cannot represent.
   std::string quoted = text;
   std::replace(quoted.begin(), quoted.end(), '\'', '"');
   const std::string unquoted = without_quoted(quoted);

@@ -1,4 +1,4 @@
-// From text to tree: muParser reads the grammar and calls back for every operator, function and number.
+// Makes a tree from text: muParser parses the grammar and calls back for every operator, function and number.
 #pragma once
 
 #include <algorithm>
@@ -10,9 +10,9 @@
 
 namespace bielle {
 
-/// @param shown   what messages call the variables, one name for each
-/// @param folder  where `table('file.csv', t)` looks for relative file names
-/// @throws InputError: what is wrong, at which character (counted from 1)
+/// @param shown   names of the variables in messages, one for each
+/// @param folder  folder for relative file names in `table('file.csv', t)`
+/// @throws InputError: the error and its position (counted from 1)
 FormulaTree parse_formula(const std::string& text, const std::vector<std::string>& variables,
                           const std::vector<std::string>& shown, const std::map<std::string, double>& constants,
                           const std::string& folder);

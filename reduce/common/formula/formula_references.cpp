@@ -13,7 +13,7 @@ namespace bielle {
 
 namespace {
 
-/// muParser takes names of up to 255 characters.
+/// muParser accepts names of up to 255 characters.
 constexpr std::size_t longest_identifier = 100;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -55,7 +55,7 @@ class Scanner {
   void skip_blanks() {
     while (is_blank(here())) ++at_;
   }
-  /// As the parser of formulas reads it.
+  /// Skips a number in the same way as the parser of formulas does.
   void skip_number() {
     double number = 0;
     const char* begin = text_.data() + at_;
@@ -106,13 +106,13 @@ class Scanner {
     return parenthesis;
   }
 
-  /// What follows from here on, `.word.word`, of the reference that begins at `begin`.
+  /// Reads the words `.word.word` that follow the reference that begins at `begin`.
   std::vector<std::string> path(std::size_t begin) {
     std::vector<std::string> words;
     for (;;) {
       const std::size_t end = at_;
       skip_blanks();
-      // `t .5` are two numbers to the parser
+      // the parser reads `t .5` as two numbers
       const bool blanks_before = at_ > end, dot = here() == '.' && !(blanks_before && is_digit(next(1)));
       if (!dot) {
         at_ = end;
@@ -162,7 +162,8 @@ class Scanner {
   std::size_t at_ = 0;
 };
 
-/// The text as a name of at most the given length that is not among those taken. (It begins with a letter or a quote.)
+/// Returns a name of at most the given length that is made from the text and not yet used. (It begins with a letter or
+/// a quote.)
 std::string free_name(const std::string& text, std::size_t length, const std::vector<std::string>& taken) {
   std::string wanted = text.substr(0, length);
   for (char& c : wanted)

@@ -1,4 +1,4 @@
-// What can be told of a formula without arguments: which parts are constant, and where it breaks.
+// Properties of a formula that do not depend on its arguments: its constant parts and its break points.
 #include <fmt/format.h>
 
 #include "reduce/common/formula/formula_tree.hpp"

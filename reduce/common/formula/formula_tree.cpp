@@ -50,7 +50,7 @@ double elementary_value(Operation operation, double v) {
   }
 }
 
-/// The same with derivatives. @param f  its value
+/// The same operations with derivatives. @param f  its value
 template <class Number>
 Number elementary_chain(Operation operation, const Number& x, double f) {
   const double v = value_of(x);
@@ -169,7 +169,7 @@ struct FormulaTree::Evaluation {
       return formula_number::jet(value, index == along ? 1 : 0, 0);
   }
 
-  /// Sign of x - border on the right of the point of evaluation.
+  /// Sign of x - border immediately to the right of the point of evaluation.
   double side(const Number& x, const Number& border) const {
     if constexpr (has_slopes) {
       at_kink |= x.value == border.value && (varies(x) || varies(border));
@@ -320,7 +320,7 @@ struct FormulaTree::Evaluation {
 
   Number transition(Operation operation, const Number& t, const Number& t0, const Number& t1) const {
     check_transition(value_of(t0), value_of(t1));
-    // On the border, the piece on the right of the argument decides.
+    // On the border, the piece to the right of the argument is chosen.
     const double after_start = side(t, t0), after_end = side(t, t1);
     if (operation == Operation::pulse) return truth(after_start >= 0 && after_end < 0);
     if (after_start <= 0) return constant(0);

@@ -1,9 +1,9 @@
-// A parsed formula as a tree: its value, its exact first and second derivative, and the places of its kinks.
+// A parsed formula as a tree, with its value, its exact first and second derivatives, and the positions of its kinks.
 //
-// Derivatives are carried forward as jets (f, df/dx, d2f/dx2) along one argument x, so that they are as exact as the
-// value. Where the formula has a kink or a jump, the jet is the one on the right: a comparison or |a| at a = 0 takes
-// the sign that its argument assumes for x + 0. First derivatives along all arguments come from one evaluation with
-// dual numbers, except at a kink.
+// Derivatives are computed by forward propagation of jets (f, df/dx, d2f/dx2) along one argument x, so that they are as
+// exact as the value. At a kink or a jump the jet is the one on the right: a comparison, or |a| at a = 0, takes the
+// sign that its argument has for x + 0. First derivatives along all arguments come from one evaluation with dual
+// numbers, except at a kink.
 #pragma once
 
 #include <array>
@@ -76,36 +76,37 @@ class FormulaTree {
   struct Term {
     Operation operation;
     std::array<int, 3> operand;
-    double number = 0;  ///< of a constant
-    int index = 0;      ///< of an argument or interpolation
+    double number = 0;  ///< value of a constant
+    int index = 0;      ///< index of an argument or interpolation
   };
 
-  /// Each returns the index of the new term; operands are indices of earlier ones.
+  /// Each function returns the index of the new term; operands are indices of earlier terms.
   int add_constant(double value);
   int add_argument(int index);
   int add_interpolation(std::shared_ptr<const Interpolation> function, int operand);
   int add(Operation operation, int first, int second = -1, int third = -1);
 
   /// The term whose value the formula is. Replaces constant parts by their values.
-  /// @throws FormulaError where a constant part that is always evaluated has no value (`1/0`, `step(t, 2, 1)`)
+  /// @throws FormulaError if a constant part that is always evaluated has no value (`1/0`, `step(t, 2, 1)`)
   void set_root(int root);
 
   /// @throws FormulaError
   double value(std::span<const double> arguments) const;
   Jet jet(std::span<const double> arguments, std::size_t along) const;
-  /// The value and its first derivatives along the first arguments, as many as `gradient` has entries: those of `jet`.
+  /// Computes the value and its first derivatives along the first arguments, as many as `gradient` has entries; they
+  /// equal those of `jet`.
   double value_and_gradient(std::span<const double> arguments, std::span<double> gradient) const;
   bool is_constant() const { return !depends_on_arguments(root_); }
   bool uses(int argument) const { return depends_on(root_, argument); }
-  /// Values of one argument at which a kink or jump can be told in advance: those where what is compared depends on
-  /// this argument alone, and linearly.
+  /// Adds the values of one argument at which there is a kink or jump, if they can be found in advance: the compared
+  /// quantity must depend on this argument alone, and linearly.
   void add_break_points(int argument, std::vector<double>& points) const { add_break_points(root_, argument, points); }
 
-  // -- structure. Constant parts are constant terms, except within branches that may never be taken.
+  // -- structure. Constant parts are constant terms, except within branches that may never be evaluated.
   int root() const { return root_; }
   const Term& term(int index) const { return terms_[static_cast<std::size_t>(index)]; }
   bool depends_on_arguments(int index) const { return depends_on(index, any_argument); }
-  double constant_value(int index) const;  ///< of a part without arguments. @throws FormulaError
+  double constant_value(int index) const;  ///< value of a part without arguments. @throws FormulaError
 
  private:
   struct Linear {

@@ -26,8 +26,8 @@ void solve_tridiagonal(const Eigen::VectorXd& lower, Eigen::VectorXd diagonal, c
   for (Eigen::Index i = m - 2; i >= 0; --i) right.row(i) = (right.row(i) - upper(i) * right.row(i + 1)) / diagonal(i);
 }
 
-/// Second derivatives of the periodic cubic spline: the equations below at all points, those of the first and the last
-/// the same. The corners of their matrix are taken off it by a matrix of rank one (Sherman-Morrison).
+/// Second derivatives of the periodic cubic spline: the equations below hold at all points, and the first and last
+/// points coincide. The corners of the matrix are removed by an update of rank one (Sherman-Morrison).
 Eigen::VectorXd periodic_curvature(const Eigen::VectorXd& x, const Eigen::VectorXd& y) {
   const Eigen::Index n = x.size(), m = n - 1;  // unknowns M_0 .. M_{n-2}
   Eigen::VectorXd h(m), s(m), lower(m), diagonal(m), upper(m);
@@ -61,7 +61,7 @@ Eigen::VectorXd periodic_curvature(const Eigen::VectorXd& x, const Eigen::Vector
 /// Second derivatives M of the not-a-knot cubic spline at its points:
 ///   h_{i-1} M_{i-1} + 2 (h_{i-1} + h_i) M_i + h_i M_{i+1} = 6 (s_i - s_{i-1}),  i = 1 .. n-2,  s_i = (y_{i+1} - y_i) /
 ///   h_i
-/// where a third derivative that is continuous at points 1 and n-2 eliminates M_0 and M_{n-1}.
+/// The condition of a continuous third derivative at points 1 and n-2 eliminates M_0 and M_{n-1}.
 Eigen::VectorXd spline_curvature(const Eigen::VectorXd& x, const Eigen::VectorXd& y) {
   const Eigen::Index n = x.size();
   if (n == 2) return Eigen::VectorXd::Zero(2);

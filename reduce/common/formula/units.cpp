@@ -16,7 +16,7 @@ namespace {
 struct Units {
   enum class Kind { unknown, free, known };
   Kind kind = Kind::unknown;
-  std::map<std::string, int> exponents;  ///< of the symbols; none is 0
+  std::map<std::string, int> exponents;  ///< exponents of the symbols; none is 0
 
   bool operator==(const Units&) const = default;
 };
@@ -32,7 +32,7 @@ Units product(const Units& a, const Units& b, int exponent) {
   return result;
 }
 
-/// Of a sum.
+/// Units of a sum.
 Units common(const Units& a, const Units& b) {
   if (a == free_of_units) return b;
   return b == free_of_units || a == b ? a : unknown;

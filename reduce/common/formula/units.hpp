@@ -5,9 +5,10 @@
 //     products, quotients, whole powers      exponents add; "m/m" is "-"; roots where all exponents stay whole
 //     comparisons, step, ramp, pulse, other functions   "-" (angles of atan2 and its kind as well)
 //
-// Constants are free: a term in a sum has the units of the others, and a factor changes none. A parameter is a constant
-// as well, and its units are nowhere written, so that `k*x` of "m" is called "m" even where k is a stiffness. Symbols
-// are not converted into each other: "N m" is not "J". What has no rule (x^y, a table) has unknown units.
+// Constants have no fixed units: a constant term of a sum has the units of the others, and a constant factor does not
+// change them. A parameter is a constant as well, and its units are not declared, so that `k*x` of "m" has "m" even if
+// k is a stiffness. Symbols are not converted into each other: "N m" is not "J". Operations without a rule (x^y, a
+// table) have unknown units.
 #pragma once
 
 #include <string>
@@ -17,9 +18,9 @@
 
 namespace bielle {
 
-/// Units of a formula's value, as "N m", "m^2/s^2", "N/(m s)", "1/s"; "-" of a pure number; empty where they are
+/// Units of a formula's value, such as "N m", "m^2/s^2", "N/(m s)", "1/s"; "-" for a pure number; empty if they are
 /// unknown.
-/// @param variable_units  one for each variable, written in the same way; empty where unknown
+/// @param variable_units  units of each variable, in the same notation; empty if unknown
 std::string units_of(const Expression& formula, const std::vector<std::string>& variable_units);
 
 }  // namespace bielle

@@ -14,8 +14,8 @@ void doubt_outside(const YamlValue& place, double value, const PlausibleRange& r
 
 namespace {
 
-/// The largest amount of a formula about its break points and between them: what its rounding goes by, also where it
-/// vanishes (a sine after a whole turn).
+/// Largest absolute value of a formula near its break points and between them. It scales the rounding error, also where
+/// the formula vanishes (a sine after a full turn).
 double largest_about(const Expression& formula, const std::vector<double>& break_points) {
   std::vector<double> times = break_points;
   for (std::size_t k = 1; k < break_points.size(); ++k)
@@ -36,7 +36,7 @@ double largest_about(const Expression& formula, const std::vector<double>& break
 void doubt_jumps(const YamlValue& place, const Expression& formula, const char* what) {
   const double rounding = 1e-12 * largest_about(formula, formula.break_points());
   for (const double time : formula.break_points()) {
-    // A jump stays as it is when looked at more closely; what a kink changes by becomes smaller.
+    // At a smaller distance a jump keeps its size, but the change at a kink becomes smaller.
     const double near = 1e-8 * (1 + std::abs(time));
     const auto change = [&](double step) { return std::abs(formula(time + step) - formula(time - step)); };
     double wide = 0, narrow = 0;

@@ -1,4 +1,5 @@
-// Values that are possible but that nobody means: another system of units, degrees in place of radians.
+// Ranges of plausible values; values outside are possible but suggest another system of units, or degrees instead of
+// radians.
 #pragma once
 
 #include "reduce/common/input/yaml_file.hpp"
@@ -7,7 +8,7 @@ namespace bielle {
 
 struct PlausibleRange {
   double low, high;
-  const char* text;  ///< what has such values, with an example
+  const char* text;  ///< description of the range, with an example
 };
 
 /// Moduli from light rubber to diamond (1.2e12 Pa).
@@ -21,10 +22,10 @@ inline constexpr PlausibleRange plausible_load{-1e12, 1e12, "Forces are in newto
 inline constexpr PlausibleRange plausible_damping_ratio{
     0, 1, "1 is critical damping; joined structures have 0.005 to 0.05 (a ratio, no percentage)"};
 
-/// Notes a doubt where a value is out of range.
+/// Notes a doubt if a value is out of range.
 void doubt_outside(const YamlValue& place, double value, const PlausibleRange& range);
 
-/// Notes a doubt where a formula of t jumps: what is prescribed to move like that has no velocity there.
+/// Notes a doubt if a formula of t jumps: a prescribed motion with a jump has no velocity there.
 /// @param what  in words with its article: "the angle"
 void doubt_jumps(const YamlValue& place, const Expression& formula, const char* what);
 

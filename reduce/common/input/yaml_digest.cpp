@@ -1,4 +1,4 @@
-// A digest lists the values of an input file one by one, so that two files can be compared.
+// A digest: a list of the values of an input file, by which two files can be compared.
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -20,7 +20,7 @@ using Digest = std::vector<std::pair<std::string, std::string>>;
 
 bool is_word_letter(char letter) { return std::isalnum(static_cast<unsigned char>(letter)) || letter == '_'; }
 
-/// "; k = 3": the parameters that stand in a text, each once.
+/// "; k = 3": the parameters that occur in a text, each once.
 std::string parameters_in(const std::string& text, const Parameters& parameters) {
   std::set<std::string> found;
   for (std::size_t k = 0; k < text.size();) {
@@ -35,14 +35,15 @@ std::string parameters_in(const std::string& text, const Parameters& parameters)
   return list;
 }
 
-/// Superelements have a sum over all that counts; they may be large.
+/// Returns the checksum stored in a superelement file, which covers its numbers and names, or a sum over the bytes of
+/// any other file.
 std::int64_t sum_over_file(const std::string& path) {
   if (Hdf5File::begins_like_one(path)) {
     try {
       const Hdf5File file = Hdf5File::open(path);
       if (file.has_attribute("/", "checksum")) return file.read_integer_attribute("/", "checksum");
     } catch (const InputError&) {
-      // its bytes, then
+      // fall back to the bytes of the file
     }
   }
   std::ifstream file(path, std::ios::binary);
@@ -53,7 +54,8 @@ std::int64_t sum_over_file(const std::string& path) {
   return sum.value();
 }
 
-/// The file that a text names, or nothing. (Whatever is no name of a file is hardly ever one by chance.)
+/// Returns the sum of the file that a text names, or nothing. (A text that is no file name hardly ever matches one by
+/// chance.)
 std::string sum_of_file(const std::string& folder, const std::string& name) {
   std::error_code none;
   constexpr std::size_t longest_name = 4096;
@@ -63,7 +65,7 @@ std::string sum_of_file(const std::string& folder, const std::string& name) {
   return fmt::format("; contents {:x}", sum_over_file(path.string()));
 }
 
-/// The sums are those of the files that the whole text, or a name in quotes in it, names: `table('torque.csv', t)`.
+/// The sums of the files that are named by the whole text or by a quoted name in it: `table('torque.csv', t)`.
 std::string files_in(const std::string& text, const std::string& folder) {
   std::string sums = sum_of_file(folder, text);
   for (std::size_t k = text.find_first_of("'\""); k != std::string::npos;) {

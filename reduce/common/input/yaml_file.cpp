@@ -25,7 +25,7 @@ struct YamlValue::Document {
 
 namespace {
 
-/// Deeper nesting is an error; an anchor that contains itself nests without end.
+/// Deeper nesting is an error; an anchor that contains itself is nested infinitely.
 constexpr int deepest = 50;
 
 std::string joined(const std::string& path, const std::string& key) { return path.empty() ? key : path + "." + key; }
@@ -34,7 +34,7 @@ std::string located_at(const std::string& file, int line, const std::string& pat
   return fmt::format("{}:{}: {}{}{}", file, line, path, path.empty() ? "" : ": ", message);
 }
 
-/// The parser complains of a tab in the indentation in words that do not mention it, at worst some lines after it.
+/// The parser's message about a tab in the indentation does not mention the tab, and may refer to a later line.
 std::string hint_at_tabs(const std::string& text, int up_to_line) {
   std::istringstream lines(text);
   std::string line;
@@ -46,17 +46,18 @@ std::string hint_at_tabs(const std::string& text, int up_to_line) {
   return "";
 }
 
-/// What an unknown key most likely is when it is a number: the second half of "1,5", or of a formula.
+/// Explains an unknown key that is a number: it is probably the second half of "1,5", or of a formula.
 std::string hint_at_comma(const std::string& key) {
   const bool number = !key.empty() && key.find_first_not_of("0123456789.eE+-") == std::string::npos;
   return number ? "; a comma separates keys: decimals are written with a point (1.5)" : "";
 }
 
-/// Aliases may repeat so many nodes; more is no input file but one that was made to fill the memory.
+/// Upper bound of nodes that aliases repeat; larger files are not input files but attempts to exhaust the memory.
 constexpr std::size_t most_repeated = 100'000;
 
-/// yaml-cpp passes duplicate keys and keeps `<<` as a key like any other: refuse both, and keys that are no words.
-/// @param budget  nodes that may still come
+/// yaml-cpp accepts duplicate keys and treats `<<` as an ordinary key: this function refuses both, and keys that are no
+/// words.
+/// @param budget  number of nodes that may still follow
 void check_keys_of_all_maps(const YAML::Node& node, const std::string& file, const std::string& path, int depth,
                             std::size_t& budget) {
   if (budget-- == 0)
@@ -153,7 +154,7 @@ std::vector<std::pair<std::string, YamlValue>> YamlValue::entries() const {
 }
 
 YamlValue YamlValue::child(const YAML::Node& key, const YAML::Node& value) const {
-  // yaml-cpp gives a null value the place of what follows it.
+  // yaml-cpp gives a null value the position of the next token.
   const YAML::Mark mark = value.IsNull() ? key.Mark() : value.Mark();
   return {document_, std::make_shared<YAML::Node>(value), joined(path_, key.Scalar()), mark.line + 1};
 }

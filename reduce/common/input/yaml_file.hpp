@@ -1,4 +1,4 @@
-// Input files: yaml-cpp with file and line in every message, nearest names for unknown keys, and numbers that may be
+// Input files: yaml-cpp with file and line in every message, suggestions for unknown keys, and numbers that may be
 // expressions of the file's parameters.
 #pragma once
 
@@ -20,7 +20,7 @@ class Node;
 
 namespace bielle {
 
-/// A value in an input file that knows where it stands. Cheap to copy.
+/// A value in an input file, with its position. Cheap to copy.
 ///
 /// Every reader throws InputError `file:line: path.of.key: what was expected`. A map's unknown keys are refused by
 /// `check_keys`, which each reader of a map calls once: nothing in a file is silently ignored. Duplicate keys, merge
@@ -29,12 +29,12 @@ class YamlValue {
  public:
   /// Loads a file. @throws InputError when it is missing, unreadable or no valid YAML (with the line).
   static YamlValue load(const std::string& path);
-  /// The same from text, `name` standing for the file in messages.
+  /// Parses text; `name` stands for the file in messages.
   static YamlValue parse(const std::string& text, const std::string& name);
 
   /// Parameters that numbers in this file may use (shared by all values of the file).
   void set_parameters(Parameters parameters);
-  /// One more.
+  /// Adds one parameter.
   void set_parameter(const std::string& name, double value);
   const Parameters& parameters() const;
 
@@ -47,7 +47,7 @@ class YamlValue {
   bool has(const std::string& key) const;
   YamlValue at(const std::string& key) const;                   ///< @throws when missing
   std::optional<YamlValue> find(const std::string& key) const;  ///< empty when missing
-  /// Keys and values in the order of the file. @throws when this is no map; a null value is an empty map.
+  /// Returns keys and values in the order of the file. @throws when this is no map; a null value is an empty map.
   std::vector<std::pair<std::string, YamlValue>> entries() const;
   /// @throws InputError at the first key not in `allowed`: `'dampng' is not a key of a hinge; did you mean 'damping'?`
   /// @param of  the thing in words with its article: "a hinge", "the mesh"
@@ -64,27 +64,28 @@ class YamlValue {
   double non_negative_number() const;  ///< >= 0
   int integer() const;
   bool boolean() const;
-  std::string text() const;  ///< as it is written, numbers too
-  /// One of the given words; the message offers the nearest. @param what  in words with its article: "a joint type"
+  std::string text() const;  ///< the text as written, also of numbers
+  /// Returns one of the given words; the message for any other suggests the nearest. @param what  in words with its
+  /// article: "a joint type"
   std::string word(const std::vector<std::string>& allowed, const std::string& what) const;
   Eigen::VectorXd vector() const;
-  /// A list of `count` numbers greater than 0. @param expected  what they are: "[radius, length]"
+  /// Returns a list of `count` numbers greater than 0. @param expected  description for messages: "[radius, length]"
   Eigen::VectorXd positive_numbers(std::size_t count, const std::string& expected) const;
   Eigen::Vector3d vector3() const;
   Eigen::Vector3d direction() const;  ///< vector3, normalised. @throws when zero
   Eigen::MatrixXd matrix(Eigen::Index rows, Eigen::Index columns) const;
-  /// A formula of the parameters and the given variables (e.g. {"t"}).
+  /// Returns a formula of the parameters and the given variables (e.g. {"t"}).
   Expression expression(const std::vector<std::string>& variables) const;
-  /// The text of a number or formula with its references found; `variables` and the parameters are plain names.
+  /// Returns the text of a number or formula with its references; `variables` and the parameters are plain names.
   FormulaText formula_text(const std::vector<std::string>& variables, const std::vector<std::string>& functions) const;
-  /// The formula of such a text of this value: of the variables, then of the references.
+  /// Returns the formula of such a text; its arguments are the variables, then the references.
   Expression expression(const std::vector<std::string>& variables, const FormulaText& formula) const;
-  /// Reads a file name: relative to the folder of this input file.
+  /// Returns a file name relative to the folder of this input file.
   std::string file_path() const;
 
-  /// Every value below this one by its path, in the order of the file, as it counts: numbers by their values, formulas
-  /// with the values of the parameters in them ("2*k (k = 3)"), names of files with a sum over their contents. If two
-  /// digests are equal, the same is described. @param but  keys of this map to leave out
+  /// Returns every value below this one with its path, in the order of the file: numbers by their values, formulas with
+  /// the values of their parameters ("2*k (k = 3)"), names of files with a sum over their contents. Equal digests mean
+  /// equal models. @param but  keys of this map to leave out
   std::vector<std::pair<std::string, std::string>> digest(const std::vector<std::string>& but = {}) const;
 
   // -- place
@@ -95,9 +96,10 @@ class YamlValue {
   /// `file:line: path: message`
   [[noreturn]] void fail(const std::string& message) const;
   std::string located(const std::string& message) const;  ///< the text that `fail` throws
-  /// Notes a value that is possible and probably not meant, in the words of `fail`, for the user to be told.
+  /// Notes a value that is possible but probably unintended, as a message in the form of `fail`, which is shown to the
+  /// user.
   void doubt(const std::string& message) const;
-  const std::vector<std::string>& doubts() const;  ///< of the whole file, in the order of reading
+  const std::vector<std::string>& doubts() const;  ///< doubts about the whole file, in the order of reading
 
  private:
   struct Document;

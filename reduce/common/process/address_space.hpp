@@ -1,15 +1,15 @@
-// What a process takes of its address space, which a user may limit (ulimit -v).
+// The address space of a process, which a user may limit (ulimit -v).
 #pragma once
 
 #include <sys/resource.h>
 
 namespace bielle {
 
-/// OpenBLAS takes so much for each of its threads [bytes], and tries for ever where it does not get it.
+/// OpenBLAS allocates this buffer for each of its threads [bytes]; it retries forever if the allocation fails.
 inline constexpr rlim_t blas_buffer = rlim_t{136} << 20;
 
-/// Of this process, with what is loaded [bytes]; 0 when it is not known. Nothing that could allocate is called, and no
-/// sanitizer needed: it may be asked before the libraries begin.
+/// Address space of this process including loaded libraries [bytes]; 0 if it is unknown. It neither allocates nor needs
+/// a sanitizer's runtime, and may therefore be called before the libraries are initialised.
 rlim_t address_space();
 
 }  // namespace bielle

@@ -22,7 +22,7 @@ namespace bielle {
 
 namespace {
 
-/// How the work ended: the first letter of what comes through the pipe.
+/// Outcome of the work: the first letter of the answer that is sent through the pipe.
 enum Outcome : char { value = 'v', input = 'i', computation = 'c', memory = 'm', unforeseen = 'u' };
 
 void write_all(int target, const char* data, std::size_t size) {
@@ -54,7 +54,8 @@ void send(int pipe, Outcome outcome, const std::string& text) {
   write_all(pipe, text.data(), text.size());
 }
 
-/// The C library and others tell of a crash on file descriptor 2, which goes nowhere; what we print goes where it did.
+/// The C library and others report a crash on file descriptor 2, which is redirected to /dev/null; the program's own
+/// messages still go to standard error.
 void divert_last_words() {
   const int shown = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
@@ -101,7 +102,7 @@ void set_limits(const ChildLimits& limits) {
   } catch (...) {
     send(pipe, unforeseen, "unknown kind");
   }
-  _exit(0);  // nothing that the parent shares is flushed or closed a second time
+  _exit(0);  // buffers and files that are shared with the parent are not flushed or closed a second time
 }
 
 int wait_for(pid_t process) {
@@ -111,7 +112,7 @@ int wait_for(pid_t process) {
   return status;
 }
 
-/// @param status  of `waitpid`
+/// @param status  the status from `waitpid`
 const std::string& sentence_of(const ChildLoss& lost, int status) {
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGSYS) return lost.forbidden;
   return WIFEXITED(status) ? lost.ended : lost.crashed;

@@ -1,4 +1,4 @@
-// Work in a process of its own: a library that crashes on a damaged file takes only that process with it.
+// Runs work in a child process: if a library crashes on a damaged file, only that process ends.
 #pragma once
 
 #include <cstdint>
@@ -8,13 +8,13 @@
 
 namespace bielle {
 
-/// What a process may use; 0: without limit.
+/// Limits of a child process; 0 means no limit.
 struct ChildLimits {
-  int seconds = 0;           ///< of processor time
+  int seconds = 0;           ///< processor time
   std::uint64_t memory = 0;  ///< besides what the parent has already [bytes]; an allocation beyond it fails
 };
 
-/// What to say when no answer comes.
+/// Messages for a child process that sends no answer.
 struct ChildLoss {
   std::string crashed;    ///< the process crashes, is killed or reaches its limit: "'a.msh' cannot be read: .."
   std::string ended;      ///< something in it ended it in good order before its work was done; default: `crashed`
@@ -24,11 +24,11 @@ struct ChildLoss {
   ChildLoss(std::string sentence) : crashed(sentence), ended(sentence), forbidden(std::move(sentence)) {}
 };
 
-/// Runs `work` in a forked process and returns the text that it hands back. What it changes in memory is lost; what it
-/// says on standard error is shown, except for the last words of a crash.
+/// Runs `work` in a forked process and returns its text. Its changes in memory are lost; its output on standard error
+/// is shown, except for reports of a crash.
 ///
 /// @param lost  the sentence when the process ends without an answer
-/// @throws InputError `lost`; else what `work` throws (InputError, ComputationError, std::bad_alloc)
+/// @throws InputError `lost`; otherwise the exceptions of `work` (InputError, ComputationError, std::bad_alloc)
 std::string in_child_process(const ChildLoss& lost, const ChildLimits& limits,
                              const std::function<std::string()>& work);
 

@@ -25,7 +25,7 @@ bool forbid_other_programs() {
   };
   constexpr auto answer = [](unsigned verdict) { return sock_filter{BPF_RET | BPF_K, 0, 0, verdict}; };
   constexpr unsigned end = SECCOMP_RET_KILL_PROCESS;
-  // clone3 hides its flags from filters: the C library then takes clone.
+  // Filters cannot read the flags of clone3; the filter therefore refuses it, and the C library uses clone.
   sock_filter filter[] = {
       load(offsetof(seccomp_data, arch)),
       {BPF_JMP | BPF_JEQ | BPF_K, 1, 0, AUDIT_ARCH_X86_64},

@@ -1,11 +1,11 @@
-// A process that cannot start another program: for libraries that run what a file says.
+// A process that cannot start another program, for libraries that execute commands in a file.
 #pragma once
 
 namespace bielle {
 
-/// From now on the kernel ends this process with SIGSYS when it tries to start another one; threads may be started.
-/// Nothing undoes it, and a library cannot get around it (seccomp).
-/// @returns false where the system has no such protection: nothing has changed
+/// From this call on the kernel ends this process with SIGSYS if it tries to start another one; it may start threads.
+/// The restriction cannot be removed, and a library cannot avoid it (seccomp).
+/// @returns false if the system does not support it; nothing has changed then
 bool forbid_other_programs();
 
 }  // namespace bielle

@@ -1,4 +1,4 @@
-// How much memory the process may still take.
+// The amount of memory that the process may still allocate.
 #pragma once
 
 namespace bielle {

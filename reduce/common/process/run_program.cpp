@@ -21,7 +21,7 @@ namespace bielle {
 
 namespace {
 
-// -- before the libraries begin, those of the sanitizers included
+// -- code that runs before the libraries are initialised, those of the sanitizers included
 
 constexpr rlim_t other_libraries = rlim_t{64} << 20;
 
@@ -49,7 +49,7 @@ constexpr rlim_t other_libraries = rlim_t{64} << 20;
 
 // -- the standard streams
 
-/// The next file to be opened would get the number of a closed stream, and what is printed would go into it.
+/// Otherwise the next opened file would get the number of a closed stream, and printed text would be written into it.
 void open_closed_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (fcntl(stream, F_GETFD) < 0 && errno == EBADF) static_cast<void>(!open("/dev/null", O_RDWR));

@@ -20,7 +20,7 @@ namespace {
 using namespace bielle;
 using namespace bielle::reduce;
 
-/// Says why and ends all ranks.
+/// Prints the reason and ends all ranks.
 void end_all(int rank, const char* why) {
   std::fputs(fmt::format("bielle-reduce-mpi: error: rank {}: {}\n", rank, why).c_str(), stderr);
   MPI_Abort(MPI_COMM_WORLD, 2);
@@ -54,7 +54,7 @@ void work(int argc, char** argv, int rank) {
 int main(int argc, char** argv) {
   apply_library_settings(argv);
   std::signal(SIGPIPE, SIG_IGN);
-  mallopt(M_MMAP_THRESHOLD, 1 << 20);  // what is large goes back to the machine when it is done with
+  mallopt(M_MMAP_THRESHOLD, 1 << 20);  // large blocks are returned to the system when they are freed
   MPI_Init(&argc, &argv);
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);

@@ -13,7 +13,7 @@ namespace bielle::reduce {
 
 namespace {
 
-/// What the complement holds below this part of the highest wanted eigenvalue has been missed; above, it is the same or
+/// An eigenvalue of the complement below this share of the highest wanted one was missed; any other is the same one or
 /// the next.
 constexpr double same = 1e-9;
 
@@ -24,7 +24,7 @@ void check(PetscErrorCode code) {
   throw ComputationError(fmt::format("the search for modes failed in SLEPc: {}", text ? text : "unknown error"));
 }
 
-/// SLEPc's errors come back as numbers, and signals are none of its business.
+/// SLEPc's errors are returned as numbers, and it handles no signals.
 void start_slepc() {
   static bool started = false;
   if (std::exchange(started, true)) return;
@@ -61,7 +61,7 @@ class Search {
 
   void run() {
     add_lowest(request_.count);
-    // One at a time is sought in the complement, as long as it holds one that should have been among them.
+    // Eigenpairs of the complement are sought one at a time, as long as it holds one that should have been found.
     while (static_cast<int>(values_.size()) < request_.size) {
       std::vector<double> sorted = values_;
       std::sort(sorted.begin(), sorted.end());
@@ -96,7 +96,7 @@ class Search {
       search.ask(Question::mass_times, x, y);
       return 0;
     }
-    // SLEPc multiplies by K only to see whether what is deflated lies in its null space. K has none.
+    // SLEPc multiplies by K only to check whether the deflated vectors lie in its null space. K has no null space.
     PetscCall(VecCopy(x, y));
     return VecNormalize(y, nullptr);
   }
@@ -146,7 +146,7 @@ class Search {
     check(EPSSetTarget(eps, 0));
     check(EPSSetDimensions(eps, count, PETSC_DEFAULT, PETSC_DEFAULT));
     check(EPSSetTolerances(eps, request_.tolerance, request_.restarts));
-    check(EPSSetPurify(eps, PETSC_FALSE));  // what takes the vectors makes a step of inverse iteration anyway
+    check(EPSSetPurify(eps, PETSC_FALSE));  // the caller makes a step of inverse iteration with the vectors
     set_solution(eps);
     set_start(eps);
     if (!vectors_.empty()) check(EPSSetDeflationSpace(eps, static_cast<PetscInt>(vectors_.size()), vectors_.data()));
@@ -155,7 +155,7 @@ class Search {
     check(EPSDestroy(&eps));
   }
 
-  /// Shift and invert: the solution is ours.
+  /// Shift and invert: the solution comes from bielle-reduce.
   void set_solution(EPS eps) {
     ST transformation = nullptr;
     KSP solver = nullptr;
@@ -171,7 +171,7 @@ class Search {
     check(PCShellSetApply(preconditioner, &Search::solve));
   }
 
-  /// In the range of the solution, where constraints hold and M is positive.
+  /// Makes a start vector in the range of the solution, where constraints hold and M is positive.
   void set_start(EPS eps) {
     Vec random = nullptr;
     check(VecDuplicate(start_, &random));
@@ -190,7 +190,7 @@ class Search {
     check(VecDestroy(&random));
   }
 
-  /// In (-1, 1), the same for any number of ranks, other numbers for each search (splitmix64).
+  /// A number in (-1, 1) that does not depend on the number of ranks and differs for each search (splitmix64).
   double pseudo_random(std::uint64_t k) const {
     std::uint64_t z = (k + 1 + 1000003 * vectors_.size()) * 0x9e3779b97f4a7c15u;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;

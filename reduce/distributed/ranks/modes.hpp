@@ -1,10 +1,10 @@
 // The lowest modes of the held body by SLEPc: Krylov-Schur on the inverted operator, vectors distributed over the
 // ranks.
 //
-// One Krylov sequence sees one vector of each eigenspace; others come in by rounding errors, late. Each search is
-// therefore followed by one in the complement of what was found, until that finds nothing lower: repeated eigenvalues
-// are found as often as they are there. V. Hernandez, J. E. Roman, V. Vidal, ACM Trans. Math. Softw. 31 (2005) 351; G.
-// W. Stewart, SIAM J. Matrix Anal. Appl. 23 (2002) 601.
+// A Krylov sequence contains one vector of each eigenspace; others appear late, by rounding errors. Each search is
+// therefore followed by one in the complement of the found vectors, until it finds nothing lower: repeated eigenvalues
+// are found with their multiplicity. V. Hernandez, J. E. Roman, V. Vidal, ACM Trans. Math. Softw. 31 (2005) 351; G. W.
+// Stewart, SIAM J. Matrix Anal. Appl. 23 (2002) 601.
 #pragma once
 
 #include <functional>
@@ -16,15 +16,15 @@ namespace bielle::reduce {
 
 struct ModesRequest {
   int size = 0, count = 0;
-  double tolerance = 1e-10;  ///< of the residuals, relative to the inverted operator's eigenvalues
+  double tolerance = 1e-10;  ///< bound of the residuals, relative to the inverted operator's eigenvalues
   int restarts = 300;
 };
 
-/// Serves orders until the answer to a question has come.
+/// Serves commands until the answer to a request has arrived.
 using ServeUntilAnswered = std::function<void()>;
 
-/// All ranks together: asks bielle-reduce for products and solutions, and at the end sends it `none`, the outcome, and
-/// what was found: eigenvalues, then vectors, ascending.
+/// Called by all ranks together: it requests products and solutions from bielle-reduce, and finally sends it `none`,
+/// the outcome, and the results: eigenvalues, then vectors, ascending.
 void find_modes(Team& team, const ModesRequest& request, const ServeUntilAnswered& serve);
 
 }  // namespace bielle::reduce

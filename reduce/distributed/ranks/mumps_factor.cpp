@@ -16,14 +16,14 @@ namespace {
 
 enum Job { begin = -1, end = -2, analysis = 1, factorisation = 2, solution = 3 };
 
-// Places in MUMPS's lists are counted from 1 in its manual, "MUMPS 5.5.1 Users' guide".
+// Indices of MUMPS's lists start at 1 in its manual, "MUMPS 5.5.1 Users' guide".
 constexpr int workspace_too_small[] = {-8, -9, -14, -15, -17, -20};
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Counts beyond 32 bits are told in millions, negated.
+/// MUMPS returns counts beyond 32 bits in millions, with a negative sign.
 double counted_large(int value) { return value < 0 ? -1e6 * value : value; }
 
 }  // namespace
@@ -97,7 +97,7 @@ void MumpsFactor::analyse(const std::vector<int>& block_starts) {
   });
 }
 
-/// A machine would otherwise run out of memory minutes later.
+/// Otherwise the machine would run out of memory minutes later.
 void MumpsFactor::check_memory() {
   const Instance& m = *instance_;
   MPI_Comm machine;

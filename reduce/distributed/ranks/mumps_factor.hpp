@@ -1,4 +1,5 @@
-// Cholesky factorisation by MUMPS of a matrix whose entries lie on all ranks; right-hand sides and solutions on rank 0.
+// Cholesky factorisation by MUMPS of a matrix whose entries are distributed over all ranks; right-hand sides and
+// solutions are on rank 0.
 //
 // P. R. Amestoy, I. S. Duff, J. Koster, J.-Y. L'Excellent, SIAM J. Matrix Anal. Appl. 23 (2001) 15.
 #pragma once
@@ -13,12 +14,12 @@ namespace bielle::reduce {
 
 class MumpsFactor {
  public:
-  /// All ranks together.
-  /// @param entries       of this rank; released when the factor is done
+  /// Called by all ranks together.
+  /// @param entries       entries on this rank; released when the factor is complete
   /// @param block_starts  on rank 0: first unknown of each block, then `size`. Unknowns of a block have the same
   ///                      neighbours: the elimination is ordered by blocks
-  /// @throws RankFailure when memory does not suffice, as far as the analysis tells before numbers are factorised, or a
-  ///         pivot vanishes
+  /// @throws RankFailure if memory does not suffice, as far as the analysis predicts before the numerical
+  ///         factorisation, or if a pivot vanishes
   MumpsFactor(Team& team, int size, Entries entries, const std::vector<int>& block_starts);
   ~MumpsFactor();
   MumpsFactor(const MumpsFactor&) = delete;
@@ -27,7 +28,7 @@ class MumpsFactor {
   int size() const;
   const SharedFactorStatistics& statistics() const { return statistics_; }
 
-  /// All ranks together. @param b  on rank 0: (size, columns), becomes the solution
+  /// Called by all ranks together. @param b  on rank 0: (size, columns), becomes the solution
   void solve(double* b, int columns);
 
  private:

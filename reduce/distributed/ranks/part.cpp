@@ -26,7 +26,7 @@ std::vector<Material> materials_of(const MeshShare& share) {
   return materials;
 }
 
-/// The unknowns that a row of u follows, with their weights.
+/// The unknowns that determine a row of u, with their weights.
 struct Followed {
   const int* unknowns;
   const double* weights;
@@ -78,7 +78,7 @@ Entries Part::inside(const InsideShare& share) const {
         for (int b = 0; b < by_column.count; ++b) {
           const int row = by_row.unknowns[a], column = by_column.unknowns[b];
           if (i == j && row < column) continue;  // the pair comes the other way round, too
-          // (i,j) stands for (j,i) as well, and where both become one entry of the diagonal it counts twice.
+          // (i,j) stands for (j,i) as well; if both become one entry of the diagonal, it counts twice.
           const double twice = i != j && row == column ? 2 : 1;
           entries.add(row, column, twice * by_row.weights[a] * by_column.weights[b] * stiffness_.values[p]);
         }

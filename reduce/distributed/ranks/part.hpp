@@ -1,4 +1,4 @@
-// The matrices of one rank's cells, and what they are in the unknowns of the inside.
+// The matrices of one rank's cells, and their projection on the unknowns of the inside.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace bielle::reduce {
 
-/// Entries of a symmetric matrix, one of each pair (i,j), (j,i); those that occur several times, here and on other
-/// ranks, add up. Numbers from 1, as MUMPS counts.
+/// Entries of a symmetric matrix, one of each pair (i,j), (j,i); repeated entries, here and on other ranks, are added.
+/// Numbers start at 1, as in MUMPS.
 struct Entries {
   std::vector<int> rows, columns;
   std::vector<double> values;
@@ -21,7 +21,7 @@ struct Entries {
 class Part {
  public:
   /// @param share    unpacked; taken
-  /// @param threads  of assembly and products
+  /// @param threads  number of threads for assembly and products
   /// @throws ComputationError as assemble_stiffness
   Part(MeshShare share, int threads);
   Part(const Part&) = delete;

@@ -94,7 +94,7 @@ void Service::diagonal() {
 }
 
 void Service::geometric(Eigen::Index fields, Eigen::Index shapes) {
-  // Rank 0 hands on both blocks of a rank one after the other.
+  // Rank 0 forwards both blocks of a rank one after the other.
   auto [of_fields, of_shapes] = team_.share_two_blocks();
   const RowMatrix u = as_rows(of_fields, fields), t = as_rows(of_shapes, shapes);
   std::vector<Eigen::MatrixXd> sums;

@@ -1,4 +1,5 @@
-// What a rank does for bielle-reduce: keeps a part of the mesh's matrices and of the factor, and works with them.
+// The work of a rank for bielle-reduce: it keeps a part of the mesh's matrices and of the factor, and computes with
+// them.
 #pragma once
 
 #include <memory>
@@ -14,7 +15,7 @@ class Service {
  public:
   explicit Service(Team& team) : team_(team) {}
 
-  /// Carries orders out until one of those that end a loop: `answer` or `leave`. @returns that one
+  /// Executes commands until one that ends a loop: `answer` or `leave`. @returns the command that ended the loop
   Order serve();
 
  private:
@@ -33,7 +34,7 @@ class Service {
   std::unique_ptr<MumpsFactor> factor_;
 };
 
-/// Leaves MPI and ends this process. @param status  of bielle-reduce, on rank 0
+/// Leaves MPI and ends this process. @param status  exit status of bielle-reduce, on rank 0
 [[noreturn]] void leave(int status);
 
 }  // namespace bielle::reduce

@@ -21,7 +21,7 @@ void send_bytes(const char* data, std::size_t bytes, int to, MPI_Comm comm) {
     MPI_Send(data + first, static_cast<int>(std::min(most_bytes, bytes - first)), MPI_BYTE, to, tag, comm);
 }
 
-/// Into a string or a vector of numbers.
+/// Receives into a string or a vector of numbers.
 template <class Container>
 void receive_bytes(Container& data, int from, MPI_Comm comm) {
   std::uint64_t count = 0;
@@ -56,7 +56,7 @@ Order Team::next() {
   if (leads() && !channel_->receive_if_any(numbers, sizeof numbers)) numbers[1] = -1;
   MPI_Request request;
   MPI_Ibcast(numbers, 3, MPI_INT64_T, 0, comm_, &request);
-  // MPI's own waiting keeps the processor busy, which bielle-reduce needs meanwhile.
+  // MPI's own waiting occupies the processor, which bielle-reduce needs at that time.
   auto pause = std::chrono::microseconds(10);
   for (int done = 0, tries = 0; MPI_Test(&request, &done, MPI_STATUS_IGNORE), !done; ++tries) {
     if (tries < 200) continue;

@@ -1,4 +1,4 @@
-// The ranks as a team: rank 0 hears what is to be done and tells all, shares blocks out and collects them.
+// The ranks as a team: rank 0 receives commands and broadcasts them, distributes blocks and collects them.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct Order {
   std::int64_t a = 0, b = 0;
 };
 
-/// What work on some rank threw, on all of them.
+/// An exception of the work on some rank, thrown on all of them.
 struct RankFailure {
   Outcome outcome;
 };
@@ -34,18 +34,19 @@ class Team {
   bool leads() const { return rank_ == 0; }
   Channel& channel() { return *channel_; }  ///< on rank 0 alone
 
-  /// The next order, the same for all. Who waits for it sleeps. `leave`, with status -1, when bielle-reduce has ended.
+  /// Returns the next command, which is the same on all ranks. Waiting ranks sleep. The command is `leave`, with status
+  /// -1, if bielle-reduce has ended.
   Order next();
 
-  /// Does the work on every rank and goes on only when all have done it.
+  /// Does the work on every rank and returns when all have done it.
   /// @throws RankFailure on all ranks when it threw on one: the first such rank's
   void all_or_none(const std::function<void()>& work);
 
-  /// Blocks from the channel: each rank gets its own.
+  /// Reads blocks from the channel; each rank gets its own.
   std::vector<double> share_numbers();
   std::pair<std::vector<double>, std::vector<double>> share_two_blocks();
   std::string share_text();
-  /// Each rank's block into the channel, one after the other.
+  /// Writes each rank's block into the channel, one after the other.
   void collect_numbers(const std::vector<double>& block);
 
   /// Sum over all ranks, on rank 0.

@@ -1,4 +1,4 @@
-// Holds critical loads of beams against their references.
+// Checks critical loads of beams against their references.
 #pragma once
 
 #include <cmath>

@@ -27,7 +27,7 @@ struct Bend : StaticModel {
             "{}, "
             "section: {}}}}}\nloads: {{p: {{node: tip, force: [0, 0, 600]}}}}\n",
             bending, elements, section)) {}
-  /// From the last load to P in steps of `step`.
+  /// Continues from the last load to P in steps of `step`.
   Vector3 tip(double P, double step) {
     const double from = dense.environment.load_factor == 1 && !moved_ ? 0 : dense.environment.load_factor;
     moved_ = true;
@@ -63,7 +63,7 @@ TEST_CASE("the 45-degree bend converges with the square of the element length") 
       }
       for (const auto& errors : {errors_300, errors_450, errors_600}) {
         CAPTURE(errors[0].transpose(), errors[1].transpose(), errors[2].transpose());
-        // With the residual flexibility only the change of curvature by the load is left to the mesh; where bending and
+        // With the residual flexibility only the change of curvature by the load is left to the mesh; if bending and
         // torsion are equally stiff (the polar GJ is EI) even that is of fourth order.
         const bool constant = bending[0] == 'c', isotropic = name != "own";
         if (!constant && isotropic)

@@ -44,7 +44,7 @@ double cantilever_load(int elements, const std::string& section, int x, int y, d
 double hinged_load(int elements, const std::string& section, int sign) {
   StaticModel frame(
       "nodes:\n  left: {position: ['-120*sqrt(2)', 0, 0], fixed: [y, z, rx, ry]}\n"
-      "  apex: {position: [0, '120*sqrt(2)', 0], fixed: [x]}\n"  // of what slides freely, one place is held
+      "  apex: {position: [0, '120*sqrt(2)', 0], fixed: [x]}\n"  // one place of the freely sliding body is held
       "  right: {position: ['120*sqrt(2)', 0, 0], fixed: [y, z, rx, ry]}\nelements:\n  first: " +
       leg("[left, apex]", elements, section) + "  second: " + leg("[apex, right]", elements, section) +
       fmt::format("loads: {{a: {{node: left, moment: [0, 0, {}]}}, b: {{node: right, moment: [0, 0, {}]}}}}\n", sign,

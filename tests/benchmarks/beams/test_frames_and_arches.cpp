@@ -55,8 +55,8 @@ void check_path(const Model& make, const std::vector<PathPoint>& path, const Vec
   }
 }
 
-/// The extreme load between two positions of the loaded point along a direction, by parabolas through three points ever
-/// closer.
+/// The extreme load between two positions of the loaded point along a direction, by parabolas through three
+/// successively closer points.
 double extreme_load(StaticModel& model, int direction, double low, double high, double tolerance) {
   const auto P = [&](double u) { return model.control("load", direction, u, 8, tolerance); };
   for (int k = 0; k < 4; ++k) {

@@ -1,5 +1,6 @@
-// A flexible beam thrown into the air of no gravity: energy and momenta drift with the order of the integrator only.
-// (That their rates vanish to rounding at any state is proven in tests/unit/mechanism/elements/test_beam_inertia.cpp.)
+// A flexible beam thrown into the air of no gravity: energy and momenta drift with the order of the integrator only. (A
+// unit test, tests/unit/mechanism/elements/test_beam_inertia.cpp, proves that their rates vanish to rounding at any
+// state.)
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -31,7 +32,7 @@ Eigen::Matrix<double, 7, 1> invariants(const DenseModel& dense, const State& sta
 }  // namespace
 
 TEST_CASE("a tumbling flexible beam keeps its energy and momenta to the second order of the step") {
-  // The ends start with motions of their own: it bends, twists and stretches while it tumbles.
+  // The ends start with different motions: the beam bends, twists and stretches while it tumbles.
   const ReadyModel model(R"yaml(
 nodes:
   a: {position: [0, 0, 0], velocity: [0.2, -0.5, 0.3], angular_velocity: [0.6, 1, 4]}

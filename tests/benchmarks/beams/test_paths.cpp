@@ -169,7 +169,7 @@ TEST_CASE("the deep arch past its first limit point") {
 }
 
 TEST_CASE("the limit load of the deep arch without extension and shear") {
-  // EA = GA = 1e10 leave 1e-2 of what EA = 1e8 and GA = 5e7 change: 3e-7 of the load.
+  // EA = GA = 1e10 leave 1e-2 of the effect of EA = 1e8 and GA = 5e7: 3e-7 of the load.
   std::vector<double> loads;
   for (const int elements : {10, 20, 40})
     loads.push_back(Path(deep_arch(elements, 1e10, 1e10, until("y", -116))).limits.front().P);

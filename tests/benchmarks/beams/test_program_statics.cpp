@@ -18,8 +18,8 @@ using std::numbers::pi;
 
 namespace {
 
-/// Brings a state into equilibrium with what the model prescribes, in increments of the load factor, each down to the
-/// rounding of the residual.
+/// Brings a state into equilibrium under the loads and motions of the model, in increments of the load factor, each
+/// down to the rounding of the residual.
 void settle(const ReadyModel& model, State& state, const LoadSteps& steps) {
   Environment environment = model.environment();
   environment.statics = true;
@@ -94,7 +94,7 @@ TEST_CASE("static analyses of a load cycle end where they began, whatever the pa
   };
   const ReadyModel unloaded = loaded_arc(0, 0, false);
   const State start = unloaded.system.start(0);
-  // The force first and then the moment; the moment first; both at once by the load factor.
+  // Three orders of loading: the force first and then the moment; the moment first; both at once by the load factor.
   State first = start, second = start, at_once = start;
   follow(first, 0, 0, 1, 0);
   follow(first, 1, 0, 1, 1);
@@ -135,7 +135,7 @@ TEST_CASE("static analyses that carry a bent beam around by its clamp keep its e
 }
 
 TEST_CASE("large load steps on beams take few iterations") {
-  // Residuals of stiff directions are no guide: with steps that had to make them smaller these took 186, 211 and 244
+  // Residuals of stiff directions are a bad criterion: with steps that had to reduce them these took 186, 211 and 244
   // iterations, with exact tangents and full steps 128, 240 and 75. About half of these follow the path through the
   // increment, since its ends do not tell whether it has jumped.
   const std::string bend =

@@ -58,7 +58,7 @@ TEST_CASE("the frequencies of a ring are those of Hoppe and Love") {
         for (int k = 0; k < 2; ++k) CHECK_THAT(std::log2(errors[2][k] / errors[3][k]), Catch::WithinAbs(2, 0.1));
         CHECK(errors[3].cwiseAbs().maxCoeff() < 2e-3);
       } else {
-        // Down to the 1e-6 of extension and thickness.
+        // The order holds down to the 1e-6 of extension and thickness.
         for (int k = 0; k < 2; ++k) CHECK(std::log2(std::abs(errors[1][k] / errors[2][k])) > 3.7);
         CHECK(errors[3].cwiseAbs().maxCoeff() < 2e-6);
       }

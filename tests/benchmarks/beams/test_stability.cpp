@@ -1,4 +1,5 @@
-// Stability along load steps: where it is lost, along how many motions, and the branch that leaves there.
+// Stability along load steps: the load at which it is lost, the number of unstable motions, and the branch that leaves
+// there.
 #include <cmath>
 #include <numbers>
 
@@ -18,7 +19,7 @@ using std::numbers::pi;
 namespace test_stability {
 namespace {
 
-constexpr double EI = 2.1e11 * 0.01 * 0.02 * 0.02 * 0.02 / 12;  // of the weaker axis
+constexpr double EI = 2.1e11 * 0.01 * 0.02 * 0.02 * 0.02 / 12;  // bending stiffness about the weaker axis
 
 struct Found {
   StaticsReport report;
@@ -190,7 +191,8 @@ TEST_CASE("critical loads do not depend on the unit of length, nor on how the fo
 }
 
 TEST_CASE("an inverted pendulum on a spring is unstable where its weight outweighs the spring") {
-  // c against m g l: two rigid bodies joined by constraints, so that the count is on their null space.
+  // The constants are c against m g l: two rigid bodies joined by constraints, so that the count is on their null
+  // space.
   for (const double spring : {15.0, 30.0}) {
     const std::string text = fmt::format(
         "gravity: [0, 0, -9.81]\nnodes: {{tip: {{position: [0, 0, 1]}}}}\n"

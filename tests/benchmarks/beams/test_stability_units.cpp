@@ -42,8 +42,8 @@ const std::string hinge = "type: hinge, axis: [0, 1, 0]", ball = "type: spherica
 
 TEST_CASE("hanging pendulums are stable, standing ones unstable along each motion, whatever their size") {
   // The potential energy of n rods is m g l sum_k (n - k + 1/2)(1 - cos): each angle has a positive stiffness if they
-  // hang, and a negative one if they stand. Balls let each rod swing in two planes and turn about itself, which costs
-  // nothing.
+  // hang, and a negative one if they stand. Spherical joints let each rod swing in two planes and spin about itself,
+  // which costs no energy.
   for (const double l : {1.0, 1e-3, 1e3})
     for (const int count : {1, 2, 5})
       for (const std::string& joint : {hinge, ball}) {
@@ -95,7 +95,7 @@ TEST_CASE("a pendulum's verdict counts its spring, whatever its size") {
 }
 
 TEST_CASE("the verdict on a beam that a moment rolls up is the same in all units of length") {
-  // A moment about an axis fixed in space has no potential where its node turns in space (H. Ziegler, Principles of
+  // A moment about an axis fixed in space has no potential if its node turns in space (H. Ziegler, Principles of
   // Structural Stability, 1968): nothing is counted there. In its plane it has one.
   const auto rolled = [](double S, double phi, const std::string& fixed) {
     return run(fmt::format("nodes: {{a: {{fixed: true}}, b: {{position: [{0:.17g}, 0, 0], fixed: {2}}}}}\n"

@@ -1,8 +1,8 @@
 // A straight shaft under a twisting moment and a tension buckles into a helix, which hockles.
 //
 // A. G. Greenhill, Proc. Inst. Mech. Eng. 34 (1883) 182; J. M. T. Thompson, G. H. M. van der Heijden, Proc. R. Soc. A
-// 452 (1996) 3153: with w = y + i z and B = EI, B w'''' - i M w''' - T w'' = 0. Of a shaft with clamped ends that may
-// come nearer and turn about its axis, with m = M L/2B and n^2 = m^2 - T L^2/B,
+// 452 (1996) 3153: with w = y + i z and B = EI, B w'''' - i M w''' - T w'' = 0. A shaft with clamped ends that may
+// approach each other and turn about its axis satisfies, with m = M L/2B and n^2 = m^2 - T L^2/B,
 //     (m^2 - n^2) sin n = 2 n (cos n - cos m);
 // without tension tan m = m, M = 8.9868 B/L.
 #include <cmath>
@@ -36,7 +36,7 @@ StaticsReport twisted(int elements, double moment, double tension, double GJ) {
   return compute_statics(session, options);
 }
 
-/// The smallest factor by which moment and tension make it unstable.
+/// The smallest factor at which moment and tension make it unstable.
 double critical_factor(double moment, double tension) {
   const auto excess = [&](double factor) {
     const double m = factor * moment / 2, square = m * m - factor * tension;
@@ -65,7 +65,8 @@ TEST_CASE("a twisted shaft hockles at Greenhill's moment, under tension, without
                                    {20, 30, critical_factor(20, 30)},
                                    {12, -20, critical_factor(12, -20)}};
   for (const Case& each : cases)
-    for (const double GJ : {0.8, 50.0}) {  // how far it turns makes no difference: its section is round
+    for (const double GJ : {0.8, 50.0}) {  // the angle by which it turns makes no difference, since its section is
+                                           // round
       CAPTURE(each.moment, each.tension, GJ);
       std::vector<double> errors;
       for (const int elements : {12, 24, 48}) {
@@ -83,8 +84,8 @@ TEST_CASE("a twisted shaft hockles at Greenhill's moment, under tension, without
 }
 
 TEST_CASE("the branch of a shaft that is turned at its end: two motions at once, and as the root of what is too much") {
-  // Turned by its end it hockles at Greenhill's moment, at the angle M L/GJ; stiff in torsion it stays on the helix. To
-  // any side: along the circle of such helices nothing resists.
+  // Turned by its end it hockles at Greenhill's moment, at the angle M L/GJ; stiff in torsion it stays on the helix.
+  // The direction of the deflection is arbitrary: nothing resists a motion along the circle of such helices.
   struct Turned {
     StaticsReport report;
     double deflection;

@@ -1,5 +1,5 @@
-// Bristles (LuGre) and what must not matter to them: the order of a surface's triangles, and which of two shapes is
-// named first. Static analyses keep those of places that still touch.
+// Bristles (LuGre) must not depend on the order of a surface's triangles, nor on which of two shapes is named first.
+// Static analyses keep the bristles of places that still touch.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -103,7 +103,7 @@ TEST_CASE("a ball that spins where it slides does not notice which shape is name
     return (one.first - other.first).norm() + 0.1 * (one.second - other.second).norm();
   };
   CHECK(apart(", fixed: [rx, ry]", 1e-3) < 1e-9);
-  // Where it also rolls, to the second order of its turns in each step.
+  // If it also rolls, the results agree to second order in its turns in each step.
   const double coarse = apart("", 1e-3), fine = apart("", 5e-4);
   CAPTURE(coarse, fine);
   CHECK(coarse < 1e-3);

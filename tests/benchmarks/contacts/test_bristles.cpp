@@ -1,5 +1,5 @@
-// Bristles (LuGre) where shapes touch: what sticks does not creep, what slides follows the law's differential equation,
-// on its own and on parts that turn; exact derivatives, and no power out of nothing at any deflection.
+// Bristles (LuGre) in contacts: a sticking body does not creep, a sliding one follows the law's differential equation,
+// on its own and on parts that turn; derivatives are exact, and no deflection generates power.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -36,8 +36,9 @@ TEST_CASE("a block on an incline yields by the bristles and then stays for 1000 
   };
   Vector3 bent = Vector3::Zero(), settled = Vector3::Zero(), end = Vector3::Zero();
   run_contact(text, {2e-4, 2}, [&](const Session& session, const Motion&) { bent = foot(session); });
-  // Bristles bend from 0 to 3e-5 m on a way of at least -(mu/sigma_0) ln(1 - 0.3/0.5): zdot = v (1 - z sigma_0/mu)
-  // while nothing turns back. The block rocks as friction begins, and goes a few times as far before it is at rest.
+  // Bristles bend from 0 to 3e-5 m over a distance of at least -(mu/sigma_0) ln(1 - 0.3/0.5): zdot = v (1 - z
+  // sigma_0/mu) as long as the motion does not reverse. The block rocks as friction begins, and moves a few times as
+  // far before it is at rest.
   const double least = -5e-5 * std::log(0.4);
   CHECK(bent.x() > 0.99 * least);
   CHECK(bent.x() < 4 * least);
@@ -45,7 +46,7 @@ TEST_CASE("a block on an incline yields by the bristles and then stays for 1000 
     end = foot(session);
     if (session.time() < 100) settled = end;
   });
-  // Positions are found to some 1e-14 m in each of 45 000 steps; bristles drift where what they hold trembles.
+  // Positions are accurate to some 1e-14 m in each of 45 000 steps; bristles drift if the body that they hold vibrates.
   CHECK((end - settled).norm() < 1e-9);
 }
 

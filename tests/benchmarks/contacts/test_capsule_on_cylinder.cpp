@@ -1,5 +1,5 @@
 // A capsule against a cylinder: distances against a search over all places of the capsule's line, forces that stay
-// continuous from the side over the rim to the end, rest at the depth of the closed form, and no energy out of nothing.
+// continuous from the side over the rim to the end, rest at the depth of the closed form, and no generation of energy.
 #include <algorithm>
 #include <cmath>
 
@@ -44,7 +44,7 @@ PlacedShape<double> placed(const ContactShape& shape, const Vector3& x, const Ma
   return result;
 }
 
-/// Of a point from the rounded cylinder about z.
+/// Distance of a point from the rounded cylinder about z.
 double distance(const Vector3& p) {
   const double out = std::max(0.0, std::hypot(p.x(), p.y()) - (R - rounding)),
                beyond = std::max(0.0, std::abs(p.z()) - (half - rounding));
@@ -112,7 +112,7 @@ TEST_CASE("forces of a capsule on a cylinder stay continuous over side, rim and 
       const Vector3 n(std::cos(around), 0, std::sin(around));
       const PlacedShape<double> other = placed(b, Vector3(x, 0.02, z) + (rounding + r - 0.01) * n, A);
       Vector3 sum = Vector3::Zero();
-      // Steep lines go through the core, where nothing is told.
+      // Steep lines pass through the core, where no distance is defined.
       known = find_nearest_place(one, other).depth < 0.9 * (rounding + r);
       if (!known) return sum;
       find_touches(one, other, law, found);
@@ -181,5 +181,5 @@ TEST_CASE("a rod that tumbles over a cylinder without friction keeps its energy"
                 touched = touched || session.read("contacts/it/state")[0] > 0;
               });
   CHECK(touched);
-  CHECK(worst < 1e-4 * 4);  // of some 4 J
+  CHECK(worst < 1e-4 * 4);  // energies are some 4 J
 }

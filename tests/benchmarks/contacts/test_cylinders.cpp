@@ -58,7 +58,8 @@ TEST_CASE("a cylinder rolls down a ramp of a box, or slides on it, as closed for
 }
 
 TEST_CASE("cylinders stand on a box and on each other at the depths of their weights") {
-  // Damped: they come to rest. Each end that stands is one place, on a box; between two, the ends of both.
+  // Damped: they come to rest. Each standing end is one place on a box; between two cylinders there are the places of
+  // both ends.
   const double m = 1.5;
   const std::string text = contact_model(
       {{"low", "position: [0, 0, 0.1]", m, {0.01, 0.01, 0.01}},
@@ -132,9 +133,9 @@ TEST_CASE("cylinders that fly into each other and into boxes keep energy and mom
       if (session.read("contacts/it/state")[0] > 0) ++touches;
     });
     CHECK(touches > 5);
-    CHECK(worst < 2e-4 * 2);  // of some 2 J
+    CHECK(worst < 2e-4 * 2);  // energies are some 2 J
     CHECK(drift < 1e-9);
-    CHECK(turned < 1e-5);  // of the steps
+    CHECK(turned < 1e-5);  // error of the steps
   }
 }
 

@@ -1,4 +1,4 @@
-// Shapes that are deep within each other: no force is right there, so that the run ends and says where.
+// Shapes that are deep within each other: no force is correct there, so that the run ends and names the place.
 #include <fstream>
 
 #include <catch2/catch.hpp>
@@ -13,7 +13,8 @@ using Catch::Contains;
 
 namespace {
 
-/// What the run of one body `b` against a shape of the ground ends with. @param node  of the body, in its braces
+/// Returns the message with which the run of one body `b` against a shape of the ground ends. @param node  keys of the
+/// body's node, in braces
 std::string end_of(const std::string& node, const std::string& shape, const std::string& of_ground,
                    const std::string& law = "stiffness: 1e5") {
   const std::string text = contact_model(
@@ -128,7 +129,7 @@ TEST_CASE("what has gone through a plane with its middle ends the run, whatever 
     CHECK_THAT(says, Contains("contact 'it' at t = 2.06 s") && Contains("has gone through plane on 'ground'") &&
                          Contains("with its middle, which is 0.0005 m behind it; make the contact stiffer"));
   }
-  // So it does where the plane moves, and the middle of a shape is not its node.
+  // The run also ends if the plane moves, and if the middle of a shape is not its node.
   const std::string moved =
       end_of("position: [0, 0, 0.5], motion: {z: '-0.1*t'}", "sphere: 0.1, at: [0, 0, -0.2945]", "plane: [0, 0, 1]");
   CHECK_THAT(moved, Contains("at t = 2.06 s") && Contains("sphere on 'b' has gone through"));

@@ -1,5 +1,5 @@
-// A door that is thrown against its stop, with friction in its hinge, against its own equation of motion: the stop a
-// rubber ball on the wall that its leaf runs into, or an end of the hinge.
+// A door that is thrown against its stop, with friction in its hinge, against its own equation of motion: the stop is a
+// rubber ball on the wall, or an end of the hinge.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -28,7 +28,7 @@ struct Push {
 
 Push of_ball(double angle, double rate) {
   const double c = std::cos(angle), s = std::sin(angle);
-  const double x = c * ball_x + s * ball_y, y = -s * ball_x + c * ball_y;  // of the ball in the leaf's axes
+  const double x = c * ball_x + s * ball_y, y = -s * ball_x + c * ball_y;  // coordinates of the ball in the leaf's axes
   const double p = half_thickness + ball - y;
   if (p <= 0) return {};
   const double N = k * std::pow(p, 1.5) * std::max(0.0, 1 + d * x * rate);
@@ -42,7 +42,7 @@ Push of_hinge(double angle, double rate) {
   return {0, 0, p > 0 ? -std::max(0.0, stop_k * p + stop_d * rate) : 0};
 }
 
-/// The hinge bears what is left of force: its friction follows the acceleration that it slows.
+/// The hinge carries the rest of the force: its friction depends on the acceleration that it slows.
 Two rate_of(const Two& z, bool on_ball) {
   const Push push = on_ball ? of_ball(z[0], z[1]) : of_hinge(z[0], z[1]);
   double acceleration = 0;

@@ -116,7 +116,7 @@ TEST_CASE("Newton's cradle of five balls moves as its differential equation") {
       for (int k = 0; k < 5; ++k)
         largest = std::max(largest, std::abs(session.node(fmt::format("b{}", k)).v.x() - z[5 + k]));
     });
-    CHECK(largest < 2e-4);  // of 1 m/s; an impact takes some 100 steps
+    CHECK(largest < 2e-4);  // relative to 1 m/s; an impact takes some 100 steps
     CHECK(z[9] > 0.8);      // the last ball has flown off
   }
 }
@@ -181,12 +181,12 @@ TEST_CASE("adaptive steps shorten for an impact and lengthen after it, and the b
   CHECK(within < 1e-4);
   CHECK(after > 0.01);
   CHECK_THAT(speed, Catch::WithinRel(0.8 * std::sqrt(2 * 9.81), 2e-3));
-  CHECK(missing < 1e-2);  // of 9.8 J
+  CHECK(missing < 1e-2);  // relative to 9.8 J
 }
 
 TEST_CASE("nothing passes through a thin plate within one step") {
-  // A ball of 2 cm, 50 m/s: 50 cm in a step of 0.01 s, against a plate of 1 mm.
-  // Wherever steps end: before it, in it, behind it.
+  // A ball of 2 cm, 50 m/s: 50 cm in a step of 0.01 s, against a plate of 1 mm. The result must not depend on where
+  // steps end: before it, in it, behind it.
   for (const double start : {0.3, 0.21, 0.203, 0.2, 0.185, 0.05})
     for (const char* plate : {"box: [1, 1, 0.001]", "box: [1, 1, 0.001], rotation_vector: [0.3, 0, 0]"})
       for (const double tolerance : {0.0, 1e-6}) {

@@ -1,4 +1,4 @@
-// What comes to rest on others: penetration and forces in closed form, boxes that tumble to rest on a face.
+// Bodies at rest on others: penetration and forces in closed form, boxes that tumble to rest on a face.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -82,7 +82,7 @@ TEST_CASE("a box that tumbles on a plane loses energy at every impact, and comes
     height = box.x.z();
     upright = box.R.row(2).cwiseAbs().maxCoeff();
   });
-  CHECK(grown < 1e-3);  // of 4.9 J: the error of the steps in an impact
+  CHECK(grown < 1e-3);  // relative to 4.9 J, the error of the steps in an impact
   CHECK(missing < 2e-2);
   CHECK(speed < 1e-3);
   CHECK(spin < 1e-2);

@@ -1,7 +1,7 @@
 // Friction of contacts: balls that roll and slip, blocks that creep and slide, floors of triangles.
 //
 // A ball on an incline of angle a rolls with 5/7 g sin(a) as long as tan(a) < 7/2 mu, and slips with g (sin(a) - mu
-// cos(a)) beyond. Regularised friction lets what sticks creep: a force of f mu N at the speed v_0 atanh(f).
+// cos(a)) beyond. With regularised friction a sticking body creeps: a force of f mu N at the speed v_0 atanh(f).
 #include <cmath>
 #include <cstdint>
 #include <fstream>

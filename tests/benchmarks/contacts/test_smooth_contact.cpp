@@ -38,7 +38,7 @@ TEST_CASE("Painleve's rod runs through with compliant contact, as its own equati
   // A slender rod slides on its lower end. With rigid contact the normal force would be (..)/A,
   //   A = 1 + 3 cos(a) (cos(a) - mu sin(a))   (times 1/m),
   // negative at tan(a) = 2 for mu > 4/3: no motion fits (F. Genot, B. Brogliato, Eur. J. Mech. A/Solids 18 (1999)
-  // 653-677). Compliant, the end digs in until it stops sliding, and is thrown off.
+  // 653-677). With compliance, the end digs in until it stops sliding, and is thrown off.
   constexpr double mu = 2, half = 0.5, r = 0.01, k = 1e7, d = 0.05, v_0 = 0.01, g = 9.81, J = 1. / 12;
   const double a = std::atan(2.0);
   REQUIRE(1 + 3 * std::cos(a) * (std::cos(a) - mu * std::sin(a)) < 0);
@@ -62,7 +62,7 @@ TEST_CASE("Painleve's rod runs through with compliant contact, as its own equati
     return change;
   };
   Six z;
-  // Sliding towards where the rod leans from: the end moves along -x relative to its lean? Both run the same way here.
+  // The rod leans towards +x from its lower end, which slides along -x.
   z << 0, half * std::sin(a) + r, a, -1, 0, 0;
   const Six start = z;
   const std::string text = contact_model(

@@ -1,5 +1,5 @@
-// Boxes, cylinders, capsules and planes on surfaces of triangles: as on planes and balls where these are meant, and by
-// closed forms.
+// Boxes, cylinders, capsules and planes on surfaces of triangles: compared with planes and balls of the same shape, and
+// with closed forms.
 #include <algorithm>
 #include <cmath>
 
@@ -143,7 +143,7 @@ TEST_CASE("a box that tumbles over a block of triangles keeps its energy without
       if (session.read("contacts/it/state")[0] > 0) ++touches;
     });
     CHECK(touches > 5);
-    CHECK(worst < 1e-4 * 4);  // of some 4 J
+    CHECK(worst < 1e-4 * 4);  // energies are some 4 J
   }
 }
 
@@ -170,7 +170,8 @@ TEST_CASE("what is drawn through a surface, or within it, is told with its names
 }
 
 TEST_CASE("what falls on a floor of triangles in adaptive steps meets it as it meets a plane") {
-  // In free flight steps are as long as they like: some would end deep within the floor, where it is felt no more.
+  // In free flight the length of steps is not limited: some would end deep within the floor, where there is no contact
+  // force.
   const TemporaryFolder folder;
   write_triangles(folder.path() + "/floor.stl", floor_of_triangles(2, 6));
   for (const char* shape : {"cylinder: [0.1, 0.3]", "box: [0.2, 0.2, 0.3]", "capsule: [0.1, 0.1]"}) {

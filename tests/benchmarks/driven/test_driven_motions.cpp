@@ -1,4 +1,4 @@
-// Kinematics and inverse dynamics of rigid machines: dwells, events, and what is said of motions that are not driven.
+// Kinematics and inverse dynamics of rigid machines: dwells, events, and messages about motions that are not driven.
 #include <cmath>
 #include <fstream>
 #include <string>

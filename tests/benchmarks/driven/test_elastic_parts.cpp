@@ -1,5 +1,5 @@
-// Inverse dynamics of machines whose parts bend: closed forms of a slender arm, the energy that drives put in, and the
-// limit of rigid parts.
+// Inverse dynamics of machines whose parts bend: closed forms of a slender arm, the work of the drives, and the limit
+// of rigid parts.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -49,7 +49,8 @@ TEST_CASE("the strip lags behind its drive by the deflection under its own inert
   // 16 elements of linear rotations: (1/16)^2/2 of the curvature's variation; shear gives (t/L)^2.
   CHECK(session.node("tip").x[1] == Approx(deflection).epsilon(3e-3));
   CHECK(session.read("joints/shaft/drive_force")[0] == Approx(per_length * a * std::pow(length, 3) / 3).epsilon(1e-3));
-  // (w/w_1)^2 with the first natural frequency 3.516 sqrt(EI/mu L^4): what the deformation's own acceleration adds.
+  // (w/w_1)^2 with the first natural frequency 3.516 sqrt(EI/mu L^4) is the effect of the deformation's own
+  // acceleration.
   const double first = 3.516 * std::sqrt(EI / per_length);
   CHECK(report.left_out > 0);
   CHECK(report.left_out < 2 * std::pow(w / first, 2));
@@ -101,8 +102,8 @@ TEST_CASE("a mass on a radial spring turns at the radius to which the centrifuga
 }
 
 TEST_CASE("a mass on a radial spring of a shaft that starts up is pressed by what Coriolis leaves of its deformation") {
-  // phi = a t^2/2. With the deformation's own rates left out, k e = m w^2 (r + e) and the torque is m (r + e)^2 a, w =
-  // a t: at the radius that the mass has.
+  // phi = a t^2/2. Without the deformation's own rates, k e = m w^2 (r + e), and the torque is m (r + e)^2 a, w = a t,
+  // at the radius of the mass.
   const double m = 2, k = 5e3, r = 0.5, a = 8;
   const MechanismFile file = read_mechanism_text(
       fmt::format("nodes:\n  r: {{motion: {{x: 0, y: 0, z: 0, rx: 0, ry: 0, rz: \"0.5*{}*t^2\"}}}}\n"
@@ -141,12 +142,12 @@ TEST_CASE("the drives of a delta robot with elastic arms do the work that its en
   double missing = 0, missing_stiff = 0, exchanged = 0;
   const std::vector<double> elastic = run(1, missing, exchanged), stiff = run(1e4, missing_stiff, exchanged);
   CHECK(exchanged > 1);
-  // The trapezoidal rule leaves (h w)^2/12 or 5e-4 of what is exchanged, and elastic arms what is left out.
+  // The trapezoidal rule leaves (h w)^2/12 or 5e-4 of the exchanged energy; elastic arms leave the neglected terms.
   CHECK(missing_stiff < 1e-3 * exchanged);
   CHECK(missing < 2e-3 * exchanged);
   REQUIRE(elastic.size() == stiff.size());
   for (std::size_t k = 0; k < stiff.size(); ++k) CHECK(elastic[k] == Approx(stiff[k]).margin(0.01));
-  // Held at rest, by statics: sum over what hangs on one arm, see delta_robot.hpp.
+  // The torque at rest follows from statics: the sum over the loads of one arm, see delta_robot.hpp.
   CHECK(stiff.front() == Approx(bielle::test::delta_torque_at_rest()).epsilon(1e-6));
 }
 

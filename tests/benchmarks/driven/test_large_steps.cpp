@@ -1,4 +1,4 @@
-// Kinematics with steps that are large against the way between two branches of a mechanism.
+// Kinematics with steps that are large compared with the distance of two branches of a mechanism.
 #include <cmath>
 #include <string>
 

@@ -1,5 +1,5 @@
-// Inverse dynamics of machines whose tool follows a prescribed way: the torques and forces of joints that bring it
-// about, against closed forms and against the same motion made by drives.
+// Inverse dynamics of machines whose tool follows a prescribed path: the torques and forces of joints that cause it,
+// against closed forms and against the same motion made by drives.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -176,7 +176,7 @@ TEST_CASE("the force that moves a mass through a spring is found, and so is wher
     missing = std::max(missing, std::abs(at.balance()));
   });
   compute_kinematics(session, {.duration = 1, .step = 0.01, .elastic = true});
-  // Left out is the power of the spring's force along what inertia makes of its length; the rest is the trapezoidal
+  // The error is the power of the spring's force along the change of its length by inertia; the rest is the trapezoidal
   // rule's (h w)^2/12.
   const double by_inertia = 2 * mb * A * w * w / k, kinetic = 0.5 * (ma + mb) * A * A * w * w;
   CHECK(missing < by_inertia * mb * (A * w * w + g) + std::pow(0.01 * w, 2) / 12 * kinetic);
@@ -312,7 +312,8 @@ TEST_CASE("efforts that cannot be sought are refused, with the reason") {
   CHECK_THAT(refusal(arm.model(moved, sought_arm, ", locked: {to: 1}")), Contains("leaves no effort to be sought"));
   CHECK_THAT(refusal(arm.model(moved, std::string(sought_arm) + "  more: {joint: elbow, angle: 0}\n")),
              Contains("driven by 'elbow' already"));
-  // A hinge of what is held moves nothing, and a wheel that is geared to the shoulder nothing else than the shoulder.
+  // A hinge on a held part moves nothing, and a wheel that is geared to the shoulder moves nothing besides the
+  // shoulder.
   const auto with = [&](const std::string& node, const std::string& joints, const std::string& second) {
     std::string text = arm.model(moved, fmt::format("drives:\n  s: {{joint: shoulder, torque: sought}}\n"
                                                     "  e: {{joint: {}, torque: sought}}\n",

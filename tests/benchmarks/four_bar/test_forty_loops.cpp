@@ -1,4 +1,4 @@
-// The N-loop four-bar (loops.hpp) in the size of the library: forty loops, 81 bars, 600 constraints, of which many are
+// The N-loop four-bar (loops.hpp) in the size of the library: forty loops, 81 bars, 600 constraints, many of which are
 // redundant.
 #include "tests/benchmarks/four_bar/loops.hpp"
 

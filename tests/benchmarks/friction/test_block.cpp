@@ -1,4 +1,4 @@
-// A block on an incline: it sticks below the angle of friction and slides by the closed form above it, by each law.
+// A block on an incline: it sticks below the angle of friction and slides by the closed form above it, with each law.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -39,7 +39,7 @@ TEST_CASE("below the angle of friction a block sticks truly, or creeps as docume
     CHECK_THAT(read(session, "friction"), WithinRel(-pull, 1e-12));
     CHECK(read(session, "sticks") == 1);
   });
-  // Bristles: N sigma_0 z = pull; they stay for a thousand seconds where they are after one.
+  // Bristles: N sigma_0 z = pull; after one second they do not move for a thousand seconds.
   double early = 0;
   move_to(block(bristles + "coefficient: 0.25"), 1e-3, 1,
           [&](const Session& session) { early = read(session, "coordinate"); });
@@ -96,9 +96,9 @@ TEST_CASE("a block that is thrown uphill comes to rest and stays, or slides back
   });
 }
 
-// Bristles bend by dz = dx (1 - z/z_s) on the way down and straighten by dz = dx (1 + z/z_s), z > 0, on the way up:
-// known of the law (P. Dupont et al., IEEE Trans. Automatic Control 47 (2002) 787-792). A slow force between f_1 and
-// f_2 of what would make it slip moves the block in each period by
+// Bristles bend by dz = dx (1 - z/z_s) on the way down and straighten by dz = dx (1 + z/z_s), z > 0, on the way up, a
+// known property of the law (P. Dupont et al., IEEE Trans. Automatic Control 47 (2002) 787-792). A slow force between
+// the fractions f_1 and f_2 of the slip force moves the block in each period by
 //     z_s [ln((1 - f_1)/(1 - f_2)) - ln((1 + f_2)/(1 + f_1))].
 TEST_CASE("a force that swings moves bristles by the drift of their law, and no block that sticks by Coulomb's") {
   const double mu = 0.29, swing = 1.5 / std::cos(angle), f_1 = (pull - swing) / (mu * N),

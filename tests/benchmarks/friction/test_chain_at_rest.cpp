@@ -1,7 +1,7 @@
 // A chain of hinges with bristles (LuGre) that hangs off the vertical: friction holds it for a thousand seconds. The
-// bristles yield once, then nothing creeps. With f_j the share of mu N_j r that the weight below hinge j asks for, a
-// bristle goes from 0 to f mu/sigma_0 on a way of -(mu/sigma_0) ln(1 - f) if nothing turns back, and on some times as
-// much if the links rock as friction begins.
+// bristles yield once, then nothing creeps. With f_j the share of mu N_j r that the weight below hinge j requires, a
+// bristle goes from 0 to f mu/sigma_0 over a distance of -(mu/sigma_0) ln(1 - f) if the motion does not reverse, and
+// over a few times as much if the links rock as friction begins.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -43,7 +43,7 @@ std::string chain() {
   return "gravity: [0, 0, -9.81]\n" + nodes + elements + joints;
 }
 
-/// The share of what friction of a hinge can bear that the weight below it asks for.
+/// The share of the friction capacity of a hinge that the weight below it requires.
 double share(int joint) {
   double moment = 0, arm = 0;
   for (int k = joint; k < links; ++k) {

@@ -1,8 +1,8 @@
 // A four-bar linkage whose four hinges are `stick_slip`, in space: its constraints repeat each other, so that reactions
 // are those of smallest norm, and more joints stick than it has degrees of freedom. Each hinge passes dead centres of
-// its own, where it comes to rest while the rest of the loop moves on; at reversals of the linkage all come to rest at
-// once; at last all stick. Thin bars of 1 kg/m as in tests/support/four_bar.hpp, released at rest. The reference is the
-// equation of the crank's angle,
+// its own, at which it comes to rest while the rest of the loop moves on; at reversals of the linkage all come to rest
+// at once; finally all stick. Thin bars of 1 kg/m as in tests/support/four_bar.hpp, released at rest. The reference is
+// the equation of the crank's angle,
 //     m_i a_i = sum F + m_i g,   I_i alpha_i = sum (r x F)_z -+ s_j mu r |F_j|,   a_i, alpha_i linear in the crank's,
 // integrated from one change of a sign s_j of the relative rates to the next, which are located to rounding.
 #include <algorithm>
@@ -82,7 +82,7 @@ double acceleration(const Crank& z, const Signs& s) {
   gamma[1] = swing(0, 1, alpha[0], rate[0] * rate[0]) + swing(1, 0.5, alpha[1], rate[1] * rate[1]);
   delta[1] = swing(0, 1, beta[0], 0) + swing(1, 0.5, beta[1], 0);
   // Unknown: alpha_crank; forces on the second body of a, b, c, d: ground-crank, crank-coupler, coupler-rocker,
-  // ground-rocker. Where the bars' first and last pins lead: crank a b, coupler b c, rocker d c.
+  // ground-rocker. Joints at the bars' first and last pins: crank a b, coupler b c, rocker d c.
   constexpr int first[3] = {0, 1, 3}, last[3] = {1, 2, 2};
   constexpr double first_sign[3] = {1, 1, 1}, last_sign[3] = {-1, -1, 1};
   Eigen::Matrix<double, 9, 9> A = Eigen::Matrix<double, 9, 9>::Zero();

@@ -1,5 +1,5 @@
-// A hundred hinges that stick and slip by Coulomb's law itself: a hanging chain that swings until all of it sticks,
-// with its energy balance, and where it may have come to rest.
+// A hundred hinges with Coulomb's law: a hanging chain that swings until all of it sticks, with its energy balance, and
+// the positions in which it may come to rest.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -56,10 +56,10 @@ TEST_CASE("a hanging chain of a hundred hinges that stick and slip comes to rest
   INFO(motion.log().steps << " steps, " << motion.log().crossings << " events, at rest after " << rest << " s");
   CHECK(motion.log().crossings > 100);
   CHECK(rest < options.duration - 0.1);
-  // An event that changes the algorithmic velocities by what they are corrected has lost nothing by that.
+  // An event that changes the algorithmic velocities by their correction must not book this as a loss.
   CHECK(worst < 1e-5 * begun);
   CHECK(taken_back < 1e-5 * begun);
-  // What hangs below a hinge asks it for no more than it can bear: mu times the weight below, on its radius.
+  // The parts below a hinge require no more friction than it can carry: mu times the weight below, on its radius.
   double x = 0;
   std::vector<double> at(links), joint(links);
   for (int k = 0; k < links; ++k) {

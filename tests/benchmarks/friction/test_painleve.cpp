@@ -1,10 +1,10 @@
 // A rod that is dragged over a rough plane on its end, with the rigid contact of a point on a plane: below Painleve's
-// limit the normal force is the closed form, beyond it the run says that there is none.
+// limit the normal force is the closed form; beyond it the run reports that there is no solution.
 //
 // Uniform rod of half length l, inclined by tan(theta) = 2, its end sliding away from its middle:
 //     N [1/m + l^2 cos(theta) (cos(theta) - mu sin(theta))/J] = g,   J = m l^2/3,
-// in brackets zero at mu = 4/3, the least value for which a uniform rod meets the paradox at any inclination.
-// P. Painleve, C. R. Acad. Sci. Paris 121 (1895) 112-115; F. Genot, B. Brogliato, Eur. J. Mech. A/Solids 18 (1999) 653.
+// the bracket is zero at mu = 4/3, the least value for which a uniform rod meets the paradox at any inclination. P.
+// Painleve, C. R. Acad. Sci. Paris 121 (1895) 112-115; F. Genot, B. Brogliato, Eur. J. Mech. A/Solids 18 (1999) 653.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -22,7 +22,7 @@ namespace {
 constexpr double m = 1.3, l = 0.7, g = 9.81, J = m * l * l / 3;
 const double c = 1 / std::sqrt(5), s = 2 / std::sqrt(5);
 
-/// @param velocity  of the rod along x [m/s]
+/// @param velocity  velocity of the rod along x [m/s]
 std::string rod(double mu, double velocity) {
   return fmt::format(R"yaml(
 gravity: [0, 0, -9.81]

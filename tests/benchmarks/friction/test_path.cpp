@@ -1,4 +1,4 @@
-// Friction along a path: what presses is the reaction normal to it.
+// Friction along a path: the normal force is the reaction normal to it.
 #include <cmath>
 #include <fstream>
 
@@ -51,7 +51,7 @@ TEST_CASE("on a straight wire a bead slides and sticks as a block on an incline"
     CHECK_THAT(read(session, "normal_force"), WithinRel(N, 1e-9));
     CHECK_THAT(session.balance(), WithinAbs(0, 1e-8));
   });
-  // Bristles: N sigma_0 z bears the slope.
+  // Bristles: N sigma_0 z balances the slope.
   move_to(
       bead(line, false, at, "model: lugre, bristle_stiffness: 2e4, bristle_damping: 300, coefficient: 0.25", gravity),
       1e-3, 20, [&](const Session& session) {
@@ -120,7 +120,7 @@ TEST_CASE("a bead on a curve in space follows its equation of motion") {
   };
   const double coarse = error_of(1e-3), fine = error_of(5e-4);
   CHECK_THAT(coarse / fine, WithinAbs(4, 0.2));
-  CHECK_THAT(fine - (coarse - fine) / 3, WithinAbs(0, 1e-7));  // what is left of order 2 taken out
+  CHECK_THAT(fine - (coarse - fine) / 3, WithinAbs(0, 1e-7));  // the error of order 2 is removed by extrapolation
 }
 
 TEST_CASE("a slider on a stiff beam slides and sticks as a block on an incline") {
@@ -144,7 +144,7 @@ TEST_CASE("a slider on a stiff beam slides and sticks as a block on an incline")
     CAPTURE(model);
     // It crosses from element to element; the rail bends by 1e-9 of its length.
     move_to(slider(fmt::format("{}, coefficient: 0.15", model)), 1e-3, 1.5, [&](const Session& session) {
-      // Bristles give way by mu/sigma_0 first, and their damping takes an impulse N sigma_1 mu/sigma_0.
+      // Bristles yield by mu/sigma_0 first, and their damping takes an impulse N sigma_1 mu/sigma_0.
       CHECK_THAT(read(session, "rate"),
                  WithinAbs(1.5 * a, std::string(model) == "model: stick_slip" ? 1e-6 : N / 2 * 3000 * 0.15 / 2e5));
       CHECK_THAT(read(session, "normal_force"), WithinRel(N, 1e-4));

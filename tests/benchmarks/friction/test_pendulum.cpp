@@ -1,7 +1,8 @@
-// A pendulum whose bearing rubs by its own reaction, against its equation for the angle, integrated piece by piece:
+// A pendulum with friction in its bearing by its own reaction, against its equation for the angle, integrated piece by
+// piece:
 //
 //     (I + m l^2) th'' = -m g l cos(th) - mu r |F| sign(th'),   F = m l (th'' e_t - th'^2 e_r) + m g e_y
-// from one reversal to the next. It stays where m g l |cos(th)| <= mu_s r m g.
+// from one reversal to the next. It rests if m g l |cos(th)| <= mu_s r m g.
 #include <cmath>
 #include <vector>
 
@@ -19,7 +20,7 @@ namespace test_pendulum {
 namespace {
 
 constexpr double m = 2, I = 0.05, l = 0.8, g = 9.81, mu = 0.3, mu_s = 0.4, r = 0.15;
-constexpr double start = -0.3;  // of the angle, from the horizontal
+constexpr double start = -0.3;  // initial angle from the horizontal
 
 std::string pendulum() {
   return fmt::format(R"yaml(
@@ -94,7 +95,7 @@ TEST_CASE("a pendulum with a rubbing bearing swings as its equation, to the seco
   CHECK(std::log2(std::abs(coarse / middle)) == Approx(2).margin(0.1));
   CHECK(std::log2(std::abs(middle / fine)) == Approx(2).margin(0.1));
   CHECK(std::abs((4 * fine - middle) / 3) < 0.1 * std::abs(fine));
-  // Where it stays depends on every swing before.
+  // The final position depends on every swing before.
   const double rest = reference(100);
   CHECK(std::abs(std::cos(rest)) * l <= mu_s * r);
   CHECK_THAT(angle(2e-3, 30), WithinAbs(rest, 1e-4));

@@ -1,8 +1,8 @@
-// Friction that follows reactions which are not unique: it reads those of smallest norm, and accelerations are found
-// where motions start and after events, however nearly constraints repeat each other.
+// Friction by reactions that are not unique: it uses those of smallest norm, and accelerations are found at the start
+// of motions and after events, however nearly redundant constraints are.
 //
-// Two guides side by side bear a block alike. A leg of planar hinges, closed in space, has one hinge that holds nothing
-// which the others do not hold: with a cylindrical joint in its place it moves the same.
+// Two guides side by side share the load of a block equally. A leg of planar hinges, closed in space, has one hinge
+// with only redundant constraints: with a cylindrical joint in its place it moves in the same way.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -33,7 +33,8 @@ joints:
   return -session.node("block").a.x();
 }
 
-/// A wheel on a leg that drops onto the ground at speed. @param brace  the type of the joint that may repeat others
+/// A wheel on a leg that drops onto the ground at speed. @param brace  type of the joint whose constraints may be
+/// redundant
 std::string leg(const std::string& brace) {
   return fmt::format(R"yaml(
 gravity: [0, 0, -9.81]

@@ -1,5 +1,5 @@
-// Joints that stick, together with what else acts in them: drives, locks, other sticking joints, statics, start rates,
-// axes that turn. Each against a closed form.
+// Joints that stick, together with other parts that act in them: drives, locks, other sticking joints, statics, start
+// rates, axes that turn. Each is compared with a closed form.
 #include <algorithm>
 #include <cmath>
 
@@ -51,7 +51,7 @@ TEST_CASE("a drive moves a joint that sticks, through every reversal") {
     const double wrong = read(session, "drive_force") - (-3 * m * std::sin(3 * t) + std::copysign(mu * m * g, v));
     longest = std::max(longest, std::abs(wrong));
   });
-  CHECK(longest < 2e-2);  // of 6 N and 3.9 N, with steps of 0.01
+  CHECK(longest < 2e-2);  // relative to 6 N and 3.9 N, with steps of 0.01
   // Rest, then a motion: the drive's constraint holds the joint, not its friction.
   move(block("", "drives: {d: {joint: slide, displacement: \"if(t < 0.5, 0, (t - 0.5)^2)\"}}\n"), 1e-2, 1,
        [&](const Session& session) {
@@ -76,7 +76,7 @@ loads: {push: {node: block, force: ["4*t", 0, 0]}}
     if (t < slips - 1e-9)
       CHECK_THAT(x, WithinAbs(0, 1e-12));
     else
-      // 1e-4 is what the scheme's own error of h^2 makes of a force that grows: h^2 (t - slips) 4/m in all.
+      // 1e-4 comes from the scheme's own error of h^2 for a force that grows: h^2 (t - slips) 4/m in all.
       CHECK_THAT(x, WithinAbs(std::pow(t - slips, 3) * 4 / (6 * m), 1e-4 * 4 / m * (t - slips) + 1e-9));
   });
 }
@@ -93,7 +93,7 @@ joints:
   between: {type: prismatic, nodes: [a, b], axis: [1, 0, 0], friction: {model: stick_slip, coefficient: 0.3}}
 loads: {push: {node: b, force: ["12*sin(3*t)", 0, 0]}}
 )yaml";
-  // The upper one gives no more than 2.9 N, the ground holds 5.9 N, whatever pushes.
+  // The upper joint carries at most 2.9 N, the ground 5.9 N, whatever the push.
   double upper = 0;
   move(stack, 1e-2, 3, [&](const Session& session) {
     CHECK_THAT(read(session, "coordinate", "below"), WithinAbs(0, 1e-12));
@@ -157,7 +157,7 @@ TEST_CASE("friction takes no part in statics, and a motion after it begins anew"
 TEST_CASE("a joint that starts with a rate slips, and one that a drive takes along sticks") {
   move_to(block(", start_rate: 1"), 1e-2, 0.3,
           [](const Session& session) { CHECK_THAT(read(session, "rate"), WithinRel(1 - mu * g * 0.3, 1e-9)); });
-  // The file says nothing of velocities: the drive makes that of the belt, and the block stays behind.
+  // The file gives no velocities: the drive sets that of the belt, and the block stays behind.
   const std::string belt = R"yaml(
 gravity: [0, 0, -9.81]
 nodes: {belt: {position: [0, 0, 0]}, block: {position: [0, 0, 0]}}

@@ -1,4 +1,4 @@
-// A screw that locks itself, and a chain that is pulled over guides as a rope over a drum.
+// A self-locking screw, and a chain that is pulled over guides like a rope over a drum.
 #include <cmath>
 
 #include <Eigen/Dense>

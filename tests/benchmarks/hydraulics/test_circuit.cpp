@@ -1,5 +1,5 @@
-// Circuits: what closed ones keep (mass, energy), volumes that cavitate or hold air, and starts that follow from the
-// load.
+// Circuits: quantities that closed circuits conserve (mass, energy), volumes that cavitate or contain air, and starts
+// that follow from the load.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -13,8 +13,8 @@ using namespace bielle::test;
 
 namespace {
 
-/// A mass of 500 kg above the ground, lifted and lowered by a cylinder in a circuit that nothing leaves: a machine on a
-/// flywheel pumps from one chamber to the other, past an accumulator, a check valve and a leaking piston.
+/// A mass of 500 kg above the ground, lifted and lowered by a cylinder in a closed circuit: a machine on a flywheel
+/// pumps from one chamber to the other, past an accumulator, a check valve and a leaking piston.
 std::string closed_circuit(const std::string& conserves) {
   return R"yaml(
 gravity: [0, 0, -9.81]
@@ -44,8 +44,8 @@ hydraulics:
 
 struct Kept {
   double fluid;   ///< W of both volumes, largest change relative to what there is
-  double energy;  ///< what is missing at the end [J]
-  double moved;   ///< that the mass went [m]
+  double energy;  ///< error of the energy at the end [J]
+  double moved;   ///< distance that the mass moved [m]
 };
 Kept run_closed(const std::string& conserves, double h) {
   Kept kept{0, 0, 0};
@@ -66,7 +66,8 @@ TEST_CASE("a closed circuit keeps its mass to rounding where flows conserve mass
   const Kept kept = run_closed("mass", 1e-3);
   CHECK(kept.fluid < 1e-13);
   CHECK(kept.moved > 0.01);
-  // The textbook's law keeps volumes, each at its own pressure: mass comes and goes with pressures over B.
+  // The textbook's law conserves volumes, each at its own pressure: mass appears and vanishes in proportion to
+  // pressures over B.
   CHECK(run_closed("volume", 1e-3).fluid > 1e-7);
 }
 
@@ -76,7 +77,7 @@ TEST_CASE("energy balances in a closed circuit: what is missing falls with the s
     const double coarse = run_closed(conserves, 1e-3).energy, fine = run_closed(conserves, 5e-4).energy;
     INFO("missing " << coarse << " and " << fine << " J");
     CHECK(std::abs(fine) < 0.35 * std::abs(coarse));
-    CHECK(std::abs(fine) < 0.1);  // of some 400 J that the flywheel has
+    CHECK(std::abs(fine) < 0.1);  // relative to some 400 J of the flywheel
   }
 }
 
@@ -94,7 +95,7 @@ TEST_CASE("the fluid: volumes, modulus and work by their closed forms") {
       for (const double p : {1e-3, 30., 2e3, 9e4, 2e5, 3e7}) {
         CAPTURE(air, exponent, p);
         const double e = 1e-5 * p;
-        // The inverse, from anywhere.
+        // The inverse converges from any guess.
         for (const double guess : {-1., 1e5, 4e7})
           CHECK(fluid.pressure_of(fluid.ratio(p).v, guess) == Approx(p).epsilon(1e-12).margin(1e-6));
         // v is the slope of the work, and v' its own.

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double p_a = 101325, g = 9.81;
 
-/// A mass along z, on a cylinder. @param cylinder  its keys; @param position  of the mass [m]
+/// A mass along z, on a cylinder. @param cylinder  keys of the cylinder; @param position  position of the mass [m]
 std::string lifted(double mass, double position, const std::string& cylinder, const std::string& more = "",
                    double gravity = g) {
   return fmt::format(
@@ -117,7 +117,7 @@ TEST_CASE("a telescopic cylinder extends stage after stage, each with its speed 
     CAPTURE(t, l);
     CHECK(number(session, "elements/jack/rate") == Approx(v).epsilon(2e-3));
     CHECK(number(session, "elements/jack/pressure") - p_a == Approx((m * g + c * v) / A).epsilon(2e-3));
-    // What was pumped has its space, but for what pressure takes.
+    // The pumped fluid occupies its volume, less its compression.
     const double space = first ? 4e-3 * (l - 1) : 4e-3 * 0.3 + 2e-3 * (l - 1.3);
     CHECK(space == Approx(Q * (t - 0.25)).epsilon(4e-3));
   });
@@ -227,13 +227,13 @@ TEST_CASE("a cavity is filled in the time that its pump takes for its space") {
         filled = session.time();
     });
     CAPTURE(conserves);
-    // The vapour of 1000 Pa that is left counts for nothing; fluid under an atmosphere less takes 1e-4 of its volume.
+    // The remaining vapour of 1000 Pa is negligible; fluid at one atmosphere less occupies 1e-4 more of its volume.
     CHECK(filled == Approx(5.2).margin(0.03));
   }
 }
 
 TEST_CASE("an actuator without a given pressure holds its load through statics and the motion after it") {
-  // Two analyses: the mass settles on its oil, then it moves on from there without a jerk.
+  // Two analyses: the mass settles on its oil, then moves on from there without a jerk.
   const std::string text = lifted(500, 1.2,
                                   "piston_areas: [2e-3, 1.2e-3], dead_volumes: [1e-4, 1e-4], stroke: [1, 1.5], "
                                   "friction: {viscous: 1000}");

@@ -1,4 +1,4 @@
-// Heads of the compressible fluid: torques of machines, waves in pipes, for both laws of what flows conserve.
+// Heads of the compressible fluid: torques of machines, waves in pipes, for both conservation laws of flows.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -39,7 +39,7 @@ TEST_CASE("the torque of a machine is displacement times head: p/(2 B) more than
     CHECK(torque(2e7, 0) == Approx(8e-6 * head(conserves, 2e7)).epsilon(1e-9));
     CHECK(torque(3e7, 1e7) == Approx(8e-6 * (head(conserves, 3e7) - head(conserves, 1e7))).epsilon(1e-9));
     CHECK(torque(0, 2e7) == Approx(-torque(2e7, 0)).epsilon(1e-12));
-    // As the manual has it: 0.7 % at 20 MPa.
+    // The manual states this: 0.7 % at 20 MPa.
     CHECK(torque(2e7, 0) / (8e-6 * 2e7) - 1 == Approx((conserves == "mass" ? -1 : 1) * 2e7 / (2 * B)).epsilon(0.01));
   }
 }
@@ -60,7 +60,7 @@ TEST_CASE("small waves in a pipe under pressure have Joukowsky's height, whateve
         B, rho, conserves, p_0, q, L, d, p_0);
     double fall = 0;
     long count = 0;
-    // When the front comes by two cells that are 40 apart, each a hundredth of the pipe (and half a one) long.
+    // Time at which the front passes two cells that are 40 apart, each a hundredth of the pipe (and half a one) long.
     double passed[2] = {0, 0}, before[2] = {0, 0}, last = 0;
     run_hydraulics(drawn, {.h = 2.5e-5, .end = 1.9 * L / c, .rho = 0.6}, [&](const Session& session) {
       const double t = session.time() - 0.001, half = 0.5 * rho * c * w;

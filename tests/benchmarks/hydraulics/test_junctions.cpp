@@ -1,5 +1,5 @@
-// Junctions whose flows are flat until a valve opens: pressures by the closed form of the valve's law, wherever a
-// pressure has to be found, and the sentences where there is none.
+// Junctions whose flows are flat until a valve opens: pressures by the closed form of the valve's law, for all ways in
+// which a pressure has to be found, and the messages if there is none.
 #include <algorithm>
 #include <cmath>
 
@@ -92,7 +92,7 @@ TEST_CASE("a pump that starts in the course of a motion opens the valve within a
 }
 
 TEST_CASE("junctions that float together until a valve opens rise together") {
-  // Five of them behind each other, whose lines let through at differences far below the valve's setting.
+  // Five junctions in series, whose lines pass the flow at differences far below the valve's setting.
   std::string places = "junctions: [j", lines = "l0: {from: j, to: j1, orifice: {diameter: 0.02}}, ";
   for (int k = 1; k < 5; ++k) {
     places += fmt::format(", j{}", k);
@@ -104,7 +104,7 @@ TEST_CASE("junctions that float together until a valve opens rise together") {
   CHECK(statics_pressure(chain, "j4") == Approx(p).epsilon(1e-9));
   CHECK(statics_pressure(chain, "j") - p == Approx(4 * drop).epsilon(1e-3));
   CHECK(at_end(chain, {.h = 0.1, .end = 0.2}, {"hydraulics/j4/pressure"})[0] == Approx(p).epsilon(1e-9));
-  // A volume between pump and valve, filled through an orifice: it begins at the ambient pressure, the junction not.
+  // A volume between pump and valve, filled through an orifice: it begins at the ambient pressure, unlike the junction.
   const std::vector<double> filled =
       at_end(circuit("volumes: {store: {volume: 1e-5}}\n  junctions: [j]",
                      valve + ", fill: {from: j, to: store, orifice: {diameter: 0.001}}"),
@@ -125,12 +125,12 @@ TEST_CASE("valves that check, that follow with a time constant, and pumps that d
   };
   const std::string check = "c: {from: j, to: tank, check: {diameter: 0.01}}";
   CHECK(statics_pressure(circuit("junctions: [j]", check)) == Approx(tank + checked(pumped)).epsilon(1e-9));
-  // One that lets in what a pump draws.
+  // A check valve that admits the flow that a pump draws.
   const std::string drawn = circuit("junctions: [j]", "c: {from: tank, to: j, check: {diameter: 0.01}}", "-1e-4");
   CHECK(statics_pressure(drawn) == Approx(tank - checked(pumped)).epsilon(1e-9));
   CHECK(at_end(drawn, {.h = 0.1, .end = 0.2}, {"hydraulics/j/pressure"})[0] ==
         Approx(tank - checked(pumped)).epsilon(1e-9));
-  // A valve that follows its pressures begins where they want it.
+  // A slow valve begins at the opening that its pressures require.
   const std::string slow =
       circuit("junctions: [j]", "c: {from: j, to: tank, relief: {pressure: 1e6, diameter: 0.01, time_constant: 0.02}}");
   CHECK(statics_pressure(slow) == Approx(tank + relief(pumped)).epsilon(1e-9));
@@ -145,21 +145,21 @@ TEST_CASE("where a junction has no pressure the sentence says whether fluid is p
   const auto said_at_rest = [](const std::string& text) {
     return message_of<ComputationError>([&] { statics_pressure(text); });
   };
-  // Against a check valve, either way.
+  // A pump against a check valve, either way.
   const std::string in = circuit("junctions: [j]", "c: {from: tank, to: j, check: {diameter: 0.01}}"),
                     out = circuit("junctions: [j]", "c: {from: j, to: tank, check: {diameter: 0.01}}", "-1e-4");
   for (const auto& message : {said(in), said_at_rest(in)})
     CHECK_THAT(message, Contains("junction 'j'") && Contains("more fluid is pumped in") && !Contains("drawn"));
   for (const auto& message : {said(out), said_at_rest(out)})
     CHECK_THAT(message, Contains("junction 'j'") && Contains("more fluid is drawn out") && !Contains("pumped in"));
-  // In the course of a motion.
+  // The same situation in the course of a motion.
   const std::string later =
       circuit("junctions: [j]", "c: {from: tank, to: j, check: {diameter: 0.01}}", "if(t > 0.15, 1e-4, 0)");
   CHECK_THAT(said(later), Contains("t = 0.1") && Contains("more fluid is pumped in"));
-  // A narrow hole lets in too little, down to vacuum.
+  // A narrow hole admits too little flow, down to vacuum.
   const std::string narrow = circuit("junctions: [j]", "c: {from: j, to: tank, orifice: {diameter: 1e-3}}", "-1e-4");
   CHECK_THAT(said(narrow), Contains("down to vacuum") && Contains("drawn out"));
-  // Half of what is pumped in goes out, the rest nowhere.
+  // Half of the pumped flow leaves, the rest cannot.
   CHECK_THAT(said(circuit("junctions: [j]", "c: {from: j, to: tank, flow_valve: {flow: 5e-5, pressure: 1e5}}")),
              Contains("5e-05 m^3/s are left") && Contains("pumped in"));
 }

@@ -35,7 +35,7 @@ double turbulent(double share, double D) { return coefficient * share * area * s
 }  // namespace
 
 TEST_CASE("valves pass what the orifice formula says of their opening") {
-  // Far above the laminar range, which takes (D_t/D)^2/4 at most.
+  // The difference is far above the laminar range, which changes the flow by (D_t/D)^2/4 at most.
   CHECK(steady_flow("orifice: {area: 1e-5, transition_pressure: 10}", 5e6, 1e6) ==
         Approx(turbulent(1, 4e6)).epsilon(1e-9));
   CHECK(steady_flow("orifice: {area: 1e-5, transition_pressure: 10}", 1e6, 5e6) ==
@@ -122,7 +122,7 @@ TEST_CASE("a junction without volume divides the pressure as orifices in series 
 // -- pipes
 
 TEST_CASE("water hammer: the pressure rises by rho a w, and stays for twice the way") {
-  // Water in 10 m of steel pipe, whose wall gives: a = sqrt((B/rho)/(1 + B d/(E s))) (Joukowsky; Korteweg for the
+  // Water in 10 m of steel pipe with a flexible wall: a = sqrt((B/rho)/(1 + B d/(E s))) (Joukowsky; Korteweg for the
   // wall).
   constexpr double L = 10, d = 0.02, s = 0.002, E = 2e11, B = 2.2e9, w = 0.5, p_0 = 2e6;
   const double a = std::sqrt(B / 1000 / (1 + B * d / (E * s))), S = M_PI * d * d / 4, rise = 1000 * a * w;
@@ -194,7 +194,7 @@ TEST_CASE("a pump drives a motor: speeds are those of the displacements, and not
   CHECK(rate == Approx((2e-6 * 50 - leak) / 4e-6).epsilon(1e-6));
   CHECK(found[5] == Approx(0.08 * rate).epsilon(1e-6));
   CHECK(found[4] == Approx(0.08 * rate * rate).epsilon(1e-6));
-  // What the pump takes is what the motor gives, its drag and its leakage.
+  // The pump takes the power that the motor delivers, its drag and its leakage.
   CHECK(-found[3] == Approx(found[4] + 0.01 * rate * rate + leak * D).epsilon(1e-3));
 }
 

@@ -1,4 +1,4 @@
-// Keys of 0 that mean none: a parameter that is swept down to it comes to the circuit without it.
+// Keys of 0 mean that there is none: a parameter that is reduced to it gives the circuit without it.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -41,7 +41,7 @@ TEST_CASE("lines: no time constant, no setting and no pilot are as if the key we
   same("relief: {pressure: 2e6, area: 1e-5, time_constant: 0}", "relief: {pressure: 2e6, area: 1e-5}");
   same("relief: {pressure: 0, area: 1e-5}", "check: {area: 1e-5}");
   same("valve: {area: 1e-5, command: 0.4, time_constant: 0}", "valve: {area: 1e-5, command: 0.4}");
-  // Held by the pressure of its load alone: a relief valve whose spring room is vented.
+  // Only the pressure of its load opens it: a relief valve whose spring room is vented.
   same("counterbalance: {pressure: 3e6, pilot: x, pilot_ratio: 0, area: 1e-5}",
        "relief: {pressure: 3e6, vented: true, area: 1e-5}");
 }

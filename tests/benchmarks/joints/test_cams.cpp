@@ -54,7 +54,7 @@ TEST_CASE("a flat follower on an eccentric circle moves harmonically and takes i
   move(text, 1e-3, 0.7, [](const Session& session) {
     const double theta = speed * session.time();
     CHECK(session.node("tappet").x.y() == Approx(R + e * std::sin(theta)).margin(2e-9));
-    // The scheme's own error in accelerations is (h w)^2/12 and some more, of e w^2 = 4 m/s^2.
+    // The scheme's own error in accelerations is slightly more than (h w)^2/12 of e w^2 = 4 m/s^2.
     const double force = m * (g - e * speed * speed * std::sin(theta));
     CHECK(session.read("joints/contact/reaction_inertial")[1] == Approx(force).margin(2e-3));
     CHECK(session.read("joints/camshaft/drive_force")[0] == Approx(force * e * std::cos(theta)).margin(2e-5));
@@ -73,7 +73,7 @@ TEST_CASE("a roller on an eccentric circle moves as its closed form, over severa
 }
 
 TEST_CASE("a cam that turns too fast is said to lift off") {
-  // Twice as fast: 16 m/s^2 downwards are asked for at the top, more than g: at e w^2 sin(theta) = g.
+  // At twice the speed, 16 m/s^2 downwards are required at the top, more than g: at e w^2 sin(theta) = g.
   const bielle::test::TemporaryFolder folder;
   const std::string text = cam(folder, R, "follower: flat, normal: [0, 1, 0]", 2);
   const bielle::mechanism::MechanismFile file = bielle::mechanism::read_mechanism_text(text, "model.yaml");
@@ -144,7 +144,7 @@ TEST_CASE("contours that a follower cannot follow are refused") {
 }
 
 // Friction. The guide has none, so that the push of the cam has the vertical component V = m (y'' + g). The torque
-// follows from the power of V and of what rubs, and for the roller once more from the force that the cam bears.
+// follows from the power of V and of friction, and for the roller once more from the force on the cam.
 
 TEST_CASE("a flat follower rubs on its cam by the push times the way along the contour") {
   // The contour slides past the face at w (R + e sin(theta)), with mu V against it.
@@ -161,7 +161,7 @@ TEST_CASE("a flat follower rubs on its cam by the push times the way along the c
     if (t > 0)
       CHECK(session.read("joints/camshaft/drive_force")[0] ==
             Approx(push * (e * std::cos(theta) + mu * along)).margin(1e-4));
-    // Coordinates: of the follower relative to the cam, counted over turns.
+    // Coordinates of the follower relative to the cam, counted over turns.
     const std::vector<double> c = session.read("joints/contact/coordinate");
     CHECK(c[0] == Approx(-theta).margin(1e-9));
     way = R * theta + e * (1 - std::cos(theta));  // integral of H
@@ -198,7 +198,7 @@ TEST_CASE("a roller turns on its pin, and is dragged by what rubs there") {
     const double torque = force * (x * std::sin(alpha) - y * std::cos(alpha));
     CHECK(session.read("joints/camshaft/drive_force")[0] == Approx(torque).margin(2e-4));
     // The roller turns clockwise, relative to the pin by R/r of the cam's rate and what its middle adds.
-    const double n_rate = -e * s * speed / root;  // of the normal: cos(angle) = -e c/reach
+    const double n_rate = -e * s * speed / root;  // rate of the normal: cos(angle) = -e c/reach
     const double spin = (reach * (n_rate - speed) + speed * r) / r;
     CHECK(V * y1 * speed + mu * pin * force * std::abs(spin) == Approx(torque * speed).epsilon(1e-9));
     const std::vector<double> rate = session.read("joints/contact/rate");
@@ -208,8 +208,8 @@ TEST_CASE("a roller turns on its pin, and is dragged by what rubs there") {
 }
 
 TEST_CASE("a knife edge rubs on the contour itself") {
-  // A circle about the shaft's axis would do nothing but rub; on the eccentric one the force leans by mu from the
-  // normal.
+  // A circle about the shaft's axis would cause friction only; on the eccentric one the force is inclined by mu from
+  // the normal.
   const double mu = 0.2;
   const bielle::test::TemporaryFolder folder;
   const std::string text =

@@ -1,5 +1,4 @@
-// Where joints are easily wrong: turns at the start, directions that turn without their nodes, contact that only
-// touches.
+// Difficult cases of joints: turns at the start, directions that turn without their nodes, tangential contact.
 #include <cmath>
 #include <fstream>
 
@@ -76,7 +75,7 @@ joints:
                     Contains("joint 'h1' starts 4 rad from there"));
   CHECK_THROWS_WITH(run(text + "{type: belt, nodes: [w1, w2], axis: [0, 0, 1], radii: [0.02, 0.03], EA: 1e4}\n"),
                     Contains("joint 'h1' starts 4 rad from there"));
-  run(text + "{type: gear, joints: [h1, h2], ratio: -0.4}\n");  // which counts by its joints
+  run(text + "{type: gear, joints: [h1, h2], ratio: -0.4}\n");  // its constraint involves the joints' coordinates
 }
 
 TEST_CASE("a crown wheel is pushed away by its pinion, whichever is named first") {
@@ -183,7 +182,7 @@ drives: {motor: {joint: h1, torque: 1}}
 )yaml";
   move_to(text, 0.01, 0.1, [](const Session& session) {
     const std::vector<double> one = session.read("joints/g1/force"), two = session.read("joints/g2/force");
-    CHECK(one[0] == Approx(two[0]).epsilon(1e-8));  // of solutions to 1e-9
+    CHECK(one[0] == Approx(two[0]).epsilon(1e-8));  // accuracy of solutions to 1e-9
     CHECK(one[0] < -0.01);
   });
 }

@@ -80,8 +80,8 @@ loads: {{weight: {{node: s, force: [0, 0, -10]}}}}
     compute_statics(session);
     const double a = share * l, b = l - a, w = 10 * a * a * b * b / (3 * E * I * l);
     CAPTURE(share, w);
-    // On nodes the beam is exact; within an element Hermite's curve lacks the kink in the curvature: up to
-    // P L^3/(192 E I), with L = l/8.
+    // At nodes the beam is exact; within an element Hermite's curve lacks the kink in the curvature: up to P L^3/(192 E
+    // I), with L = l/8.
     const double lacking = 10 * std::pow(l / 8, 3) / (192 * E * I);
     CHECK(-session.node("s").x.z() == Approx(w).margin(1.05 * lacking + 1e-4 * w));
     CHECK(session.read("joints/ring/reaction_inertial")[2] == Approx(10).epsilon(1e-9));

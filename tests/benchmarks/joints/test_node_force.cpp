@@ -1,4 +1,4 @@
-// Forces between nodes: they keep momentum and angular momentum, and do as the springs that they imitate.
+// Forces between nodes: they conserve momentum and angular momentum, and act like the equivalent springs.
 #include <catch2/catch.hpp>
 
 #include "tests/benchmarks/joints/moved.hpp"
@@ -36,7 +36,7 @@ TEST_CASE("a force between nodes keeps momentum and angular momentum, along what
     const std::string text =
         bodies + "  push: {type: node_force, nodes: [a, b], at: [0.1, 0.2, -0.1], axes: " + axes +
         ", force: [1, \"2*sin(5*t)\", \"-b.velocity.x\"], moment: [0.1, 0, \"0.2*distance(a, b)\"]}\n";
-    // Momentum to rounding; angular momentum to the scheme's own error, of second order.
+    // Momentum is conserved to rounding; angular momentum to the scheme's own error, of second order.
     const auto gained = [&](double h) {
       Vector3d p, L, left;
       bool first = true;

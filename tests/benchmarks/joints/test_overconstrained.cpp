@@ -1,4 +1,5 @@
-// Loops that move although counting says that they do not: Bennett's, Bricard's, a planar four-bar of hinges in space.
+// Loops that move although the count of constraints denies it: Bennett's, Bricard's, a planar four-bar of hinges in
+// space.
 //
 // Bennett (G. T. Bennett, Engineering 76, 1903): four hinges, opposite links equal, lengths a, b and twists alpha, beta
 // with a/sin(alpha) = b/sin(beta); consecutive angles obey tan(t_1/2) tan(t_2/2) = sin((beta + alpha)/2)/sin((beta -
@@ -24,8 +25,8 @@ struct Link {
   double angle, length, twist;  ///< about z, along x, about x
 };
 
-/// A loop of links: link k carries hinge k + 1; the first hinge is on the ground and driven. Angles count from as
-/// drawn.
+/// A loop of links: link k carries hinge k + 1; the first hinge is on the ground and driven. Angles are zero in the
+/// drawn position.
 std::string loop(const std::vector<Link>& links, const std::string& drive) {
   std::string nodes = "nodes:\n", elements = "elements:\n", joints = "joints:\n";
   Isometry3d frame = Isometry3d::Identity();

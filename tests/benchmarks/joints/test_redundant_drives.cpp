@@ -1,5 +1,5 @@
-// Drives, locks and contacts that repeat each other: their forces are those of smallest norm, wherever they are
-// reported or compared, whatever the order of the file.
+// Redundant drives, locks and contacts: their forces are those of smallest norm, wherever they are reported or
+// compared, in any order of the file.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -16,7 +16,7 @@ using Catch::Contains;
 
 namespace {
 
-/// 10 kg on equal vertical guides, whose entries may go on. @param drives  of the file
+/// 10 kg on equal vertical guides, whose entries may have more keys. @param drives  drives of the file
 std::string lift(const std::vector<std::string>& guides, const std::string& drives) {
   std::string text =
       "gravity: [0, 0, -10]\n"
@@ -45,7 +45,7 @@ TEST_CASE("drives that lift the same part bear equal shares, in statics and in m
     Session session(file.model);
     compute_statics(session);
     for (int k = 1; k <= count; ++k) CHECK(force(session, k, "drive_force") == Approx(100.0 / count).epsilon(1e-9));
-    // m (g + 0.2) in motion; what they put in lifts 10 kg by 0.1 m and makes its velocity of 0.2 m/s.
+    // m (g + 0.2) in motion; their work lifts 10 kg by 0.1 m and gives it the velocity 0.2 m/s.
     move_to(text, 0.01, 1, [&](const Session& moved) {
       for (int k = 1; k <= count; ++k) CHECK(force(moved, k, "drive_force") == Approx(102.0 / count).epsilon(1e-9));
       CHECK(moved.report().energy.input == Approx(10 + 0.2).epsilon(1e-8));
@@ -65,7 +65,7 @@ TEST_CASE("a drive and a lock that hold the same part share its weight") {
 }
 
 TEST_CASE("locks that share a load let go by their shares") {
-  // A load that grows by 100 N/s: each of two locks, which open at 40 N, bears half, for 0.8 s; then the part falls.
+  // A load that grows by 100 N/s: each of two locks, which open at 40 N, carries half, for 0.8 s; then the part falls.
   const std::string text = lift({", locked: {release: 40}", ", locked: {release: 40}"},
                                 "loads: {f: {node: b, force: [0, 0, \"100 - 100*t\"]}}\n");
   const MechanismFile file = read_mechanism_text(text, "model.yaml");
@@ -86,7 +86,7 @@ TEST_CASE("locks that share a load let go by their shares") {
 }
 
 TEST_CASE("a drive that lets go at a reaction reads the smallest one") {
-  // Two guides against a side force of 100 t: each bears half of it, 30 N after 0.6 s.
+  // Two guides against a side force of 100 t: each carries half of it, 30 N after 0.6 s.
   const std::string text = lift({"", ""},
                                 "drives: {d: {joint: g1, displacement: 0, release: {when: \"sqrt(g2.reaction.x^2 + "
                                 "g2.reaction.y^2)\", crosses: 30}}}\n"
@@ -177,7 +177,7 @@ TEST_CASE("the drives of a six-legged platform bear what its joints bear") {
 }
 
 TEST_CASE("hydraulic cylinders that hold the same part share its weight, whatever their pistons") {
-  // The pressures of the start follow from the load: 50 N each, less than what their fluid gives way by in 1 ms.
+  // The pressures of the start follow from the load: 50 N each, less the compression of the fluid in 1 ms.
   const auto cylinder = [](int number, double x, double area) {
     return fmt::format(
         "  c{0}: {{type: hydraulic_actuator, nodes: [ground, b], at: [[{1}, 0, -1], [{1}, 0, 0]], stroke: [0.5, 1.5], "

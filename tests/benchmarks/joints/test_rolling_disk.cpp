@@ -89,7 +89,7 @@ TEST_CASE("a disk rolls in a steady circle") {
   const double lean = M_PI / 2 + th;
   const Eigen::Matrix3d R = Eigen::AngleAxisd(lean, Vector3d::UnitX()).toRotationMatrix();
   const Vector3d axis = R.col(2), up = (Vector3d::UnitZ() - axis.z() * axis).normalized();
-  // The centre of the circle lies where the disk leans to.
+  // The disk leans towards the centre of the circle.
   const double side = up.y() > 0 ? 1 : -1;
   const double speed = P * rho;
   for (const double turn : {1.0, -1.0}) {
@@ -182,7 +182,7 @@ TEST_CASE("a tyre that runs at an angle has the lateral force of its slip") {
     const std::vector<double> force = session.read("joints/rim/tyre_force"), slip = session.read("joints/rim/slip");
     CHECK(std::abs(slip[0]) < 1e-6);
     CHECK(std::abs(force[1]) == Approx(60 * sigma).epsilon(1e-6));
-    // It pushes the hub back to where the wheel heads.
+    // The tyre pushes the hub back to the direction in which the wheel heads.
     CHECK(session.read("joints/tow/reaction_inertial")[1] == Approx(-60 * sigma * std::cos(angle)).epsilon(1e-4));
   });
   // Brush model: psi = 60 sigma/(3 mu N), N the weight of two kilograms.

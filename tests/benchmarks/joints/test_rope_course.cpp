@@ -94,7 +94,7 @@ TEST_CASE("a rope leaves a pulley round which it bends no more, runs straight, a
 }
 
 TEST_CASE("the energy of a rope that leaves its pulley and comes back is kept to second order") {
-  // The rope stores as much as the motion puts in.
+  // The rope stores the work of the motion.
   const auto balance = [](double h) { return std::abs(run(lowered("-0.5*sin(pi*t)^2"), h, 1).balance); };
   CHECK(balance(0.01) < 1e-3 * 220);
   CHECK(balance(0.01) / balance(0.005) > 3);
@@ -161,7 +161,7 @@ joints: {{rope: {{type: cable, nodes: [top, peg, mass], radii: [0, {:.17g}, 0], 
 
 TEST_CASE("a rope round many turns unwinds, leaves its pulley, and comes onto it the other way round") {
   // s goes round the pulley at 1 m; the wrap is lost at the rate of the turn.
-  const double r = 0.1, angle = 0.3;  // of the turn by which s begins past the point where the wrap is zero
+  const double r = 0.1, angle = 0.3;  // angle of the turn by which s begins past the point of zero wrap
   // a is far to the left on the tangent of the pulley's lowest point: its rope runs along +x at z = -r.
   const auto text = [&](double turns, double speed) {
     const double begin = std::acos(r) - M_PI / 2 + angle;  // direction of s about -y, from +x
@@ -186,7 +186,7 @@ joints:
   });
   REQUIRE(unwound.events.size() == 1);
   CHECK(unwound.events[0].time == Approx(angle + 4 * M_PI).epsilon(1e-8));
-  // Led right round, it meets the pulley from its other side, where the tangents of the top meet again.
+  // Led once round, it meets the pulley from its other side, where the tangents of the top meet again.
   const Run round = run(text(0, 1), 0.01, 6.35, [&](const Session& session) {
     const Vector2d s(session.node("s").x.x(), session.node("s").x.z());
     const double L = session.read("joints/rope/length")[0];

@@ -50,8 +50,8 @@ TEST_CASE("an open and a crossed belt turn pulleys in the ratio of their radii")
 }
 
 TEST_CASE("spans of a belt share the torque: the tight side and the slack side") {
-  // Pulley 2 is held, 10 N m act on pulley 1. Both spans have l = sqrt(0.5^2 - 0.1^2); with a turn by theta
-  // T = EA e/(l - e), e = e_0 -+ r theta: T_1 - T_2 = 10/r. Found here by Newton's method.
+  // Pulley 2 is held, 10 N m act on pulley 1. Both spans have l = sqrt(0.5^2 - 0.1^2); with a turn by theta T = EA e/(l
+  // - e), e = e_0 -+ r theta: T_1 - T_2 = 10/r. The solution is found here by Newton's method.
   const double l = std::sqrt(0.25 - 0.01), EA = 2e4, e_0 = 300 * l / (EA + 300);
   double stretch = 0;
   const auto tension = [&](double e) { return EA * e / (l - e); };
@@ -92,7 +92,7 @@ joints:
 drives: {motor: {joint: axle, angle: "-20*step(t, 0, 4)"}}
 )yaml";
   move_to(text, 0.005, 5, [](const Session& session) {
-    // 3 m of rope are wound up; each carried its strain T/EA on the drum.
+    // 3 m of rope are wound up; each metre kept its strain T/EA on the drum.
     const double strain = 392.4 / 1e6, wound = 3.0;
     CHECK(session.node("load").x.z() == Approx(1 + wound).margin(2 * strain * wound));
     CHECK(session.read("joints/rope/tension")[0] == Approx(392.4).epsilon(1e-4));

@@ -51,7 +51,7 @@ TEST_CASE("a driven universal joint has the fluctuation of its closed form, and 
     const double found = session.read("joints/out/coordinate")[0];
     CHECK(std::abs(std::remainder(found - theta_2, 2 * M_PI)) < 1e-9);
     CHECK(std::abs(found - theta_1) < 0.075);  // the lag is 4.12 degrees at most: it has counted its turns
-    // Rates follow from positions that are exact: what is left is the scheme's own error.
+    // Rates follow from exact positions: the remaining error is the scheme's.
     CHECK(session.read("joints/out/rate")[0] == Approx(10 * ratio(theta_1)).epsilon(2e-3));
   });
 }

@@ -1,7 +1,7 @@
 // The same machine in metres and kilograms, in millimetres and tonnes, in kilometres and grams: the same motion.
 //
 // Lengths by L, masses by M, times as they are: forces by M L, moments and energies by M L^2, stiffnesses by M,
-// inertias by M L^2. What a program tunes to SI (scalings of constraints, tolerances) would show.
+// inertias by M L^2. SI-dependent constants of the program (scalings of constraints, tolerances) would show.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -65,7 +65,7 @@ TEST_CASE("units of length and mass change no motion") {
   for (const auto& [L, M] : {std::pair{1000.0, 1e-3}, {1e-3, 1e3}, {1e-3, 1e-6}, {1e6, 1.0}}) {
     CAPTURE(L, M);
     const Seen other = run(L, M);
-    // Newton's tolerance, relative to the forces that act, 600 steps on.
+    // Newton's tolerance, relative to the acting forces, after 600 steps.
     CHECK(other.angle == Approx(si.angle).epsilon(1e-6));
     CHECK(other.energy == Approx(si.energy).epsilon(1e-6));
     CHECK(other.rod == Approx(si.rod).epsilon(1e-5));

@@ -1,5 +1,5 @@
-// Keys of 0 that mean none: friction, stops, gaps, filters, branches, grip, masses. A parameter that is swept down to
-// it comes to the model without it, or to a closed form.
+// Keys of 0 mean that there is none: friction, stops, gaps, filters, branches, grip, masses. A parameter that is
+// reduced to it gives the model without it, or a closed form.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -63,7 +63,7 @@ TEST_CASE("friction without a coefficient or without a radius does nothing, what
           Approx(free).epsilon(1e-9));
     CHECK(measured(pendulum(fmt::format(", friction: {{coefficient: 0.4, radius: 0.5{}}}", law))) < 0.99 * free);
   }
-  // Bristles that hold, and then slide against nothing, would never let go.
+  // Bristles that hold, and then slide without friction, would never release.
   CHECK_THAT(bielle::test::message_of<bielle::InputError>([&] {
                measured(
                    pendulum(", friction: {coefficient: 0, static: 0.1, stribeck_velocity: 0.01, radius: 0.1, model: "

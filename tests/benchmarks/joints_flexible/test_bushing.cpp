@@ -141,7 +141,7 @@ elements:
 joints:
   it: {type: bushing, nodes: [ground, body], stiffness: [800, 800, 800, 20, 20, 16]}
 )yaml";
-  // Alike in all directions: the force acts along the way between the points, however the body turns.
+  // The stiffness is equal in all directions: the force acts along the line between the points, however the body turns.
   // x = v/w sin(w t), w = 20 rad/s; rz = (9.5/4) sin(4 t), up to 136 degrees. The scheme's error is of second order.
   double x_error[2], rz_error[2];
   for (const int k : {0, 1})
@@ -235,7 +235,7 @@ joints:
   CHECK(rest("stiffness: [0, 0, 1000, 0, 0, 0], preload: [0, 0, -5, 0, 0, 0]", -5) == Approx(-5. / 1000).epsilon(1e-9));
   // A formula: 100 q + 1e6 q^3 = -10 at q = -0.02.
   CHECK(rest("curves: {z: \"100*q + 1e6*q^3\"}", -5) == Approx(-0.02).epsilon(1e-6));
-  // Branches have given way.
+  // The branches have relaxed.
   CHECK(rest("stiffness: [0, 0, 1000, 0, 0, 0], maxwell: [{factor: 3, time: 2}]", -5) == Approx(-0.01).epsilon(1e-9));
 }
 

@@ -51,7 +51,7 @@ joints:
   CHECK(-rest("contact: {stiffness: 1e6, exponent: 1}") - 1e-3 == Approx(3e-5).epsilon(1e-8));
   // Cylinders of steel: pi/4 E* l p, E* = 210e9/(2 (1 - 0.09)).
   CHECK(-rest("length: 0.1, contact: {young: 210e9, poisson: 0.3}") - 1e-3 ==
-        Approx(30 / (M_PI / 4 * 210e9 / (2 * 0.91) * 0.1)).epsilon(1e-4));  // of a position of 1 mm
+        Approx(30 / (M_PI / 4 * 210e9 / (2 * 0.91) * 0.1)).epsilon(1e-4));  // relative to a position of 1 mm
 }
 
 TEST_CASE("a ball in a socket is pressed in as Hertz has it") {
@@ -87,8 +87,8 @@ joints:
   it: {{type: clearance_spherical, nodes: [ground, ball], radial_gap: 0.01, contact: {{stiffness: 1e8, restitution: {}}}}}
 )yaml",
                                            speed, restitution);
-      // It flies 0.01 m there, and is half way back after this time. Surfaces press 1e-6 to 4e-4 m into each other, of
-      // which steps should miss little: 1e-10 of the size of 1 m.
+      // It flies 0.01 m there, and is half way back after this time. Surfaces press 1e-6 to 4e-4 m into each other, and
+      // the error of steps should be small against that: 1e-10 of the size of 1 m.
       fly(text, 1e-11, 0.01 / speed * (1 + 0.5 / restitution) + 3e-3 / std::pow(speed, 0.2),
           [&](Session& session, Motion&) {
             after = -session.node("ball").v[0];
@@ -101,9 +101,9 @@ joints:
 }
 
 TEST_CASE("a shaft that turns in its bush climbs by the angle of friction") {
-  // Its weight W acts down; normal force and friction mu N balance it at an angle atan(mu) from below, on the side
-  // towards which the lowest point of the shaft runs away from: N = W cos(phi). The shaft turns about +z: its lowest
-  // point slides along +x, friction pushes it along -x.
+  // Its weight W acts down; normal force and friction mu N balance it at an angle atan(mu) from below, on the side from
+  // which the lowest point of the shaft moves away: N = W cos(phi). The shaft turns about +z: its lowest point slides
+  // along +x, friction pushes it along -x.
   const double mu = 0.2, phi = std::atan(mu);
   const std::string text = R"yaml(
 gravity: [0, -10, 0]
@@ -203,7 +203,7 @@ joints:
   });
   CHECK(dissipated > 0.1);
   CHECK(std::abs(missing) < 2e-3 * dissipated);
-  // Nothing falls through: k p^2.5/2.5 is less than the energy of the start and of a fall over two gaps.
+  // No body passes through another: k p^2.5/2.5 is less than the energy of the start and of a fall over two gaps.
   const double energy = 0.5 * 2 * 0.14 + 0.5 * 1e-3 * 400 + 0.5 * 2e-3 * 0.34 + 20 * 4e-3;
   for (const double gap : least) CHECK(gap > -std::pow(2.5 * energy / 1e8, 0.4));
 }

@@ -1,5 +1,5 @@
 // Bristles (LuGre) in joints with play, against closed forms: a journal that a moment holds up in its bush without
-// creeping, one that turns steadily at the angle of friction; exact derivatives and no power out of nothing.
+// creep, one that turns steadily at the angle of friction; derivatives are exact, and no deflection generates power.
 #include <algorithm>
 #include <cmath>
 
@@ -22,7 +22,7 @@ constexpr double g = 9.81, m = 2, r = 0.02, mu = 0.3, sigma_0 = 2e4, gap = 1e-4;
 
 /// A journal that lies in its bush, or a ball in its socket, where oil damps it: along the bore it would swing for
 /// long.
-/// @param node  more of its node @param rest  sections
+/// @param node  further keys of its node @param rest  sections
 std::string lying(const std::string& type, const std::string& node, const std::string& rest = "") {
   const double depth = std::pow(m * g / 1e8, 1 / 1.5);
   return fmt::format(

@@ -1,6 +1,6 @@
 // Mechanisms of ten times as many parts take about ten times the processor time and memory until they move: they are
-// read, described as by --check, set up, started, and make their first steps. What is done for each part by going
-// through all others grows a hundredfold.
+// read, described as by --check, set up and started, and make their first steps. Work for each part that passes over
+// all other parts grows a hundredfold.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -34,11 +34,11 @@ void set_off(const std::string& text) {
 }
 
 struct Cost {
-  double seconds = std::numeric_limits<double>::infinity();  ///< of the processor
+  double seconds = std::numeric_limits<double>::infinity();  ///< processor time [s]
   double memory = std::numeric_limits<double>::infinity();   ///< peak
 };
 
-/// The least of several runs, each in a process of its own. Other work on the machine lengthens some.
+/// The least cost of several runs, each in a process of its own. Other work on the machine lengthens some.
 Cost cost_of(const LargeModel& model, int parts) {
   const std::string text = model.text(parts);
   Cost least;

@@ -102,7 +102,8 @@ TEST_CASE("the modes of oscillators far apart are all found to rounding", "[line
         "  s{0}: {{type: spring_damper, nodes: [ground, m{0}], at: [[0, {0}, 0], [0, 0, 0]], stiffness: {1}}}\n", k,
         3 * w * w);
   }
-  // What is 1e5 times as fast as the slowest is known to 1e-16 * 1e5 of it, and so on: the inverse sees it as small.
+  // Eigenvalues 1e5 times as large as the smallest are accurate to 1e-16 * 1e5 relative, and so on: they are small in
+  // the inverse.
   check_rates(rates_of(nodes + elements, {.count = 6}), {exact.begin(), exact.begin() + 6}, 1e-10);
 }
 

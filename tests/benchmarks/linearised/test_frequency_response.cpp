@@ -61,7 +61,7 @@ TEST_CASE("an oscillator answers with 1/(k - m w^2 + i c w) to forces, twice tha
 }
 
 TEST_CASE("reactions, constraints and angles answer too", "[linearised]") {
-  // A pendulum pushed at its bob, small motions: angle H = l/(J (w0^2 - w^2)); its pivot bears what the rest does not.
+  // A pendulum pushed at its bob, small motions: angle H = l/(J (w0^2 - w^2)); its pivot carries the rest.
   const ModesOf model(
       "gravity: [0, 0, -9.81]\nnodes: {bob: {position: [0, 0, -2]}}\n"
       "elements: {bob: {type: rigid_body, node: bob, mass: 3, inertia: [0.5, 0.5, 0.5]}}\n"
@@ -155,7 +155,7 @@ TEST_CASE("inputs that act on nothing are refused, and the summary says what the
   options.inputs = {{"push", -1, false, Vector3::Zero()}};
   CHECK_THROWS_WITH(compute_frequency_response(without.session, options),
                     Catch::Contains("no force, motion or output depends"));
-  options.outputs = {{"both", -1, false, {}}};  // which contains the input itself
+  options.outputs = {{"both", -1, false, {}}};  // the outputs contain the input itself
   CHECK(std::abs(compute_frequency_response(without.session, options).response[0](0, 0) - 0.1) < 1e-12);
 
   const MechanismFile file = read_mechanism_text(

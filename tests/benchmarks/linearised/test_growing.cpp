@@ -1,4 +1,4 @@
-// Growing motions beyond those that are listed are counted.
+// Growing motions that are not listed are counted.
 #include "tests/benchmarks/linearised/modes_of.hpp"
 
 using namespace bielle::mechanism;

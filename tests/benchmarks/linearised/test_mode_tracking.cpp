@@ -27,10 +27,10 @@ SweepSample oscillators(double p, double between) {
   for (const double sign : {-1.0, 1.0}) {
     Mode mode;
     mode.s = Complex(0, std::sqrt(at_rest + between + sign * root));
-    const double angle = 0.5 * std::atan2(-between, slope * p);  // of the stiffer one
+    const double angle = 0.5 * std::atan2(-between, slope * p);  // stiffness of the stiffer one
     mode.u = sign > 0 ? Eigen::Vector2cd(std::cos(angle), std::sin(angle))
                       : Eigen::Vector2cd(-std::sin(angle), std::cos(angle));
-    mode.u *= std::polar(2.0, 1.3 * p + sign);  // of any size and phase
+    mode.u *= std::polar(2.0, 1.3 * p + sign);  // arbitrary size and phase
     sample.modes.modes.push_back(mode);
     sample.modes.whirl.push_back(0);
   }
@@ -75,7 +75,7 @@ TEST_CASE("modes that veer are told, with the gap that is left and the exchange 
     REQUIRE(found.meetings.size() == 1);
     const ModeMeeting& veering = found.meetings[0];
     CHECK(veering.veering);
-    // Between the springs' -p and +p all is symmetric but for the curvature of the square root, (between/200)^2.
+    // Between the springs' -p and +p the problem is symmetric up to the curvature of the square root, (between/200)^2.
     const double gap = (std::sqrt(at_rest + 2 * between) - std::sqrt(at_rest)) / two_pi;
     CHECK(veering.gap == Approx(gap).epsilon(0.02));
     CHECK(std::abs(veering.value) < 0.1 * between / slope);
@@ -88,7 +88,7 @@ TEST_CASE("modes that veer are told, with the gap that is left and the exchange 
 }
 
 TEST_CASE("frequencies that come near without an exchange of shapes are no veering", "[linearised]") {
-  // 100 + p^2/100 and 120: shapes stay.
+  // 100 + p^2/100 and 120: the shapes do not change.
   const auto solve = [](double p, int /*count*/) {
     SweepSample sample;
     sample.modes.all = true;

@@ -1,4 +1,4 @@
-// Modes of actuators and superelements, and what the analysis records of modes.
+// Modes of actuators and superelements, and the records of the analysis about modes.
 #include "mechanism/analyses/analysis_table.hpp"
 #include "mechanism/results/memory_sink.hpp"
 #include "reduce/dense/symmetric_eigenpairs.hpp"

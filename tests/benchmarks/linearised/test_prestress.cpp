@@ -65,7 +65,7 @@ TEST_CASE("Beck's column flutters from P = 20.0509 EI/L^2 on", "[linearised]") {
   CHECK(std::abs(least_damping(20.0)) < 1e-7);
   CHECK(least_damping(20.1) < -1e-3);
   CHECK(least_damping(25) < -0.1);
-  // Where the two frequencies meet: 11.0156.
+  // The two frequencies meet at 11.0156.
   const std::vector<double> near = rates_of(plane_beam(clamped, free_end, axial(-20.04, true), 16), {.count = 2}, true);
   CHECK(0.5 * (near[0] + near[1]) == Approx(11.0156).epsilon(2e-3));
 }

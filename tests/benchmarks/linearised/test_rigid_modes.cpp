@@ -1,4 +1,4 @@
-// Rigid and indifferent motions: they are told from slow modes by what their stiffness is known to.
+// Rigid and neutral motions: they are distinguished from slow modes by the accuracy of their stiffness.
 #include "mechanism/analyses/modes.hpp"
 #include "mechanism/solvers/linearised/steady_rotation.hpp"
 #include "reduce/superelement/superelement.hpp"
@@ -93,7 +93,7 @@ TEST_CASE("a free body that is stressed by a spring of its own keeps six rigid m
       CHECK(report.found.modes.size() == 6 + 8);  // `count` elastic ones, whatever the rigid ones
       CHECK_FALSE(report.found.all);
       check_nothing_grows(report);
-      // Compressed by 2e-5 of its length, and of finite elements or modes.
+      // The tolerance covers a compression by 2e-5 of the length, and the error of finite elements or modes.
       check_rates(first_of(rates_of(report), 2), {first_frequency(P, 1), first_frequency(P, 1.3)}, 4e-4);
       CHECK(report.found.modes[0].uncertainty < 1e-3);
     }
@@ -127,7 +127,7 @@ TEST_CASE("rods of a taut chain spin freely, and swing as a string of finite ele
     check_nothing_grows(report);
     if (dense > 0) CHECK(report.found.all);
   }
-  // Pushed, it gives way in every plane, and the spins still do not.
+  // Under compression it is unstable in every plane, but the spins are not.
   const ModesReport pushed = ModesOf(taut_chain(rods, l, m, -T))({.count = 12});
   CHECK(count_rigid(pushed) == rods);
   CHECK(std::count_if(pushed.found.modes.begin(), pushed.found.modes.end(),
@@ -185,8 +185,8 @@ TEST_CASE("growth is told however slow it is, where it is more than rounding", "
 }
 
 TEST_CASE("a free body that spins drifts and nutates; it grows about its middle axis alone", "[linearised]") {
-  // Euler's equations: s^2 = -Om^2 (C - A)(C - B)/(A B) about the axis of C. Seen from axes that turn with it, what
-  // drifts along has the speed for its frequency, twice, with one shape: no growth, and no critical speed.
+  // Euler's equations: s^2 = -Om^2 (C - A)(C - B)/(A B) about the axis of C. In axes that turn with it, the frequency
+  // of a body that drifts along equals the speed, twice, with one shape: no growth, and no critical speed.
   for (const auto& [A, B, C] : {std::tuple{0.2, 0.3, 0.4}, std::tuple{0.4, 0.3, 0.25}, std::tuple{0.2, 0.4, 0.3}}) {
     CAPTURE(A, B, C);
     const double square = (C - A) * (C - B) / (A * B);

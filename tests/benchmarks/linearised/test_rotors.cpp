@@ -25,8 +25,8 @@ std::string rotor(double speed, double kx, double ky, const std::string& more = 
 }  // namespace
 
 TEST_CASE("a spinning disc tilts forwards and backwards with different frequencies", "[linearised]") {
-  // G. Genta, Dynamics of Rotating Systems (2005), ch. 4: Jt w^2 -+ Jp Om w - k = 0. Supports need not be alike:
-  // inertial axes.
+  // G. Genta, Dynamics of Rotating Systems (2005), ch. 4: Jt w^2 -+ Jp Om w - k = 0. Supports may differ: inertial
+  // axes.
   for (const double speed : {0.0, 30.0, 100.0, 1000.0}) {
     const ModesReport report = ModesOf(rotor(speed, 2e5, 1e5))();
     CAPTURE(speed);
@@ -111,7 +111,7 @@ TEST_CASE("a rotating cantilever has Wright's frequencies, in and out of the pla
     CHECK(report.steadiness->steady());
     const double lag = std::sqrt(each.flap * each.flap - each.eta * each.eta);
     const std::vector<double> found = rates_of(report);
-    // Frequencies of 16 elements at rest are good to 1e-5; large tension is carried by elements of constant strain.
+    // Frequencies of 16 elements at rest are accurate to 1e-5; large tension is carried by elements of constant strain.
     CHECK(found[0] == Approx(lag).epsilon(1e-3));
     CHECK(found[1] == Approx(each.flap).epsilon(1e-3));
     if (each.second_flap > 0) {
@@ -183,8 +183,8 @@ TEST_CASE("what does not turn as a whole is refused, and a motion that is not st
 TEST_CASE("a swept blade finds its steady rotation at every speed, whatever its elements", "[linearised]") {
   // The blade turns towards the radius through its root: its tip moves outwards and its sweep goes down as the speed
   // goes up, steadily, and the equilibrium is a minimum of elastic energy and the potential of inertia: nothing grows.
-  // No element of any length yields sideways under its tension: four of them are right to 3 % (as softly as shear, the
-  // part of bending that is condensed lost them three quarters of the first frequency at 200 rad/s).
+  // Elements of any length resist sideways displacement under tension: four of them are accurate to 3 % (if they were
+  // as soft as shear, the condensed part of bending would lose three quarters of the first frequency at 200 rad/s).
   struct Found {
     Vector3 tip;
     double frequency;

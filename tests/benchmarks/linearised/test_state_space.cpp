@@ -118,7 +118,7 @@ TEST_CASE("a step of a small input moves the program as it moves the state space
   };
   const double least = error(1e-3), small = error(2), twice = error(4);
   CAPTURE(least, small, twice);
-  CHECK(least < 1e-5);  // of the step alone
+  CHECK(least < 1e-5);  // error of the step alone
   CHECK(small > 20 * least);
   CHECK(twice / small == Approx(4).epsilon(0.1));
 }

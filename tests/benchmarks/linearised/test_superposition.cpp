@@ -95,7 +95,7 @@ TEST_CASE("a sum over modes with the residual of the others is the direct answer
     CAPTURE(few, many, told_few, told_many);
     CHECK(few < 0.05);
     CHECK(many < 1e-4);
-    constexpr double rounding = 1e-5;  // of the direct answers: reactions of stiff parts
+    constexpr double rounding = 1e-5;  // relative to the direct answers: reactions of stiff parts
     CHECK((many < few || few < rounding));
     CHECK(told_many < 1e-3);
   }

@@ -1,5 +1,5 @@
-// An eccentric disk on an elastic bearing in steady rotation (Jeffcott's rotor): how far it bends out, how it whirls,
-// and whether it stays, below, near and above its critical speed.
+// An eccentric disk on an elastic bearing in steady rotation (Jeffcott's rotor): its deflection, its whirl, and its
+// stability, below, near and above its critical speed.
 //
 // Mass m with its centre at e from the shaft, moment of inertia J about the centre, stiffness k, w^2 = k/m. In axes
 // that turn with Om, with the shaft at r + x + i y and the disk ahead by phi:
@@ -10,7 +10,7 @@
 // whose eigenvalues are s^2 = 0 (the shaft turns as a whole) and the roots S = s^2 of, with j = J/m, g = w^2 - Om^2,
 // b = w^2 e^2 and a = b Om^2/g,
 //     j S^2 + (a + b + 2 j (w^2 + Om^2)) S + j g^2 + 2 a (w^2 + Om^2) + b (w^2 + 2 Om^2) = 0.
-// A shaft that turns freely is thus unstable from the critical speed to where the last term vanishes.
+// A shaft that turns freely is thus unstable from the critical speed to the speed at which the last term vanishes.
 #include "mechanism/analyses/modes.hpp"
 #include "mechanism/solvers/linearised/steady_rotation.hpp"
 #include "tests/benchmarks/linearised/modes_of.hpp"

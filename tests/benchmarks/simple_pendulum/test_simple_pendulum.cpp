@@ -14,8 +14,7 @@ using bielle::test::ReadyModel;
 
 namespace {
 
-/// As a point mass that a hinge on a massless frame holds: `direct` the body's node stands at the mass, else at the
-/// pivot.
+/// A point mass that a hinge on a massless frame holds. If `direct`, the body's node is at the mass, else at the pivot.
 std::string pendulum(bool direct) {
   const std::string head = "gravity: [0, -9.81, 0]\n";
   // The rod's inertia about the mass is zero: a body with almost none turns about z all the same.

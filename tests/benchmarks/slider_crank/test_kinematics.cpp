@@ -39,7 +39,8 @@ const std::string bodies =
     "  piston: {type: point_mass, node: piston, mass: 0.3}\n";
 const std::string driven = "drives: {motor: {joint: main, angle: \"30*t + 0.5*sin(7*t)\"}}\n";
 
-/// Of a pendulum of length l, mass m and inertia J about the centre, at the angle 0.3 + sin(5 t) - sin(0)... above x.
+/// Torque of a pendulum of length l, mass m and inertia J about the centre, at the angle 0.3 + sin(5 t) - sin(0)...
+/// above x.
 constexpr double m = 2, l = 0.4, J = 0.03, g = 9.81;
 std::string pendulum(const std::string& drive) {
   return fmt::format(
@@ -117,7 +118,7 @@ TEST_CASE("inverse dynamics meets stops") {
 }
 
 TEST_CASE("kinematics does not change its branch at a dead centre without a word") {
-  // A parallelogram whose links lie in line after half a turn: a step meets that exactly, others do not.
+  // A parallelogram whose links are in line after half a turn: some steps end exactly there, others do not.
   const std::string text =
       "nodes: {a: {position: [0, 0.5, 0]}, b: {position: [1, 1, 0]}, c: {position: [2, 0.5, 0]}}\njoints:\n"
       "  d: {type: hinge, nodes: [ground, a], position: [0, 0, 0], axis: [0, 0, 1]}\n"

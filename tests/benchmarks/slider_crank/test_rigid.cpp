@@ -77,7 +77,7 @@ TEST_CASE("a free rigid slider-crank keeps its phase: second order against the r
   const double coarse = error(2e-4), fine = error(1e-4), finest = error(5e-5);
   CHECK(std::log2(coarse / fine) == Approx(2).margin(0.1));
   CHECK(std::log2(fine / finest) == Approx(2).margin(0.1));
-  // What remains after Richardson's extrapolation is of higher order: the reference is met.
+  // The remainder after Richardson's extrapolation is of higher order: the result agrees with the reference.
   CHECK(std::abs((4 * finest - fine) / 3) < 0.02 * std::abs(finest));
 }
 

@@ -14,13 +14,13 @@ using bielle::test::ReadyModel;
 
 namespace {
 
-constexpr double turning = -74.9957670;  // of the line between the rod's ends [rad/s]
+constexpr double turning = -74.9957670;  // angular velocity of the line between the rod's ends [rad/s]
 
 double parabola(double x, double middle, double end) { return 4 * x * (1 - x) * middle + x * (2 * x - 1) * end; }
 
 double stretch(double x) { return parabola(x, 0.103339863e-4, 0.169327969e-4); }
 
-/// Of the deformation, relative to the turning line.
+/// Rate of the deformation relative to the turning line.
 Vector3 deformation_rate(double x) {
   return {parabola(x, -0.178591076e-5, -0.268938672e-5),
           turning * stretch(x) + 0.444896105 * std::sin(M_PI * x) + 0.463434311e-2 * std::sin(2 * M_PI * x), 0};
@@ -41,7 +41,7 @@ void move(NodeState& node, double x) {
   node.Omega.z() = turning + slope_rate(x);
 }
 
-/// The slider goes with the rod's end.
+/// Moves the slider with the rod's end.
 void move_slider(State& state, const ReadyModel& model) {
   const NodeState& end = node_of(state, model, "b");
   node_of(state, model, "slider").x = end.x;
@@ -97,7 +97,7 @@ Run run_of_superelement(const bielle::test::BeamSuperelement& rod, double h) {
   move(node_of(state, model, "a"), 0);
   move(node_of(state, model, "b"), 1);
   move_slider(state, model);
-  // Modal amplitudes: what the ends leave of the field, in the mean square.
+  // Modal amplitudes of the field minus the motion of the ends, in the mean square.
   const Eigen::Index modes = state.amplitude.size(), points = rod.points.cols();
   Eigen::Matrix<double, 12, 1> q = Eigen::Matrix<double, 12, 1>::Zero(), qdot = q;
   for (const int end : {0, 1}) {

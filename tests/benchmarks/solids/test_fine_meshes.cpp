@@ -1,4 +1,4 @@
-// What takes longer: the thick ellipse (NAFEMS LE10) on a fine mesh, and the connecting rod against its full model.
+// Longer tests: the thick ellipse (NAFEMS LE10) on a fine mesh, and the connecting rod against its full model.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -18,9 +18,9 @@ TEST_CASE("A thick elliptic plate (NAFEMS LE10): the stress at the opening, with
 }
 
 TEST_CASE("The connecting rod of meshes/: the free reduced body has the frequencies of the full model") {
-  // Truncation only raises frequencies. The rod's ties are averages, which leave its bores flexible. The rule that
-  // reduce/reduction/README.md gives: within one percent up to half the highest fixed-boundary frequency, within 0.3
-  // percent up to a quarter.
+  // Truncation only raises frequencies. The rod's ties are averages, which leave its bores flexible. The rule of
+  // reduce/reduction/README.md: within one percent up to half the highest fixed-boundary frequency, within 0.3 percent
+  // up to a quarter.
   const reduce::BodyFile file = reduce::read_body_file(std::string(BIELLE_SOURCE_DIR) + "/meshes/conrod.yaml");
   Progress quiet(true);
   const reduce::Mesh mesh = reduce::import_mesh(file.mesh, quiet);

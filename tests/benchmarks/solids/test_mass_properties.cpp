@@ -144,7 +144,7 @@ TEST_CASE("The connecting rod's mesh has the mass, centre and inertia that OpenC
     error.row(row) = errors(meshed(path, size, "mm"), cad).transpose();
   }
   INFO(error);
-  // Elements straightened at fillets are what is left: they are of the size of the fillets.
+  // The remaining error comes from elements straightened at fillets, of the size of the fillets.
   CHECK(error.row(1).maxCoeff() < 5e-4);
   CHECK(error(1, 0) < error(0, 0) / 3);
 }

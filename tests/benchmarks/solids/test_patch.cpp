@@ -107,7 +107,7 @@ TEST_CASE("The patch test of MacNeal and Harder: constant stress through distort
     }
     const RowMatrix forces = -model.stiffness.multiply(prescribed, 1);
     const RowMatrix u = prescribed + model.solve(forces);
-    CHECK((u - exact).cwiseAbs().maxCoeff() < 1e-15);  // of 2e-3
+    CHECK((u - exact).cwiseAbs().maxCoeff() < 1e-15);  // relative to 2e-3
     std::vector<int> nodes(points);
     for (int p = 0; p < points; ++p) nodes[p] = p;
     const RowMatrix stress = nodal_stress(model.solid, u, nodes);

@@ -107,7 +107,7 @@ TEST_CASE("The free reduced bar has the frequencies of the rod's reduction, and 
   for (int level = 0; level < 3; ++level) {
     const Superelement body = bar(6 << level, {"x0", "x1"});
     const Eigen::VectorXd found = free_free(body).head(2);
-    // Of the 24 modes, those that answer to a push on the end: sqrt(2 m) / (k pi). Warping sections do not.
+    // Modes that respond to a push on the end, of the 24: sqrt(2 m) / (k pi). Warping sections do not.
     const auto modes = static_cast<int>(
         (body.mass.row(0).tail(body.modes()).array().abs() > 0.05 * std::sqrt(body.total_mass)).count());
     REQUIRE(modes >= 2);
@@ -118,7 +118,7 @@ TEST_CASE("The free reduced bar has the frequencies of the rod's reduction, and 
     }
   }
   INFO(mesh_errors);
-  // Of either sign: the mesh changes the modes that are kept as well as what they can show.
+  // The sign may be either: the mesh changes the kept modes as well as the motions that they can represent.
   CHECK(mesh_errors.bottomRows<1>().cwiseAbs().maxCoeff() < 1e-6);
   for (int k = 0; k < 2; ++k) {
     CHECK(orders(mesh_errors.col(k).cwiseAbs()).tail(1)(0) > 3.8);

@@ -3,8 +3,8 @@
 // NAFEMS, The Standard NAFEMS Benchmarks (1990), LE10: a quarter of a plate between the ellipses with semi-axes 2, 1
 // and 3.25, 2.75 m, 0.6 m thick, E = 210 GPa, nu = 0.3, 1 MPa on the upper face; outer edge held in x and y, and in z
 // along its middle line. Target: sigma_yy = -5.38 MPa at D = (2, 0) on the upper face. Its digits are those of a
-// support along a line, under which a solid gives way without limit as the mesh is refined: 0.6 % is how well it is
-// known (brick meshes up to 20 x 30 x 6 lie between -5.37 and -5.41).
+// support along a line, under which the displacement of a solid grows without limit as the mesh is refined: it is known
+// to 0.6 % (brick meshes up to 20 x 30 x 6 give values between -5.37 and -5.41).
 #pragma once
 
 #include <cmath>

@@ -1,7 +1,7 @@
-// Straight and curved bars of solid elements, reduced, and the geometrically exact beam that is as stiff as they are.
+// Straight and curved bars of solid elements, reduced, and the geometrically exact beam of the same stiffness.
 //
 // Square section 1 x 1, E = 1e7, nu = 0, along x from the origin; curved ones turn to -y on a circle of radius 100.
-// Rigid ties at the ends stiffen a piece against shear and torsion by a few per cent. That is a matter of the mesh and
+// Rigid ties at the ends stiffen a piece against shear and torsion by a few per cent. That is an effect of the mesh and
 // not of large deformation: the beam of comparison gets the section, EA, GA, GJ, EI, whose flexibility is nearest to
 // that of the reduced piece.
 #pragma once

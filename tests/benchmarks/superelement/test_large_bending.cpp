@@ -1,4 +1,4 @@
-// Superelements that bend: against the geometrically exact beam that is as stiff, and against closed forms.
+// Superelements that bend: against the geometrically exact beam of the same stiffness, and against closed forms.
 //
 // The 45-degree bend of K.-J. Bathe, S. Bolourchi, IJNME 14 (1979) 961, radius 100, section 1 x 1, E = 1e7, nu = 0,
 // load 600 across its plane: the geometrically exact rod with the torsion constant of a square and 5/6 of the shear
@@ -20,7 +20,7 @@ namespace {
 
 constexpr double floor_of_residual = 1e-5;  // EA epsilon |x| / L of the pieces is 1e-8 to 1e-7
 
-/// Where a model's node goes under its loads.
+/// Displacement of a model's node under its loads.
 Vector3 displacement(const std::string& model, const std::string& node, int steps) {
   StaticModel statics(model);
   const Vector3 start = statics.node(node).x;
@@ -68,10 +68,10 @@ TEST_CASE("the 45-degree bend of superelements converges to the exact rod, in an
     CHECK((bend.tip(load, none, 1) - u).norm() < 1e-8 * exact.norm());
     CHECK((bend.tip(load, none, 17) - u).norm() < 1e-8 * exact.norm());
     if (pieces == 3) continue;
-    // Against the beam that is as stiff as the pieces, only large bending is left.
+    // Compared with the beam of the same stiffness, the difference is that of large bending.
     const Vector3 reference = bend.beam(load, none);
     CHECK((u - reference).norm() < 5e-4 * reference.norm());
-    // It takes the geometric stiffness.
+    // Without the geometric stiffness it is wrong.
     Superelement without = bend.body;
     without.load_stiffness.clear();
     CHECK((bend.tip(without, load, none, 6) - reference).norm() > 1e-3 * reference.norm());

@@ -1,5 +1,5 @@
-// The stress of a bar that spins about its middle, between two interfaces that nothing holds: rho w^2 (L^2 - x^2)/2 in
-// closed form, x from the middle, L half the length; what modes show of it, and what the run says of itself.
+// The stress of a free bar that spins about its middle, between two interfaces: rho w^2 (L^2 - x^2)/2 in closed form, x
+// from the middle, L half the length; the part of it that modes represent, and the message of the run.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -41,10 +41,10 @@ void write_bar(const std::string& path, bool relieved) {
 struct Spin {
   std::string summary;
   double stress = 0;   ///< along the bar at its middle, at the end
-  double missing = 0;  ///< as the results have it; nothing where they have not
+  double missing = 0;  ///< value in the results; 0 if there is none
 };
 
-/// @param output  what the run is asked for
+/// @param output  requested output of the run
 Spin spin(const TemporaryFolder& folder, const std::string& output) {
   const std::string text = fmt::format(
       "nodes:\n"

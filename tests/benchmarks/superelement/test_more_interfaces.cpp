@@ -1,8 +1,8 @@
-// Superelements with three interfaces, and with a corner, against geometrically exact beams and against themselves in
-// parts.
+// Superelements with three interfaces, and with a corner, against geometrically exact beams and against their own
+// division into parts.
 //
-// Section of 1 x 1, E = 1e7, without shear. Bodies are chains of linear beam elements as stiff as the exact beam, so
-// that what is left of their difference, the part linear in the load taken off, is that of large deformation.
+// Section of 1 x 1, E = 1e7, without shear. Bodies are chains of linear beam elements of the stiffness of the exact
+// beam, so that their difference, without the part linear in the load, is that of large deformation.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -178,7 +178,7 @@ TEST_CASE("a frame that is turned quickly, as one superelement, as two joined an
       return {largest_difference(frame, beam) / deflection, largest_difference(corner, beam) / deflection,
               largest_difference(joined, beam) / deflection, largest_difference(corner, joined) / deflection};
     };
-    // The tip is left behind by 8, 4 and 6 % of the length of 20 m at 1.6 rad.
+    // The deflection of the tip is 8, 4 and 6 % of the length of 20 m at 1.6 rad.
     const Errors far = errors(1.6), half = errors(0.8), near = errors(0.016);
     CAPTURE(second.transpose(), far.frame, far.corner, far.joined, half.frame, half.corner, near.parts);
     CHECK(far.joined < 3e-5);
@@ -186,8 +186,8 @@ TEST_CASE("a frame that is turned quickly, as one superelement, as two joined an
     CHECK(far.frame < 1e-3);
     // One body or two joined: the same linear theory.
     CHECK(near.parts < 1e-5);
-    // In the straight bar errors are of third order in the load. In a frame that turns they are of second order: small,
-    // and none of that of loads on its interfaces, but not less.
+    // In the straight bar errors are of third order in the load. In a rotating frame of two legs they are of second
+    // order: small, and not caused by loads on its interfaces.
     const double order = second.x() == 1 ? 0.3 : 0.65;
     CHECK(half.frame < order * far.frame);
     CHECK(half.corner < order * far.corner);

@@ -4,9 +4,9 @@
 // without Poisson's contraction its solid is exact in pure bending (the displacement is quadratic), so that all pieces
 // together turn by M L/EI, but for the quadratic part of Green's strain, (du_x/dx)^2 / 2, in the geometric stiffness:
 // it stretches the axis by kappa^2 h^2 / 12 and turns the tip by twice that share more, 2/3 of the square of the strain
-// at the surface. A piece of angle theta that did not know that its chord shortens would be longer than that of the arc
-// by (theta/2)/sin(theta/2), which is 1 + theta^2/24; pieces know, and are wrong by a higher power. With contraction
-// the rigid cuts stiffen the bar, by what the assembled pieces say of a moment at the tip.
+// at the surface. A piece of angle theta without the shortening of its chord would be longer than that of the arc by
+// (theta/2)/sin(theta/2), which is 1 + theta^2/24; the pieces include it, and their error is of a higher power. With
+// contraction the rigid cuts stiffen the bar, by the amount that the assembled pieces give for a moment at the tip.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -61,7 +61,7 @@ Vector3 bent_tip(const CutBody& body, double angle) {
   return {model.node("tip").x.x(), model.node("tip").x.y(), log_so3(model.node("tip").R).z()};
 }
 
-/// Of the circle with this angle at its end.
+/// Tip position of the circle with this angle at its end.
 Eigen::Vector2d circle(double angle) { return {std::sin(angle) / angle, (1 - std::cos(angle)) / angle}; }
 
 }  // namespace
@@ -92,10 +92,11 @@ TEST_CASE("contraction that rigid cuts hinder stiffens the bar by what its piece
   const Eigen::MatrixXd compliance = bielle::regular_inverse(whole.stiffness(loose, loose)).value();
   const double stiffening = 1 / (compliance(compliance.rows() - 1, compliance.rows() - 1) * bending_stiffness);
   // Without any contraction steel is (1 - nu)/((1 + nu)(1 - 2 nu)) = 1.346 times as stiff. Two ends of each of four
-  // pieces hinder it over less than half a width: 8 x 10 mm out of 1 m.
+  // pieces suppress it over less than half a width: 8 x 10 mm out of 1 m.
   CHECK(stiffening > 1.001);
   CHECK(stiffening < 1 + 0.346 * 0.08);
-  // The division into tetrahedra is not symmetric, and the tip leaves the plane a little: that tells in second order.
+  // The division into tetrahedra is not symmetric, and the tip leaves the plane slightly: the effect is of second
+  // order.
   const double angle = 1.5, sideways = 0.01;
   const Eigen::Index rz = compliance.rows() - 1;
   CHECK(std::hypot(compliance(rz - 1, rz), compliance(rz - 2, rz)) < sideways * compliance(rz, rz));

@@ -1,6 +1,6 @@
 // Stress and strain that a mechanism recovers, against the solid itself: tension, bending and shear of a bar in closed
-// form. Quadratic cells hold these fields exactly, and a superelement whose end faces are interfaces node by node has
-// them among its constraint modes: nothing is lost by the reduction.
+// form. Quadratic cells represent these fields exactly, and a superelement whose end faces are interfaces node by node
+// has them among its constraint modes: the reduction loses nothing.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -20,9 +20,10 @@ namespace test_recovered_stress {
 namespace {
 
 constexpr double young = 210e9, poisson = 0.3;
-/// Strain, and curvature [1/m]. What a linear body lacks is of second order in rotations: those of the bent ends, half
-/// the amount, have squares of the amount times the strain at the surface, a tenth of the amount. What positions of 0.5
-/// m lose by rounding, 1e-16 m over cells of 0.05 m, is 2e-7 of that strain. So errors are some ten times the amount.
+/// Strain, and curvature [1/m]. The terms that a linear body lacks are of second order in rotations: those of the bent
+/// ends, half the amount, have squares of the amount times the strain at the surface, a tenth of the amount. Positions
+/// of 0.5 m are rounded to 1e-16 m over cells of 0.05 m, which is 2e-7 of that strain. So errors are some ten times the
+/// amount.
 constexpr double amount = 1e-7, bound = 10 * amount;
 
 struct State {
@@ -58,7 +59,7 @@ Superelement bar(const Mesh& mesh) {
   return reduce_body(mesh, options, quiet, 2);
 }
 
-/// All interfaces moved as the closed form moves them, in one load step.
+/// All interfaces are moved as in the closed form, in one load step.
 std::string model(const Superelement& body, const std::string& file, const State& state) {
   std::string nodes, interfaces;
   for (const Interface& interface : body.interfaces) {
@@ -94,7 +95,7 @@ TEST_CASE("stress and strain recovered in a mechanism are those of the solid in 
     const std::vector<double> stress = results.read("/elements/bar/stress"),
                               strain = results.read("/elements/bar/strain"),
                               principal = results.read("/elements/bar/principal_stress");
-    // The same of the full solid, from its nodal displacements.
+    // Results of the full solid, from its nodal displacements.
     RowMatrix u(3 * mesh.point_count(), 1);
     for (Eigen::Index a = 0; a < mesh.point_count(); ++a)
       u.block<3, 1>(3 * a, 0) = amount * state.displacement(mesh.points.col(a));

@@ -1,5 +1,5 @@
 // Superelements and beams that are strained: stretch, shear, bending and torsion of a block between two ends, whose
-// strain is known, against what the run says.
+// strain is known, against the doubt of the run.
 #include <cmath>
 #include <functional>
 #include <map>
@@ -24,7 +24,7 @@ using Catch::Contains;
 
 namespace {
 
-/// Poisson's ratio is zero: rigid ends hold no contraction, and strains of the closed forms are exact.
+/// Poisson's ratio is zero: rigid ends do not suppress contraction, and the strains of the closed forms are exact.
 void write_block(const std::string& path, const Eigen::Vector3d& size, const std::array<int, 3>& bricks) {
   reduce::ReductionOptions options;
   options.name = "block";
@@ -43,7 +43,7 @@ void write_block(const std::string& path, const Eigen::Vector3d& size, const std
   write_superelement(reduce::reduce_body(mesh, options, quiet, 2), path);
 }
 
-/// A model whose nodes are put somewhere, and what it then says.
+/// A model whose nodes are put somewhere, and its doubts then.
 struct Placed {
   ReadyModel model;
   State state;
@@ -66,7 +66,7 @@ struct Placed {
   std::map<std::string, double> values;
 };
 
-/// The block of length 1, its end b displaced and turned, what moves besides being zero.
+/// The block of length 1 with its end b displaced and turned; the zero components are not given.
 struct Block : Placed {
   Block(const TemporaryFolder& folder, const Vector3& moved, const Vector3& turn, const std::string& more = "")
       : Placed(fmt::format("nodes: {{a: {{}}, b: {{position: [1, 0, 0]}}}}\n"

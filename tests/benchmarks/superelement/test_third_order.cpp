@@ -1,8 +1,7 @@
-// Superelements of beams against the same beam, geometrically exact: the error that their linear elasticity leaves.
+// Superelements of beams against the same geometrically exact beam: the error of their linear elasticity.
 //
 // Section of 1 x 1, E = 1e7, without shear; length 5 pi, straight or an arc of 9 degrees. Both models have the same
-// flexibility, so that what is left of their difference, the part linear in the load taken off, is that of large
-// deformation.
+// flexibility, so that their difference, without the part linear in the load, is that of large deformation.
 #include <cmath>
 
 #include <catch2/catch.hpp>

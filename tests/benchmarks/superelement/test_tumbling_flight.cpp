@@ -1,10 +1,10 @@
-// Free tumbling flight of a vibrating beam as one superelement: conservation, and the nonlinear beam as judge.
+// Free tumbling flight of a vibrating beam as one superelement: conservation, and comparison with the nonlinear beam.
 //
-// A free-free beam of length 1, mass 1, EIy = 1.3, EIz = 1, EA = 1e4, GJ = 0.8, rotary inertia 1e-3 is thrown with
-// V = (0.2, -0.1, 0.3) and the spin (0.6, 1, 4) rad/s while its first bending mode starts with the velocity of an
-// amplitude of 0.002 or 0.02 of the length. No force acts: energy, momentum and angular momentum are constant, and
-// what the integrator loses of them is of second order in the step. The geometrically exact beam of 20 elements flies
-// from the same start.
+// A free-free beam of length 1, mass 1, EIy = 1.3, EIz = 1, EA = 1e4, GJ = 0.8, rotary inertia 1e-3 is thrown with V =
+// (0.2, -0.1, 0.3) and the spin (0.6, 1, 4) rad/s while its first bending mode starts with the velocity of an amplitude
+// of 0.002 or 0.02 of the length. No force acts: energy, momentum and angular momentum are constant, and the
+// integrator's errors in them are of second order in the step. The geometrically exact beam of 20 elements flies from
+// the same start.
 #include <cmath>
 
 #include <Eigen/Eigenvalues>
@@ -134,7 +134,8 @@ TEST_CASE("a vibrating superelement in free flight keeps energy and momenta to s
     CAPTURE(amplitude);
     const Flight coarse = superelement_flight(true, 8, amplitude, 2e-3);
     const Flight fine = superelement_flight(true, 8, amplitude, 1e-3);
-    // A fourth for half the step; a force that were not conservative, or a frame that leaked momentum, would stay.
+    // Half the step gives a fourth of the error; the error of a non-conservative force or of a frame that does not
+    // conserve momentum would not decrease.
     CHECK_THAT(coarse.energy / fine.energy, Catch::WithinAbs(4, 0.2));
     CHECK_THAT(coarse.momentum / fine.momentum, Catch::WithinAbs(4, 0.2));
     CHECK_THAT(coarse.angular_momentum / fine.angular_momentum, Catch::WithinAbs(4, 0.2));

@@ -1,4 +1,4 @@
-// The estimate of what a superelement's linear elasticity leaves out, against the geometrically exact beam.
+// The estimate of the error of a superelement's linear elasticity, against the geometrically exact beam.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -21,7 +21,7 @@ namespace {
 constexpr double EI = 1e7 / 12, GJ = 7.03e5, EA = 1e8, length = 16;
 const std::string section = fmt::format("{{EA: {0}, GAy: 1e10, GAz: 1e10, GJ: {1}, EIy: {2}, EIz: {2}}}", EA, GJ, EI);
 
-/// Of the error of the model's superelement, at its static equilibrium.
+/// Estimated error of the model's superelement, at its static equilibrium.
 double estimate_of(const std::string& text) {
   const ReadyModel model(text);
   Environment environment = model.environment();
@@ -67,9 +67,9 @@ TEST_CASE("a superelement says how wrong it is where interfaces have no rotation
   struct Case {
     std::string name;
     std::vector<BeamInterface> interfaces;
-    std::string root, tip;  ///< what holds the nodes
-    std::string node;       ///< that is looked at: m in the middle, e at the end, b at the interface there
-    double weight;          ///< of gravity; 0: a force on the tip
+    std::string root, tip;  ///< keys that hold the nodes
+    std::string node;       ///< observed node: m in the middle, e at the end, b at the interface there
+    double weight;          ///< weight by gravity; 0: a force on the tip
   };
   const std::string slides = ", fixed: [y, z, rx, ry, rz]";
   const double unit = EI / (length * length);

@@ -17,7 +17,7 @@ using namespace bielle::reduce;
 
 namespace {
 
-/// A beam along x, 1 m x 20 mm x 20 mm. Without contraction a held end hinders nothing, as in the theory of beams.
+/// A beam along x, 1 m x 20 mm x 20 mm. Without contraction a held end suppresses nothing, as in the theory of beams.
 Superelement beam(Tie a) {
   ReductionOptions options;
   options.name = "beam";
@@ -33,8 +33,8 @@ Superelement beam(Tie a) {
   return reduce_body(test::box_mesh({{1, 0.02, 0.02}, {64, 1, 1}}), options, quiet, 2);
 }
 
-/// int (1/4 - s^2)/2 phi'^2 ds / int phi^2 ds of a free-free mode of length 1: what spin about a transverse axis adds
-/// to omega^2 / Omega^2 out of its plane (the mode's own change adds less than a percent).
+/// int (1/4 - s^2)/2 phi'^2 ds / int phi^2 ds of a free-free mode of length 1: the contribution of spin about a
+/// transverse axis to omega^2 / Omega^2 out of its plane (the mode's own change adds less than a percent).
 double tension_quotient(double beta) {
   const double ratio = (std::cosh(beta) - std::cos(beta)) / (std::sinh(beta) - std::sin(beta));
   double tension = 0, mass = 0;
@@ -77,7 +77,7 @@ TEST_CASE(
     CHECK(values(0) < 5e-3);
     CHECK(values(1) == Approx(1).epsilon(5e-3));
   }
-  // 3.04 and 6.38 are what a geometrically exact beam gives.
+  // A geometrically exact beam gives 3.04 and 6.38.
   CHECK(tension_quotient(4.7300407448627) == Approx(3.04).margin(0.01));
   CHECK(tension_quotient(7.8532046240958) == Approx(6.38).margin(0.06));
 }
@@ -94,8 +94,8 @@ TEST_CASE("A rotating cantilever's flap and lag frequencies are those of Wright 
   }
   const auto lowest = [&](double eta, bool lag, bool tension = true) {
     const double spin = eta * unit;
-    // The stress is that of the free body that spins about its centre, plus that of the root's pull, which makes the
-    // centre go round: F = -m spin^2 L / 2.
+    // The stress is that of the free body that spins about its centre, plus that of the root's pull, which keeps the
+    // centre on its circle: F = -m spin^2 L / 2.
     Eigen::MatrixXd k = body.stiffness;
     if (tension) {
       k += spin * spin * body.spin_stiffness[2] - body.total_mass * spin * spin * length / 2 * body.load_stiffness[0];

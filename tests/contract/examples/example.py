@@ -1,4 +1,4 @@
-"""An example of mechanism/examples as a user runs it: once for all tests of a class."""
+"""An example of mechanism/examples, run as a user runs it: once for all tests of a class."""
 
 import os
 import shutil
@@ -18,7 +18,7 @@ EXAMPLES = os.path.join(REPOSITORY, "mechanism", "examples")
 
 
 class ExampleTest(unittest.TestCase):
-    """results, time: of the run of `model`; superelement: the name by which the model knows BIELLE_SUPERELEMENT."""
+    """results, time: of the run of `model`; superelement: the model's name for BIELLE_SUPERELEMENT."""
 
     model = ""
     superelement = ""

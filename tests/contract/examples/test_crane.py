@@ -1,4 +1,4 @@
-"""mechanism/examples/crane.yaml: holds its load, lifts and lowers it as its valves say, and keeps its books."""
+"""mechanism/examples/crane.yaml: holds its load, lifts and lowers it with its valves, and balances its energy."""
 
 import os
 import subprocess

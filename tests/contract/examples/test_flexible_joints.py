@@ -49,7 +49,7 @@ class FlexibleJoints(ExampleTest):
         angle = self.rows("joints/main/coordinate")[:, 0]
         ideal = 0.1 * np.cos(angle) + np.sqrt(0.3 ** 2 - (0.1 * np.sin(angle)) ** 2)
         off = np.abs(self.rows("nodes/slider/position")[:, 0] - 4 - ideal)
-        # The play and what surfaces press into each other, seen along the slider's way from a rod inclined by asin(1/3).
+        # The play and the penetration of the surfaces along the slider's way, for a rod inclined by asin(1/3).
         play = 1e-4 + self.rows("joints/wrist/penetration").max()
         self.assertLess(off.max(), play / np.sqrt(1 - 1 / 9))
         self.assertGreater(off.max(), 0.8e-4)

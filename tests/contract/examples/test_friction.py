@@ -1,4 +1,4 @@
-"""mechanism/examples/friction.yaml: sticks and slips, holds, slides and comes to rest as its closed forms say."""
+"""mechanism/examples/friction.yaml: sticks and slips, holds, slides and comes to rest as the closed forms require."""
 
 import math
 import os
@@ -40,7 +40,7 @@ class Friction(unittest.TestCase):
                                   [inertia, (lead * radius - 0.15 * radius ** 2) / c]])
             acceleration, _ = np.linalg.solve(equations, [-mass * 9.81, 0])
             self.assertAlmostEqual(steep[-1, 1] / (0.5 * acceleration * 16), 1, delta=1e-6)
-            # The sign hangs still, off the vertical by no more than the bearing holds.
+            # The sign hangs still; its angle from the vertical is within the friction of the bearing.
             angle, rate = (np.array(results.rows(f"joints/bearing/{what}"))[-1, 0] for what in ("coordinate", "rate"))
             self.assertLess(abs(rate), 1e-3)
             self.assertLess(abs(math.cos(angle)), 0.6 * 0.15 / 0.4)

@@ -1,5 +1,5 @@
-"""mechanism/examples/joints.yaml: every type of joint (those that give stand in flexible_joints.yaml), each moving as its
-closed form says."""
+"""mechanism/examples/joints.yaml: every type of joint (elastic ones are in flexible_joints.yaml), each moving as its
+closed form requires."""
 
 import math
 import os
@@ -34,7 +34,7 @@ class Joints(ExampleTest):
         for model in (MODEL, os.path.join(os.path.dirname(MODEL), "flexible_joints.yaml")):
             with open(model, encoding="utf-8") as file:
                 used |= set(re.findall(r"type: (\w+)", file.read()))
-        # A rod with two balls is a `distance` by another name.
+        # A rod with two balls is a `distance` with another name.
         self.assertEqual(types - used - {"spherical_spherical", "contact"}, set())  # contacts.yaml has the latter
 
     def test_shafts(self):

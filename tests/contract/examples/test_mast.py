@@ -1,4 +1,4 @@
-"""mechanism/examples/mast.yaml: bends as the wind says, with the stresses of elementary beam theory.
+"""mechanism/examples/mast.yaml: bends under the wind with the stresses of elementary beam theory.
 
 The top moves by a few centimetres: the weight on the moved mast changes the moments by less than 2 %.
 """
@@ -18,7 +18,7 @@ def wind(z):
 
 
 def wind_moment(z):
-    """Of all that blows above z, about z."""
+    """Moment about z of the wind above z."""
     above = np.linspace(z, HEIGHT, 2001)
     return np.trapz(wind(above) * (above - z), above)
 

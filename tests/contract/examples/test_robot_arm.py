@@ -1,4 +1,4 @@
-"""mechanism/examples/robot_arm.yaml: the tool follows its circle, and the motors alone bear and move it."""
+"""mechanism/examples/robot_arm.yaml: the tool follows its circle, and the motors alone carry and move it."""
 
 import unittest
 

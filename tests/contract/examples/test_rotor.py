@@ -92,7 +92,7 @@ class Rotor(unittest.TestCase):
             np.testing.assert_allclose(speeds, np.linspace(0, 120, 25), atol=1e-12)
             for speed, row in zip(speeds, frequencies):
                 np.testing.assert_allclose(np.sort(row), whirl(speed)[:5], rtol=3e-3)
-            # Each line is smooth: its second differences are small, as those of lines that jump are not.
+            # Each line is smooth: its second differences are small, unlike those of lines that jump.
             self.assertLess(np.abs(np.diff(frequencies, 2, axis=0)).max(), 0.05 * np.abs(np.diff(frequencies, axis=0)).max() + 0.05)
             self.assertEqual(sorted(np.sign(senses[-1, :4])), [-1, -1, 1, 1])
             # At a critical speed a frequency of the reference is the speed.

@@ -1,4 +1,5 @@
-"""mechanism/examples/servo.yaml: stands still, is lifted within what its motor has, and falls when it is let go."""
+"""mechanism/examples/servo.yaml: stands still, is lifted within the limit of its motor, and falls when it is
+released."""
 
 import unittest
 

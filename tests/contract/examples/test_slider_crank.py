@@ -1,4 +1,4 @@
-"""mechanism/examples/slider_crank.yaml: runs, turns as a slider-crank must, and keeps its books.
+"""mechanism/examples/slider_crank.yaml: runs, moves as a slider-crank must, and balances its energy.
 
 The rod bends and stretches by well under a tenth of a millimetre or two: rigid kinematics hold within that.
 """

@@ -1,9 +1,9 @@
-"""Runs the programs on files that a seed has damaged. Whatever the file, a program ends by itself, with status 0, 1 or 2,
-and says what is wrong in a sentence that it foresaw.
+"""Runs the programs on files that a seed has damaged. Whatever the file, a program ends by itself, with status 0, 1 or
+2, and reports the fault in a sentence written for it.
 
 BIELLE_FUZZ_SEED chooses the damage (default 0), BIELLE_FUZZ_CASES multiplies the number of cases (default 1), and
-BIELLE_FUZZ_PATIENCE the time that a program may take (default 1; sanitizers need more). A failure names the case, and its
-file is kept under BIELLE_FUZZ_KEEP where that is set.
+BIELLE_FUZZ_PATIENCE the time that a program may take (default 1; sanitizers need more). A failure names the case, and
+its file is kept under BIELLE_FUZZ_KEEP if that is set.
 """
 
 import os
@@ -27,7 +27,8 @@ NEVER = ("unforeseen", "Traceback", "AddressSanitizer", "runtime error:", "termi
 
 
 def ended(run, processor_seconds=20, seconds=200):
-    """Whether a process ends within so much of its own time; a busy machine may give it that in many times as long."""
+    """Tells whether a process ends within this much of its own time; on a busy machine that may take many times as
+    long."""
     clock = os.sysconf("SC_CLK_TCK")
     until = time.monotonic() + PATIENCE * seconds
     while time.monotonic() < until:
@@ -52,12 +53,13 @@ class FuzzTest(InFolder):
             return file.read()
 
     def cases(self, number):
-        """Numbers of cases with a source of random numbers for each: a case is the same whichever ran before."""
+        """Numbers of cases with a source of random numbers for each: a case does not depend on the ones that ran
+        before."""
         for case in range(number * TIMES):
             yield case, random.Random(f"{SEED} {self.id().rsplit('.', 1)[1]} {case}")
 
     def judge(self, note, keep, program, *arguments):
-        """Runs a program; a run that goes on for long must be one that computes: it ends when it is asked to."""
+        """Runs a program; a run that takes long must be one that computes: it ends when it gets a signal."""
         with open(self.path("said"), "w+", encoding="utf-8", errors="replace") as errors_file:
             run = subprocess.Popen([os.path.join(PROGRAMS, program), *arguments], cwd=self.folder, stdin=subprocess.DEVNULL,
                                    stdout=subprocess.DEVNULL, stderr=errors_file,
@@ -87,7 +89,7 @@ class FuzzTest(InFolder):
 
 
 def damaged_bytes(rng, data):
-    """@returns the data with one damage of the kinds that disks and transfers do, and its name."""
+    """@returns the data with one damage of a kind that occurs on disks and in transfers, and its name."""
     data = bytearray(data)
     place = rng.randrange(len(data))
     kind = rng.choice(["cut", "bit", "bytes", "head", "ones", "zeros"])

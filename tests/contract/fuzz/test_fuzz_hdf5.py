@@ -44,7 +44,7 @@ def change_numbers(rng, file, name, values):
 
 
 def changed(rng, path):
-    """Changes the content of a file as a script would. @returns what was done"""
+    """Changes the content of a file as a script would. @returns a description of the change"""
     with h5py.File(path, "r+") as file:
         names = []
         file.visititems(lambda name, item: names.append(name) if isinstance(item, h5py.Dataset) else None)
@@ -81,7 +81,7 @@ def changed(rng, path):
 
 
 def near_structures(rng, data):
-    """Bytes close to the signatures of what describes groups and texts."""
+    """Bytes close to the signatures of the structures that describe groups and texts."""
     data = bytearray(data)
     start = rng.choice([found.start() for found in re.finditer(rb"TREE|SNOD|HEAP|GCOL|OHDR|FRHP|FSHD|\x89HDF", data)])
     for _ in range(rng.choice([1, 1, 2, 4])):

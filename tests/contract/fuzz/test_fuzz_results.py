@@ -45,7 +45,7 @@ class Results(FuzzTest):
         synthetic.stack(self.path("sound_stacked.h5"))
 
     def run_tool(self, name, more=()):
-        """@returns the exit status, negative for a signal, and what was said."""
+        """@returns the exit status, negative for a signal, and the messages."""
         said = os.open(self.path("said"), os.O_RDWR | os.O_CREAT | os.O_TRUNC)
         child = os.fork()
         if not child:

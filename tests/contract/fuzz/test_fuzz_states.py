@@ -1,4 +1,5 @@
-"""Checkpoints whose sums are missing, with other numbers in the state: what a run goes on from is judged number by number."""
+"""Checkpoints without checksums, with other numbers in the state: a run judges the state that it continues number by
+number."""
 
 import shutil
 import unittest

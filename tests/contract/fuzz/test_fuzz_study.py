@@ -1,4 +1,5 @@
-"""Files of studies and tables with words and numbers exchanged: study ends with a sentence, and nothing of what it reads is lost."""
+"""Files of studies and tables with words and numbers exchanged: study ends with a sentence, and its input files are not
+lost."""
 
 import re
 import subprocess

@@ -12,7 +12,7 @@ class BarTest(CommandTest):
         self.write("bar.geo", self.geometry)
 
     def reduce(self, body):
-        """A run that succeeds."""
+        """Runs the program, which must succeed."""
         self.write("body.yaml", body)
         done = self.run_program("body.yaml")
         self.assertEqual(done.returncode, 0, done.stderr)

@@ -18,7 +18,7 @@ class CommandTest(InFolder):
                               capture_output=True, stdin=subprocess.DEVNULL, timeout=timeout)
 
     def expect_refusal(self, status, *arguments, says=()):
-        """The program ends with the status and one line on standard error that holds every text of `says`."""
+        """The program must end with the status and one line on standard error that contains every text of `says`."""
         done = self.run_program(*arguments)
         self.assertEqual(done.returncode, status, done.stderr)
         lines = [line for line in done.stderr.splitlines() if ": error: " in line]
@@ -29,7 +29,7 @@ class CommandTest(InFolder):
         return done
 
     def summary(self, model):
-        """What the program prints of a model, given as text, that it runs."""
+        """Returns the output of the program for a model, given as text, which must run."""
         self.write("model.yaml", model)
         done = self.run_program("model.yaml")
         self.assertEqual(done.returncode, 0, done.stderr)

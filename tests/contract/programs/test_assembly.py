@@ -1,4 +1,4 @@
-"""Parts that are drawn roughly: what is kept, what moves, what cannot close, and joints without a place."""
+"""Parts that are drawn roughly: kept parts, moved parts, loops that cannot close, and joints without a place."""
 
 import unittest
 

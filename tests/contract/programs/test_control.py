@@ -1,4 +1,4 @@
-"""States and controllers in the files of bielle-mechanism: rows, restarts, what is refused and how."""
+"""States and controllers in the files of bielle-mechanism: rows, restarts, refusals and their messages."""
 
 import os
 import shutil

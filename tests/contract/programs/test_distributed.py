@@ -1,4 +1,5 @@
-"""bielle-reduce-mpi: what several ranks reduce is what one machine reduces; its errors, and its end when something ends."""
+"""bielle-reduce-mpi: the result of several ranks equals that of one machine; its errors, and its end when a process
+ends."""
 
 import os
 import shutil
@@ -83,7 +84,7 @@ class Distributed(CommandTest):
         return run.returncode, said
 
     def both(self, body, ranks=2):
-        """What one machine and several ranks write of a body."""
+        """The files of one machine and of several ranks for a body."""
         self.write("body.yaml", body)
         alone = self.run_program("body.yaml", "-o", "alone.h5", "--quiet")
         self.assertEqual(alone.returncode, 0, alone.stderr)
@@ -94,7 +95,7 @@ class Distributed(CommandTest):
         return datasets(self.path("alone.h5")), datasets(self.path("shared.h5"))
 
     def expect_same(self, alone, shared):
-        """All that is in the file but the checks, which are rounding errors. Modes are of one sign: their largest
+        """The whole file except the checks, which are rounding errors. Signs of modes are unique: their largest
         component is positive."""
         self.assertEqual(set(alone), set(shared))
         for name, values in alone.items():
@@ -136,7 +137,7 @@ class Distributed(CommandTest):
         numpy.testing.assert_allclose(frequencies, alone["modes/frequencies"], rtol=1e-9)
         pairs = numpy.isclose(frequencies[1:], frequencies[:-1], rtol=1e-9)
         self.assertEqual(pairs.sum(), 3)
-        # Within a pair modes turn: the products with what is left of mass and stiffness do not.
+        # Modes of a pair may be rotated: their products with the remaining mass and stiffness are not affected.
         kept = len(shared["reduced/mass"]) - len(frequencies)
         for name in ("reduced/mass", "reduced/stiffness"):
             a, b = alone[name], shared[name]

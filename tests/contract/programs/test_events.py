@@ -45,7 +45,7 @@ class Events(CommandTest):
         return int(re.search(r"(\d+) rows recorded", done.stdout)[1])
 
     def test_a_restarted_run_equals_the_whole_one_events_and_all(self):
-        # The same steps to the last bit need the same checkpoints: pivots are chosen anew there.
+        # Equality to the last bit requires the same checkpoints, since pivots are chosen anew there.
         self.run_model("whole", 70, 1.2)
         with h5py.File(os.path.join(self.folder, "whole.h5")) as whole:
             events = whole["analysis_1/events/time"][:]

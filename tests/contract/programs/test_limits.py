@@ -24,7 +24,7 @@ class Limits(BarTest):
         self.write("model.yaml", PENDULUM)
 
     def run_limited(self, program, limits, *arguments, threads=2):
-        """@returns the exit status and what is said last; a run that hangs is a failure."""
+        """@returns the exit status and the last message; a run that hangs is a failure."""
         def limit():
             for kind, most in limits.items():
                 resource.setrlimit(kind, (most, most))

@@ -48,7 +48,8 @@ class LongRuns(CommandTest):
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
     def wait_for_checkpoints(self, run, count):
-        """Until the file of the running program counts so many checkpoints; it is read as anyone may at any time."""
+        """Waits until the file of the running program counts this many checkpoints; any other program may read it at
+        any time."""
         until = time.monotonic() + 60
         while time.monotonic() < until and run.poll() is None:
             try:
@@ -75,7 +76,7 @@ class LongRuns(CommandTest):
             np.testing.assert_allclose(group["time"][:], 1e-3 * np.arange(rows), atol=1e-9)
             for name, dataset in datasets(group).items():
                 self.assertGreaterEqual(dataset.shape[0], rows, name)
-            # Every row is that of a motion: the rod is as long as it is, also in the last one.
+            # Every row is a valid state: the rod has its length, also in the last one.
             ends = group["nodes/upper/position"][:rows]
             np.testing.assert_allclose(np.linalg.norm(ends, axis=1), 0.5, atol=1e-9)
         done = self.run_program("model.yaml", "--restart", "model.h5")

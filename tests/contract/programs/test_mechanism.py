@@ -1,4 +1,4 @@
-"""The contract of bielle-mechanism: messages, exit statuses, and what a failed run leaves behind."""
+"""The interface of bielle-mechanism: messages, exit statuses, and the files of a failed run."""
 
 import os
 import signal

@@ -1,4 +1,4 @@
-"""What people get wrong with bielle-mechanism: units, degrees, jumps, lists with the same name twice, parts joined to nothing."""
+"""Mistakes of users of bielle-mechanism: units, degrees, jumps, duplicate names, unconnected parts."""
 
 import os
 import unittest
@@ -34,7 +34,7 @@ class Slips(CommandTest):
         return self.run_program("model.yaml")
 
     def doubts(self, model, old="", new=""):
-        """Warnings of a run that goes on all the same."""
+        """Warnings of a run that continues nevertheless."""
         done = self.run_changed(model, old, new)
         self.assertEqual(done.returncode, 0, done.stderr)
         return "\n".join(line for line in done.stderr.splitlines() if "warning: " in line)
@@ -129,14 +129,15 @@ analysis: [{type: dynamic, duration: 0.01, step: 1e-3}]
         self.assertIn("model.yaml:4: elements.c: its joints are 100 m apart, and its inertia is that of a body of 0.1 m: is that "
                       "meant? Positions are in metres", self.doubts(lengths(50)))
         self.assertEqual(self.doubts(lengths(0.05)), "")
-        # One body of the usual proportions says that the model is as it is meant.
+        # One body of usual proportions shows that the model is as intended.
         self.assertEqual(self.doubts(lengths(50), "mass: 1, inertia: [1e-5, 8.3e-4, 8.3e-4]}\n  d",
                                      "mass: 1000, inertia: [1, 8e5, 8e5]}\n  d"), "")
 
     def test_no_example_is_doubted(self):
         folder = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "mechanism", "examples")
         for name in sorted(os.listdir(folder)):
-            if name.endswith(".yaml") and name not in ("crane.yaml", "slider_crank.yaml"):  # which have tests of their own
+            if name.endswith(".yaml") and name not in ("crane.yaml", "slider_crank.yaml"):  # these have tests of their
+                                                                                            # own
                 done = self.run_program(os.path.join(folder, name), "--check")
                 self.assertEqual((done.returncode, done.stderr), (0, ""), name)
 
@@ -157,7 +158,7 @@ analysis: [{type: dynamic, duration: 0.01, step: 1e-3}]
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("\n  joined to nothing that is held: the part of node 'lost'\n", done.stdout)
         self.assertNotIn("joined to nothing", self.run_changed(CRANK).stdout)
-        # What flies as a whole is meant to.
+        # A body that flies as a whole is intended to.
         flying = model.replace("nodes: [ground, c]", "nodes: [lost, c]")
         self.assertNotIn("joined to nothing", self.run_changed(flying).stdout)
 

@@ -1,4 +1,4 @@
-"""What happens to files, streams and limits around the programs: damaged, tampered with, misplaced, closed, too small."""
+"""Mishaps of files, streams and limits around the programs: damaged, modified, misplaced, closed, too small."""
 
 import os
 import resource

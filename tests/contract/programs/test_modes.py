@@ -1,4 +1,4 @@
-"""What `bielle-mechanism` says of modes: instability, states that do not stay, what cannot be computed."""
+"""Messages of `bielle-mechanism` about modes: instability, states that are not stationary, impossible computations."""
 
 import os
 import unittest
@@ -44,7 +44,7 @@ class Modes(CommandTest):
         self.assertEqual(text.count("eigen, 1 mode"), 2)
         with h5py.File(os.path.join(self.folder, "model.h5")) as file:
             self.assertEqual(file.attrs["complete"], 1)
-            self.assertAlmostEqual(file["/time"][-1], 0.2)            # of the motion before
+            self.assertAlmostEqual(file["/time"][-1], 0.2)            # end of the motion before
             self.assertAlmostEqual(file["/eigen/frequency"][0], (2 * 9.81 / 2.1)**0.5 / 6.283185307179586, places=9)
             self.assertIn("displacement", file["/analysis_2/eigen"])
             self.assertNotIn("displacement", file["/eigen"])

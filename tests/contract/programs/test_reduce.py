@@ -1,4 +1,4 @@
-"""The contract of bielle-reduce: messages, exit statuses, and that only complete files take the place of good ones."""
+"""The interface of bielle-reduce: messages, exit statuses, and that only complete files replace good ones."""
 
 import os
 import unittest

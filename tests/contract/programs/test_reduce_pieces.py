@@ -1,4 +1,4 @@
-"""Bodies in pieces, from the body file to the results of a mechanism: what is printed, where it stands, what is refused."""
+"""Bodies in pieces, from the body file to the results of a mechanism: the output, the layout of the file, refusals."""
 
 import os
 import re

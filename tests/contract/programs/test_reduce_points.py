@@ -59,7 +59,7 @@ class ReducePoints(BarTest):
     geometry = BAR
 
     def displacements(self, model, **nodes):
-        """Runs the mechanism on the body. @returns how far nodes are from the places given for them"""
+        """Runs the mechanism on the body. @returns the distances of nodes from the places given for them"""
         self.write("model.yaml", model)
         done = subprocess.run([os.path.join(PROGRAMS, "bielle-mechanism"), "model.yaml", "-o", "run.h5"], cwd=self.folder,
                               text=True, capture_output=True, timeout=120)

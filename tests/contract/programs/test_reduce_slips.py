@@ -1,4 +1,4 @@
-"""What people get wrong with bielle-reduce: units, sizes, where the output goes, a disk that is full, a run that is killed."""
+"""Mistakes of users of bielle-reduce: units, sizes, the output file, a full disk, a killed run."""
 
 import os
 import resource

@@ -57,7 +57,7 @@ class Verdict(CommandTest):
         few, part = self.frequencies()[0], float(found.group(2))
         self.assertGreater(part, 5)
         advice = re.search(r"change first: modes: \{below: (\d+)\}", said).group(1)
-        # True by the body that the advice makes, and the advice is good.
+        # The verdict is correct for the body that its advice gives, and the advice is good.
         better = self.said(held_once, ("count: 24", f"below: {advice}"))
         self.assertAlmostEqual(100 * (few / self.frequencies()[0] - 1), part, delta=0.2 * part)
         self.assertIn("verdict: good up to", better)

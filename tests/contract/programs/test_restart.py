@@ -1,4 +1,5 @@
-"""Runs that go on: with the same model alone, to the bit after any end, and with no step twice in the table of steps."""
+"""Continued runs: only with the same model, to the bit after any interruption, and with no step twice in the table of
+steps."""
 
 import os
 import signal
@@ -11,7 +12,8 @@ import numpy as np
 
 from command import PROGRAMS, CommandTest
 
-# This model has what a later part of the motion may meet and the probing state of a checkpoint does not show.
+# This model contains features that a later part of the motion may meet and that the probing state of a checkpoint does
+# not show.
 MODEL = """\
 parameters: {push: 40, k: 3, duration: 0.15}
 gravity: [0, 0, -9.81]

@@ -1,4 +1,4 @@
-"""What a run says of its own trustworthiness: freedom, loops that are nearly exact, energy, motions that stand still."""
+"""A run's judgement of itself: degrees of freedom, nearly redundant loops, energy, motions that stand still."""
 
 import re
 import unittest
@@ -136,7 +136,8 @@ class SelfJudgement(CommandTest):
             self.assertIn(" of what flowed through (", text)
             self.assertNotIn("nothing moved", text)
             self.assertNotIn("DOUBTFUL", text)
-        # A pendulum that its steps do not resolve is not hidden by a brake next to it, which takes more than its energy ..
+        # A pendulum that its steps do not resolve is not hidden by a brake next to it that takes more than its energy
+        # ..
         def with_rotor(inertia, damping, rate, drive):
             model = PENDULUM.format(duration=0.4, step=0.1, rho=1).replace("nodes: {a:", f"nodes: {{r: {{position: [9, 0, 0]{rate}}}, a:")
             model = model.replace("elements: {", f"elements: {{r: {{type: rigid_body, node: r, mass: 1, inertia: [{inertia}, {inertia}, {inertia}]}}, ")
@@ -145,7 +146,7 @@ class SelfJudgement(CommandTest):
         text = self.summary(with_rotor(1e-3, 0.6, "", 'drives: {d: {joint: h, rate: "10"}}\n'))
         self.assertIn(" of what flowed through (", text)
         self.assertIn("DOUBTFUL: so large errors in the balance", text)
-        # .. and next to a heavy flywheel it leaves little known of what is dissipated.
+        # .. and next to a heavy flywheel its dissipation is hardly known.
         text = self.summary(with_rotor(10, 0.02, ", angular_velocity: [0, 0, 50]", ""))
         self.assertIn(" of the largest energy (", text)
         self.assertRegex(text, r"\n  that is 0\.\d+ of the \S+ J that went in or were dissipated: these are not known better\n")
@@ -167,7 +168,7 @@ class SelfJudgement(CommandTest):
             self.assertLess(abs(errors), 0.05 * abs(gap), text)
             self.assertEqual("DOUBTFUL: the scheme's own dissipation took" in text, doubtful, text)
             self.assertNotIn("energy grows", text)
-        # The pendulum gains by errors, and the scheme hides part of it.
+        # The pendulum gains energy by errors, and the scheme hides part of it.
         (gap, scheme, errors), text = parts(PENDULUM.format(duration=0.4, step=0.05, rho=0.8))
         self.assertLess(scheme, 0)
         self.assertGreater(errors, 0.01)

@@ -1,4 +1,4 @@
-"""Python reproduces runs of bielle-mechanism to the last bit, whichever way it is asked."""
+"""Python reproduces runs of bielle-mechanism to the last bit, by whichever interface."""
 
 import os
 import subprocess
@@ -15,7 +15,7 @@ EXAMPLES = os.path.abspath(os.path.join(os.path.dirname(__file__), *[os.pardir] 
 
 
 def recorded(group):
-    """Datasets of an analysis in a results file, without rows that do not count and without events."""
+    """Datasets of an analysis in a results file, without invalid rows and without events."""
     rows = len(group["time"])
     found = {}
 
@@ -35,7 +35,7 @@ class AgainstTheProgram(WithModel):
         return output
 
     def expect_equal(self, expected, results):
-        """All of an analysis of a results file, and nothing else."""
+        """Everything of an analysis in a results file, and nothing else."""
         expected = recorded(expected)
         self.assertEqual(set(expected), {"time", *results.datasets})
         for name, values in expected.items():

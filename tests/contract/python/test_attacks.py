@@ -1,4 +1,4 @@
-"""Numbers and objects that are not what they should be, and programs that end in the middle: a sentence, never a crash."""
+"""Numbers and objects with wrong values, and programs that end in the middle: a sentence, never a crash."""
 
 import os
 import random
@@ -62,7 +62,7 @@ class Numbers(unittest.TestCase):
         for call in (lambda: self.model.session().dynamics(1, 0.01, saved=saved), lambda: self.session.restore(saved)):
             with self.assertRaisesRegex(bielle.InputError, r"number 29 \(from 0\), nan, is not finite"):
                 call()
-        self.assertTrue(self.motion.step())  # what was refused has changed nothing
+        self.assertTrue(self.motion.step())  # the refused value has changed nothing
 
     def test_states_that_are_none(self):
         session = bielle.read(PENDULUM).session()

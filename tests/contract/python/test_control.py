@@ -1,4 +1,4 @@
-"""Controllers in Python: inputs that are set each step, against formulas and controllers that the model has itself."""
+"""Controllers in Python: inputs that are set each step, against formulas and controllers of the model itself."""
 
 import unittest
 
@@ -8,7 +8,7 @@ import bielle
 from samples import WHEEL
 
 DURATION, OMEGA = 1.0, 5.0
-INERTIA = 2.0  # of the wheel about its axle
+INERTIA = 2.0  # inertia of the wheel about its axle
 
 
 def torque(time):
@@ -41,7 +41,7 @@ def by_formula(steps):
 
 class Inputs(unittest.TestCase):
     def orders(self, error):
-        """Of convergence, from halved steps."""
+        """Orders of convergence from halved steps."""
         errors = [abs(error(steps)) for steps in (100, 200, 400)]
         return np.log2(np.array(errors[:-1]) / errors[1:])
 
@@ -49,7 +49,8 @@ class Inputs(unittest.TestCase):
         np.testing.assert_allclose(self.orders(lambda steps: by_formula(steps) - turned(DURATION)), 2, atol=0.1)
 
     def test_the_value_of_the_end_of_the_step_is_the_formula(self):
-        """Smooth and seen where the step's equations are: the same motion, to Newton's tolerance (1e-9 of the forces)."""
+        """The value is smooth and taken at the time of the step's equations: the same motion, to Newton's tolerance
+        (1e-9 of the forces)."""
         for steps in (50, 200):
             self.assertAlmostEqual(driven(steps, 1, True), by_formula(steps), delta=1e-9)
 

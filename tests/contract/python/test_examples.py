@@ -37,7 +37,7 @@ class Examples(unittest.TestCase):
         values, deviations = identification.identify(identification.measured())
         np.testing.assert_array_less(np.abs(values - [37, 0.4]), 4 * deviations)
         np.testing.assert_array_less(deviations, [0.1, 0.01])
-        # Without noise what is left is the error of the steps: the trapezoidal rule's period is longer by (omega h)^2/12.
+        # Without noise the error is that of the steps: the trapezoidal rule's period is longer by (omega h)^2/12.
         values, _ = identification.identify(identification.measured(noise=0))
         omega = np.sqrt(37 / identification.INERTIA)
         self.assertAlmostEqual(values[0] / 37 - 1, (omega * 2e-3)**2 / 6, delta=2e-6)
@@ -52,7 +52,7 @@ class Examples(unittest.TestCase):
         found, missed = optimisation.synthesise(target)
         np.testing.assert_allclose(found, lengths, rtol=0, atol=1e-9)
         self.assertLess(missed, 1e-9)
-        # Places that no four-bar reaches: what is found is a minimum, the sum of squares grows in all directions.
+        # Places that no four-bar reaches: the result is a minimum, and the sum of squares grows in all directions.
         wanted = target + 0.01 * np.random.default_rng(2).standard_normal(target.shape)
         found, missed = optimisation.synthesise(wanted)
         self.assertLess(missed, 0.04)

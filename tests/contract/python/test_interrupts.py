@@ -1,4 +1,4 @@
-"""Ctrl-C ends what computes for long; the session survives."""
+"""Ctrl-C ends long computations; the session remains usable."""
 
 import os
 import signal

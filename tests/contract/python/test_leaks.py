@@ -1,4 +1,4 @@
-"""Nothing is left behind: sessions, motions, results, callbacks and errors come and go."""
+"""Leaks: sessions, motions, results, callbacks and errors are created and released."""
 
 import gc
 import tracemalloc
@@ -16,7 +16,7 @@ def resident():
 
 
 def live():
-    """A short life of a session, with everything that could hold on to it."""
+    """A short life of a session, with every object that could keep a reference to it."""
     model = bielle.read(PENDULUM)
     session = model.session()
     session.on_step(lambda at: session.time)  # a circle: the session holds the callback, that the session
@@ -38,7 +38,7 @@ def live():
 
 class Leaks(unittest.TestCase):
     def test_a_thousand_sessions(self):
-        for _ in range(100):  # what is made once
+        for _ in range(100):  # allocations that are made once
             live()
         gc.collect()
         before = resident()

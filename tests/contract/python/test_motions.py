@@ -1,4 +1,4 @@
-"""Motions: how they move on, what ends them, callbacks."""
+"""Motions: their steps, their ends, callbacks."""
 
 import gc
 import unittest
@@ -67,7 +67,7 @@ class Motions(unittest.TestCase):
         self.assertTrue(session.moving)
 
     def test_lifetimes(self):
-        """Each keeps what it refers to, in whatever order the names go."""
+        """Each object keeps those to which it refers, in any order of deletion."""
         motion = bielle.read(PENDULUM).session().dynamics(0.1, 1e-2)
         gc.collect()
         motion.finish()
@@ -77,7 +77,7 @@ class Motions(unittest.TestCase):
         gc.collect()
         self.assertAlmostEqual(session.time, 0.1)
         self.assertFalse(session.moving)
-        # One motion goes while another one is under way.
+        # A motion runs while another one is in progress.
         first = session.dynamics(0.1, 1e-2)
         second = session.dynamics(0.1, 1e-2)
         del first
@@ -158,7 +158,8 @@ class Motions(unittest.TestCase):
         motion.finish()
         other = bielle.read(PENDULUM).session()
         other.dynamics(0.1, 1e-2).finish()
-        # What ends early leaves a point to go on from, at which tangents are made anew: equal to Newton's tolerance.
+        # A run that ends early leaves a state to continue from, at which tangents are made anew: equal to Newton's
+        # tolerance.
         np.testing.assert_allclose(session.state.positions, other.state.positions, atol=1e-9)
 
     def test_callbacks_may_save(self):

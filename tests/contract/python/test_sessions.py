@@ -1,4 +1,4 @@
-"""Sessions: what they read, save and record; what is refused."""
+"""Sessions: reading, saving and recording; refusals."""
 
 import os
 import tempfile

@@ -1,4 +1,4 @@
-"""Which modules of Eigen a source uses and does not include, itself or through its own headers.
+"""Finds modules of Eigen that a source uses and does not include, itself or through its own headers.
 
 With precompiled headers such a source compiles all the same, and without them the compiler is silent as well: the members
 are declared in Eigen/Core, and only the linker misses them.
@@ -19,7 +19,7 @@ USES = {
     "Eigenvalues": re.compile(r"\bEigen::\w*EigenSolver<"),
     "SparseCore": re.compile(r"\bEigen::SparseMatrix<"),
 }
-# What a header of Eigen brings besides itself.
+# Modules that a header of Eigen includes besides itself.
 BRINGS = {"Dense": {"Geometry", "LU", "Cholesky", "QR", "SVD", "Eigenvalues"},
           "SVD": {"QR"}, "Eigenvalues": {"Cholesky", "LU", "QR", "Geometry"}, "QR": {"Cholesky"}, "Geometry": {"SVD", "LU", "QR"},
           "SparseCholesky": {"SparseCore"}, "SparseLU": {"SparseCore"}, "SparseQR": {"SparseCore"},

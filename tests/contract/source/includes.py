@@ -1,14 +1,14 @@
-"""Which folder may include which: the layout of the project as a rule.
+"""The rule of which folder may include which other, which is the layout of the project.
 
-A folder includes only from itself and from those before it in its program's list. `mechanism` knows of `reduce` the common
-floor, the superelement, dense algebra and eigenpairs; `reduce` knows nothing of `mechanism`. What moves (elements, joints) and what
-solves (systems, solvers) know the model between them, and nothing of each other.
+A folder includes only from itself and from those before it in its program's list. `mechanism` may include from `reduce`
+the common floor, the superelement, dense algebra and eigenpairs; `reduce` includes nothing of `mechanism`. Moving parts
+(elements, joints) and solving parts (systems, solvers) share the model, and include nothing of each other.
 """
 
 import os
 import re
 
-# "" is the program's own folder: what stands beside main.
+# "" is the program's own folder, which contains main.
 FOLDERS = {
     "reduce": ["common", "common/process", "common/files", "common/formula", "common/input", "dense", "sparse", "spectral", "superelement", "mesh", "fe", "reduction", "distributed", "distributed/ranks",
                "body_file", "report", ""],
@@ -26,7 +26,7 @@ SOLVING = [f for f in FOLDERS["mechanism"] if f.split("/")[0] in ("system", "sol
 
 
 def forbidden(folder, wanted):
-    """Whether a folder of the mechanism must not know one before it."""
+    """Tells whether a folder of the mechanism must not include one before it."""
     if folder in SOLVING:
         return wanted in COMPONENTS + ["reading"] or {folder, wanted} == {"solvers/statics", "solvers/dynamics"}
     if folder.split("/")[0] in ("elements", "joints", "hydraulics") and wanted.startswith("elements/"):
@@ -44,7 +44,7 @@ def place_of(path):
 
 
 def fault_of(path, included):
-    """Why the file at `path` must not include `included`, or None. Both are relative to the project."""
+    """The reason why the file at `path` must not include `included`, or None. Both are relative to the project."""
     program, folder = place_of(path)
     other, wanted = place_of(included)
     if other not in FOLDERS or "/" not in included:

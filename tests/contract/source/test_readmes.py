@@ -1,4 +1,4 @@
-"""What the READMEs name is there: options of commands, files, headings that links lead to."""
+"""The options of commands, files and headings that the READMEs name must exist."""
 
 import glob
 import os
@@ -11,8 +11,8 @@ REPOSITORY = os.path.abspath(os.path.join(HERE, "..", "..", ".."))
 PROGRAMS = os.environ["BIELLE_PROGRAMS"]
 TOOLS = ["bielle-plot", "bielle-animate", "bielle-paraview", "bielle-rainflow", "bielle-loads", "study", "install", "demo", "test",
          "convert_mesh.py"]
-OTHERS = {"--preset", "--build", "--install", "--prefix",  # of CMake
-          "--hostfile"}  # of mpirun
+OTHERS = {"--preset", "--build", "--install", "--prefix",  # options of CMake
+          "--hostfile"}  # options of mpirun
 
 
 def readmes():
@@ -24,7 +24,7 @@ def readmes():
 
 
 def anchor(heading):
-    """As GitHub makes it of a heading."""
+    """The anchor that GitHub makes of a heading."""
     return re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-")
 
 

@@ -60,7 +60,7 @@ class WithStandIn(InFolder):
         return self.call(self.path("model.yaml"), self.path("table.csv"), "-o", self.path("study.h5"), *options)
 
     def runs(self):
-        """What the stand-in was asked for since the last time."""
+        """Calls of the stand-in since the last time."""
         if not os.path.exists(self.path("log")):
             return []
         with open(self.path("log"), encoding="utf-8") as file:

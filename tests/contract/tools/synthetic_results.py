@@ -1,8 +1,8 @@
 """A superelement and a results file with a motion known in closed form, written as the two programs write them.
 
 A box turns about z with OMEGA, its frame's origin moves along x with SPEED, and it is stretched along its own x axis by
-the strain STRAIN sin(2 pi t / DURATION); the von Mises stress of that is YOUNG |strain|. A beam stands still, a hinge turns.
-A solid ellipsoid of uniform density with the semi-axes SEMI_AXES rides on the node of the box, at CENTRE.
+the strain STRAIN sin(2 pi t / DURATION); the von Mises stress of that is YOUNG |strain|. A beam stands still, a hinge
+turns. A solid ellipsoid of uniform density with the semi-axes SEMI_AXES is fixed to the node of the box, at CENTRE.
 """
 
 import h5py
@@ -21,7 +21,7 @@ def strain(time):
 
 
 def positions(points, time, scale=1.0):
-    """Where the points (p,3) of the box are at a time."""
+    """Positions of the points (p,3) of the box at a time."""
     c, s = np.cos(OMEGA * time), np.sin(OMEGA * time)
     stretched = points * [1 + scale * strain(time), 1, 1]
     return stretched @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]).T + [SPEED * time, 0, 0]
@@ -46,7 +46,7 @@ def write_superelement(path):
 
 
 def write_results(path, superelement, rows=41, complete=True, extra_rows=0, analysis=""):
-    """analysis: its type; the results then stand in a group of it, with links at the root, as the program leaves them."""
+    """analysis: its type; the results are then in a group of it, with links at the root, as the program writes them."""
     time = np.linspace(0, DURATION, rows)
     more = np.concatenate([time, np.zeros(extra_rows)])
     half = 0.5 * OMEGA * more
@@ -97,8 +97,8 @@ def write_results(path, superelement, rows=41, complete=True, extra_rows=0, anal
 
 
 def stack(path):
-    """Turns a results file by names into the stacked layout, as the program writes it: each entry is a kind of its own or
-    stands with others that record the same."""
+    """Converts a results file by names to the stacked layout of the program: entries that record the same quantities
+    are one kind."""
     with h5py.File(path, "r+") as file:
         root = file["analysis_1"] if "analysis_1" in file else file
         for section in ("nodes", "elements", "joints"):

@@ -34,7 +34,7 @@ class Deck(test_convert_mesh.Converter):
         self.assertEqual(sum(len(mesh.cells.get(kind, ())) for kind in ("tetra", "tetra10")), len(self.cells))
 
     def refuse(self, name, *parts):
-        if os.path.exists(self.path("out.msh")):  # of a file before
+        if os.path.exists(self.path("out.msh")):  # output of an earlier test
             os.remove(self.path("out.msh"))
         super().refuse(name, *parts)
 

@@ -1,4 +1,5 @@
-"""convert_mesh.py: what other programs write becomes MSH that gmsh reads, with its groups, or one clear sentence."""
+"""convert_mesh.py: files of other programs become MSH files that gmsh reads, with their groups, or give one clear
+sentence."""
 
 import os
 import subprocess

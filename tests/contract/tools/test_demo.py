@@ -1,4 +1,4 @@
-"""tools/demo, as the README tells users to run it: it ends well, and everything it says is there is there."""
+"""tools/demo, as the README tells users to run it: it succeeds, and all files that it names exist."""
 
 import os
 import re
@@ -17,7 +17,7 @@ class Demo(unittest.TestCase):
     def test_from_the_solid_rod_to_pictures_of_the_engine(self):
         superelement = os.path.join(REPOSITORY, "mechanism", "examples", "conrod.h5")
         if os.path.exists(superelement):
-            os.remove(superelement)  # of an earlier run, which would be reused
+            os.remove(superelement)  # result of an earlier run, which would be reused
         with tempfile.TemporaryDirectory() as folder:
             done = subprocess.run([os.path.join(REPOSITORY, "tools", "demo"), folder], text=True, capture_output=True,
                                   stdin=subprocess.DEVNULL, timeout=1500, env={**os.environ, "DISPLAY": ""})

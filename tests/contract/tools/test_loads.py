@@ -98,7 +98,7 @@ class Loads(unittest.TestCase):
     def test_the_mass_matrix_of_the_mesh_is_that_of_the_superelement(self):
         loaded = self.loaded("bar")
         M = np.einsum("pka,pkb->ab", loaded.T, np.stack([loaded.mesh_mass @ loaded.T[:, :, k] for k in range(loaded.T.shape[2])], axis=2))
-        # Ties add rotary inertia of none but rigid surfaces, which have no thickness.
+        # Ties add rotary inertia except for rigid surfaces, which have no thickness.
         np.testing.assert_allclose(M, loaded.M, atol=1e-9 * np.abs(loaded.M).max())
         self.assertAlmostEqual(loaded.mesh_mass.sum(), DENSITY * LENGTH * WIDTH**2, places=8)
 
@@ -111,7 +111,7 @@ class Loads(unittest.TestCase):
             self.assertLess(np.linalg.norm(force), 1e-12 * size)
             self.assertLess(np.linalg.norm(moment), 1e-12 * size)
             self.assertLess(load.corrected, 1e-12)
-            # The forces that are written, one by one, those of the average tie spread.
+            # The written forces, one by one, those of the average tie distributed.
             spread = load.inertia.copy()
             for surface, at in zip(loaded.surfaces, load.interface):
                 if not surface.rigid:
@@ -158,7 +158,7 @@ class Loads(unittest.TestCase):
                 q = loaded.at(row).q
                 ours = without_rigid((loaded.T @ q).ravel())
                 theirs = without_rigid(np.array([u[k + 1] for k in range(len(loaded.points))]).ravel())
-                # What modes leave out: of the axial answer to the speed, 4 % of a small part.
+                # Tolerance for the part that modes lack: of the axial answer to the speed, 4 % of a small part.
                 self.assertLess(np.abs(theirs - ours).max(), 5e-3 * np.abs(ours).max(), (name, row))
                 # Both average what elements say at a node, each in its way: a few per cent where stress is concentrated.
                 s = (loaded.body.stress @ q).reshape(-1, 6)[:, [0, 1, 2, 5, 3, 4]]

@@ -223,7 +223,7 @@ class OfThePrograms(Tools):
         with h5py.File(self.path("model.h5")) as file:
             omega = abs(file["eigen/eigenvalue"][2, 1])
         np.testing.assert_allclose([time for time, _ in parts["bar"]], 2 * np.pi / omega * np.arange(8) / 8, rtol=1e-8)
-        # Half a period later everything is on the other side.
+        # Half a period later every displacement has the opposite sign.
         for (_, mesh), (_, other) in zip(parts["bar"][:4], parts["bar"][4:]):
             np.testing.assert_allclose(mesh.point_data["displacement"], -other.point_data["displacement"], atol=1e-9)
 

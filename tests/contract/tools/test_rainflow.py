@@ -1,4 +1,4 @@
-"""bielle-rainflow and what it counts with, on the example of the standard and on histories with known cycles."""
+"""bielle-rainflow and its counting, on the example of the standard and on histories with known cycles."""
 
 import os
 import subprocess

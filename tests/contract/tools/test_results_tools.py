@@ -111,7 +111,8 @@ class ParaView(ResultsTool):
             np.testing.assert_allclose((((local - synthetic.CENTRE) / synthetic.SEMI_AXES) ** 2).sum(axis=1), 1, atol=1e-6)
             corners = mesh.points[mesh.cells_dict["triangle"]]
             volume = np.einsum("ij,ij->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6  # outward: positive
-            self.assertAlmostEqual(volume / (4 / 3 * np.pi * synthetic.SEMI_AXES.prod()), 1, delta=0.15)  # of its facets
+            self.assertAlmostEqual(volume / (4 / 3 * np.pi * synthetic.SEMI_AXES.prod()), 1, delta=0.15)  # volume of
+                                                                                                          # its facets
 
     def test_a_static_analysis_says_that_its_time_is_a_load_factor(self):
         synthetic.write_results(self.path("static.h5"), "box.h5", rows=3, analysis="static")
@@ -215,7 +216,7 @@ class Plots(ResultsTool):
     def test_a_python_without_the_packages_says_what_to_do(self):
         for tool, module in (("bielle-plot", "matplotlib"), ("bielle-animate", "h5py"), ("bielle-paraview", "meshio"),
                              ("convert_mesh.py", "meshio"), ("study", "h5py")):
-            # -S: this Python without the packages of the machine.
+            # -S runs Python without the packages of the machine.
             done = subprocess.run(["/usr/bin/python3", "-B", "-S", os.path.join(REPOSITORY, "tools", tool)], text=True,
                                   capture_output=True, timeout=60)
             self.assertEqual(done.returncode, 2, done.stderr)
@@ -258,7 +259,7 @@ class Refusals(ResultsTool):
             self.refuse(tool, [self.path("run.h5"), *arguments], "run.h5", *parts)
 
     def refuse_to_read(self, *parts):
-        """By the tool that starts fastest: all open results in the same way."""
+        """Uses the tool that starts fastest: all open results in the same way."""
         self.refuse("bielle-rainflow", [self.path("run.h5"), *self.TOOLS["bielle-rainflow"]], "run.h5", *parts)
 
     def test_other_files_are_told_with_what_reads_them(self):

@@ -58,7 +58,7 @@ class Reduction(unittest.TestCase):
         np.testing.assert_allclose(slow, exact, rtol=1e-7)
         for frequency in (1.0, 10.0, 25.0, 60.0):
             whole, part = state_space.response(system, frequency), state_space.response(small, frequency)
-            # What is left out differs from its statics by (f/39 kHz)^2 of itself.
+            # The omitted part differs from its static approximation by (f/39 kHz)^2 of itself.
             self.assertLess(np.max(np.abs(part - whole) / np.abs(whole)), 1e-6)
 
     def test_without_static_part_the_response_is_worse(self):

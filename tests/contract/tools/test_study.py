@@ -1,4 +1,5 @@
-"""study: every line of a table becomes a run, failed ones among them; a stand-in plays bielle-mechanism."""
+"""study: every line of a table becomes a run, failed ones among them; a stand-in takes the place of
+bielle-mechanism."""
 
 import os
 import signal

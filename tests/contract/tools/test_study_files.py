@@ -1,4 +1,4 @@
-"""study loses nothing: not what it reads, not what others have made, not the runs of another study of the same file."""
+"""study keeps its inputs, files of others, and the runs of another study of the same file."""
 
 import fcntl
 import glob
@@ -102,7 +102,7 @@ class Files(WithStandIn):
         finally:
             os.killpg(child.pid, signal.SIGKILL)
             child.wait()
-        # Its folder is gone on with.
+        # The study continues in its folder.
         self.assertEqual(self.call("model.yaml", "runs.csv", "-o", "out.h5").returncode, 0)
         self.assertEqual(glob.glob(self.path("out.runs-*")), [])
 

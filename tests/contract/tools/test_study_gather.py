@@ -1,4 +1,4 @@
-"""study: grids, numbers that are gathered, figures, and jobs for schedulers; against the stand-in and against single runs."""
+"""study: grids, gathered numbers, figures, and jobs for schedulers; against the stand-in and against single runs."""
 
 import csv
 import os
@@ -28,7 +28,8 @@ measures: {depth: {formula: "-bob.position.z", units: m}}
 analysis:
   - {type: dynamic, duration: 0.3, step: 5e-3}
 """
-# Plays sbatch: tasks of an array one after the other, whatever becomes of each; prints the number of the job as --parsable does.
+# Stands in for sbatch: runs tasks of an array one after the other, whether or not they fail; prints the number of the
+# job as --parsable does.
 SBATCH = """#!/bin/sh
 for script; do :; done
 tasks=$(sed -n 's/^#SBATCH --array=1-//p' "$script")
@@ -101,7 +102,8 @@ class Grids(WithStandIn):
         done = self.call("model.yaml", "--grid", "speed=1:3:3", "--grid", "mass=1, 2,-4, 10/2.5", "--gather", "f=eigen/frequency[1:2]",
                          "--gather", "top=max joints/main/rate", "--gather", 'second=text "limit point at load factor"[2]',
                          "--gather", "late=measures/power at 0.25", "--gather", "z=last nodes/hub/position[z]")
-        # The stand-in reads masses as numbers: a formula is none to it. Three runs fail, three more of the negative mass.
+        # The stand-in reads masses as numbers: a formula is not a number for it. Three runs fail, three more of the
+        # negative mass.
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertIn("run 3: speed = 1, mass = -4: FAILED: model.yaml:3", done.stdout)
         table = table_of(self.path("model-study-table.csv"))
@@ -289,7 +291,7 @@ class AgainstSingleRuns(InFolder):
         self.write("pendulum.yaml", PENDULUM)
         done = self.study("pendulum.yaml", "--grid", "mass=-0.05:1.85:20", "--gather", "deep=max measures/depth", "--gather",
                           "end=measures/depth at 0.3", "--keep", "all")
-        self.assertEqual(done.returncode, 2, done.stderr)  # of a mass below 0 a run fails, the others are done
+        self.assertEqual(done.returncode, 2, done.stderr)  # a run with a mass below 0 fails, the others succeed
         self.assertRegex(done.stdout, r"run 1: mass = -0\.05: FAILED: .*pendulum\.yaml:5: .*mass")
         self.assertIn("19 of 20 runs done", done.stdout)
         with h5py.File(self.path("pendulum-study.h5")) as study:

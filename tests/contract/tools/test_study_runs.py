@@ -1,4 +1,4 @@
-"""study with the program itself: its runs are those of single runs, to the bit, and one that fails harms no other."""
+"""study with the program itself: its runs equal single runs to the bit, and a failed one does not affect the others."""
 
 import os
 import subprocess
@@ -35,7 +35,7 @@ class StudyRuns(unittest.TestCase):
             done = subprocess.run([os.path.join(REPOSITORY, "tools", "study"), at("model.yaml"), at("masses.csv"), "-o", at("study.h5"),
                                    "--jobs", "2"], capture_output=True, text=True, timeout=300,
                                   env={**os.environ, "BIELLE_BIN": PROGRAMS})
-            self.assertEqual(done.returncode, 2, done.stderr)  # of a run that failed
+            self.assertEqual(done.returncode, 2, done.stderr)  # message of a run that failed
             self.assertIn("FAILED", done.stdout)
             ends = set()
             with h5py.File(at("study.h5")) as study:

@@ -1,4 +1,4 @@
-// An analysis of one's own runs like those of the table, into every sink.
+// A user-defined analysis runs like those of the table, into every sink.
 #include <catch2/catch.hpp>
 
 #include "mechanism/analyses/dynamic_analysis.hpp"

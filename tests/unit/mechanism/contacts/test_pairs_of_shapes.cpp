@@ -135,7 +135,7 @@ TEST_CASE("forces of any two shapes are the derivatives of their potential") {
 }
 
 TEST_CASE("forces and moments of any two shapes do not jump") {
-  // Ways that bring one shape over the other at a depth of a part of the skins, turning it.
+  // Paths that move one shape over the other at a depth of a part of the skins, turning it.
   const NormalLaw law = quadratic();
   for (const auto& [name, a, b] : pairs()) {
     CAPTURE(name);
@@ -147,7 +147,7 @@ TEST_CASE("forces and moments of any two shapes do not jump") {
       const auto pose = [&](double s) {
         const Vector3 direction = (std::cos(s) * u + std::sin(s) * v).normalized();
         const Matrix3 A = exp_so3(Vector3(s * turn)) * exp_so3(start);
-        double low = 0, high = 2;  // where it is as deep as wanted
+        double low = 0, high = 2;  // fraction of the path at the required depth
         for (int k = 0; k < 30; ++k) {
           const double middle = 0.5 * (low + high);
           (find_nearest_place(one, placed_at(*b, middle * direction, A)).depth > deep ? low : high) = middle;
@@ -168,7 +168,9 @@ TEST_CASE("forces and moments of any two shapes do not jump") {
           for (int p = 1; p <= pieces; ++p) {
             const double t = static_cast<double>(p) / pieces;
             const PlacedShape<double> other = placed_at(*b, x + t * along, exp_so3(Vector3(t * spin)) * A);
-            if (find_nearest_place(one, other).depth > 0.95 * (a->skin() + b->skin())) break;  // nothing is told there
+            if (find_nearest_place(one, other).depth > 0.95 * (a->skin() + b->skin()))
+              break;  // nothing is defined
+                      // there
             const Pressed now = pressed(one, other, law);
             most = std::max({most, (now.force - before.force).norm(), (now.moment - before.moment).norm()});
             before = now;

@@ -1,4 +1,4 @@
-// Surfaces of triangles: on which side of sharp edges a point is, and which corners are one.
+// Surfaces of triangles: the side of sharp edges on which a point lies, and the identification of corners.
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +12,7 @@ using bielle::mechanism::Vector3;
 namespace {
 
 /// A wedge of 40 degrees with its ridge along y, closed but for its ends: two flanks and a bottom.
-/// @param seam  how far the left flank's upper corners are off those of the right one
+/// @param seam  distance of the left flank's upper corners from those of the right one
 std::vector<Vector3> wedge(double seam = 0) {
   const double half = 20 * M_PI / 180, x = std::tan(half);
   const Vector3 a(0, -1, 0), b(0, 1, 0), right_a(x, -1, -1), right_b(x, 1, -1), left_a(-x, -1, -1), left_b(-x, 1, -1);

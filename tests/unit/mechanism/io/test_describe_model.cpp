@@ -1,4 +1,4 @@
-// What `--check` prints: each entry in the user's terms, counts, and what is amiss.
+// The output of `--check`: each entry in the user's terms, counts, and doubts.
 #include <string>
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-// What a mechanism file says and cannot mean is refused, with file, line and key.
+// Contradictory or impossible contents of a mechanism file are refused, with file, line and key.
 #include <catch2/catch.hpp>
 
 #include "mechanism/io/mechanism_file.hpp"
@@ -43,7 +43,7 @@ TEST_CASE("velocities of what is held are refused, not forgotten") {
   CHECK_THAT(refusal("  a: {}\n  b: {velocity: [1, 0, 0]}",
                      "  two: {type: rigid_body, node: a, mass: 1, inertia: [1, 1, 1], also: [b]}\n"),
              Contains("also") && Contains("velocity"));
-  // What is free has them; components may be zero.
+  // Free directions have velocities; components may be zero.
   CHECK(refusal("  a: {velocity: [1, 0, 0], angular_velocity: [0, 0, 2], fixed: [y, z, rx, ry]}") ==
         "(nothing thrown)");
 }

@@ -1,4 +1,4 @@
-// What whole runs record.
+// The records of whole runs.
 #include <filesystem>
 #include <fstream>
 

@@ -19,8 +19,8 @@ namespace {
 
 constexpr int nodes = 40;
 
-/// A beam whose stress is any linear function of its deformation: rigid motions recover none. 40 nodes, two volumes
-/// that share some.
+/// A beam whose stress is any linear function of its deformation: rigid motions cause none. It has 40 nodes and two
+/// volumes that share some.
 void write_rod(const std::string& path) {
   std::srand(5);
   Superelement rod = test::straight_beam().reduced().body;

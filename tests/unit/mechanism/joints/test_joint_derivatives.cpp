@@ -78,7 +78,7 @@ State moved(const LocalState& local, const VectorX& step) {
   return state;
 }
 
-/// Checks g, S, w, W of every coordinate. @param accurate  of derivatives of order one
+/// Checks g, S, w, W of every coordinate. @param accurate  accuracy of derivatives of order one
 void check_coordinates(const Joints& joints, const Joint& joint, const State& state, double accurate, double h) {
   const LocalState local = joints.local(joint, state);
   const auto n = static_cast<Eigen::Index>(local.slots().size());
@@ -104,7 +104,7 @@ void check_coordinates(const Joints& joints, const Joint& joint, const State& st
     CHECK((g.transpose() - jet.g()).cwiseAbs().maxCoeff() < accurate);
     CHECK((S - jet.S()).cwiseAbs().maxCoeff() < accurate * std::max(1.0, S.cwiseAbs().maxCoeff()));
     CHECK((W - jet.W()).cwiseAbs().maxCoeff() < accurate);
-    // The rate: w . v, and what comes without derivatives is the same.
+    // The rate is w . v, and the values computed without derivatives are the same.
     VectorX v(n);
     get_local_velocities(local, v);
     CHECK_THAT(jet.rate, Catch::WithinAbs(jet.w().dot(v), 1e-13));
@@ -244,7 +244,7 @@ TEST_CASE("in row axes of both kinds one wrench is one wrench") {
     const Vector6 wrench = joint->calc_reaction(local);
     same.multiplier.segment(slots.multiplier_begin, slots.multipliers) = bielle::least_squares(to, wrench);
     CAPTURE(joint->type());
-    // What one kind of rows can make, the other can, too.
+    // Reactions of one kind of rows are possible with the other kind, too.
     CHECK((other.calc_reaction(inertial.local(other, same)) - wrench).norm() < 1e-12 * wrench.norm());
   }
 }

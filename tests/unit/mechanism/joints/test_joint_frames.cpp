@@ -1,4 +1,4 @@
-// Where a joint stands on its nodes: by one place, by points and axes of each node, by nothing.
+// Positions of joints on their nodes: by one place, by points and axes of each node, by nothing.
 #include <cmath>
 
 #include <catch2/catch.hpp>

@@ -67,6 +67,6 @@ TEST_CASE("a joint with a row set aside keeps its axes, the others are free to c
   System system(file.model);
   const auto carried = [&](std::size_t joint) { return system.slots()[3 + joint].carried_axes; };
   CHECK((carried(0) && carried(1) && carried(2)));
-  system.set_aside({4});  // of the hinge
+  system.set_aside({4});  // rows of the hinge
   CHECK((!carried(0) && carried(1) && !carried(2)));
 }

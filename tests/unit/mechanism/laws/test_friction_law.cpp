@@ -1,4 +1,4 @@
-// Laws of friction: their derivatives, their limits, and what they can take from a motion.
+// Laws of friction: their derivatives, their limits, and the power that they take from a motion.
 #include <cmath>
 
 #include <catch2/catch.hpp>

@@ -40,7 +40,7 @@ TEST_CASE("restitution and damping are inverse to each other") {
     CHECK_THAT(restitution_for_damping(damping_for_restitution(e)), WithinRel(e, 1e-9));
   CHECK(damping_for_restitution(1) == 0);
   CHECK(restitution_for_damping(0) == 1);
-  // Where the series ends and the root begins.
+  // Transition from the series to the root.
   CHECK_THAT(restitution_for_damping(1.0001e-4), WithinAbs(restitution_for_damping(0.9999e-4), 2e-8));
 }
 

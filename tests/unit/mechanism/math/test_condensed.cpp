@@ -1,5 +1,5 @@
-// Condensed blocks: solutions against the matrix itself and against factors of the whole, which blocks are condensed,
-// what happens where a block is singular; any number of threads.
+// Condensed blocks: solutions against the matrix itself and against factors of the whole, the choice of condensed
+// blocks, singular blocks; any number of threads.
 #include <cmath>
 
 #include <Eigen/LU>
@@ -114,7 +114,7 @@ TEST_CASE("the sign of the determinant is that of the whole, whatever the blocks
   int negative = 0;
   for (int sample = 0; sample < 20; ++sample) {
     MatrixX A = two_blocks(random);
-    A.topLeftCorner(block, block) = random.matrix(block, block);  // of either sign
+    A.topLeftCorner(block, block) = random.matrix(block, block);  // elements of either sign
     Both both(A);
     REQUIRE(both.factor(scale_of(1)) == FactorStatus::good);
     if (!both.condensed.condensed()) continue;
@@ -128,7 +128,8 @@ TEST_CASE("the sign of the determinant is that of the whole, whatever the blocks
 TEST_CASE("a singular block is left to the factorisation of the whole") {
   Random random(6);
   MatrixX A = two_blocks(random);
-  const double left = GENERATE(0.0, 1e-14, 1e-9);  // of a row: none, rounding, too little for its neighbours
+  const double left = GENERATE(0.0, 1e-14, 1e-9);  // remaining part of a row: none, rounding, too little for its
+                                                   // neighbours
   A.row(2).head(block) = A.row(1).head(block) + left * random.matrix(1, block);
   Both both(A);
   REQUIRE(both.pattern.blocks().size() == 2);
@@ -157,8 +158,8 @@ TEST_CASE("a singular matrix names the same unknown, condensed or not") {
 }
 
 TEST_CASE("what cancels when blocks are condensed is seen in the condition") {
-  // The first outer unknown moves with the first block along `shape`, and nothing resists: what condensation leaves of
-  // its column is rounding.
+  // The first outer unknown moves with the first block along `shape` without resistance: after condensation only
+  // rounding is left in its column.
   Random random(8);
   MatrixX A = two_blocks(random);
   const VectorX shape = random.vector(block);

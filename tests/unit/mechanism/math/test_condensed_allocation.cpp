@@ -1,4 +1,4 @@
-// Condensation does not touch the heap once it has been done.
+// Condensation does not allocate after its first evaluation.
 #include <catch2/catch.hpp>
 
 #include "mechanism/math/condensed.hpp"
@@ -29,7 +29,7 @@ TEST_CASE("blocks of 10, 50 and 100 unknowns are condensed without the heap") {
   Workers workers(2);
   const VectorX scale = VectorX::Ones(size);
   VectorX b = VectorX::Ones(size);
-  // KLU's memory is that of the second factorisation on.
+  // KLU's memory does not change after the second factorisation.
   for (int k = 0; k < 3; ++k) factors.factor(sparse.values, scale, workers);
   factors.solve(b);
   REQUIRE(factors.condensed());

@@ -118,7 +118,7 @@ TEMPLATE_TEST_CASE("parameters in the principal domain are found again", "", ALL
     CAPTURE(p);
     const auto principal = P::principal(p);
     CHECK(error(P::rotation(principal), P::rotation(p)) < rounding);
-    // Digits lost: those that the rotation does not tell (near half turns for Rodrigues, locked angles, ...).
+    // Lost digits: those that the rotation does not determine (near half turns for Rodrigues, locked angles, ...).
     CHECK(error(P::parameters(P::rotation(p)), principal) < rounding * 10 * condition<P>(principal));
     CHECK(error(P::principal(principal), principal) < rounding * condition<P>(principal));
   }

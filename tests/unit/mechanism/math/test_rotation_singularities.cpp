@@ -1,4 +1,4 @@
-// What is particular to each parametrisation of rotations: closed forms, and what happens where it is singular.
+// Particular properties of each parametrisation of rotations: closed forms, and the behaviour at singularities.
 #include <cmath>
 
 #include <Eigen/LU>

@@ -42,7 +42,7 @@ TEST_CASE("a sparse pattern finds its entries") {
 TEST_CASE("factors solve equations with constraints, whatever the scale of unknowns and equations") {
   Random random(1);
   for (const double size : {1.0, 1e8, 1e-8}) {
-    // Rows in other units: [N] and [MPa], say; the scale D is what the caller knows of its unknowns.
+    // Rows in other units, such as [N] and [MPa]; the scale D contains the caller's knowledge of its unknowns.
     MatrixX A = saddle(random, 12, 4);
     for (int i = 0; i < 16; i += 3) A.row(i) *= size;
     const Sparse sparse(A);
@@ -121,7 +121,7 @@ TEST_CASE("no equations have an empty solution") {
 
 namespace {
 
-/// What factors cost by one of KLU's orderings alone.
+/// The cost of factors by one of KLU's orderings alone.
 FactorCost cost_by(const Sparse& sparse, int ordering) {
   const SparsePattern& pattern = sparse.pattern;
   int *start = const_cast<int*>(pattern.column_start().data()), *row = const_cast<int*>(pattern.row().data());
@@ -197,10 +197,10 @@ TEST_CASE("of two orderings the one that makes fewer operations of the matrix is
   constexpr int minimum_degree = 0, column_minimum_degree = 1;
   Random random(4);
   const Sparse springs(net(20)), bars(four_bars(random, 24));
-  // The net is what minimum degree is for.
+  // Minimum degree is suitable for the net.
   CHECK(cost_by(springs, minimum_degree).operations < 0.7 * cost_by(springs, column_minimum_degree).operations);
   CHECK(cost_of(springs).operations == cost_by(springs, minimum_degree).operations);
-  // Constraints bring pivots off the diagonal: what is best is measured.
+  // Constraints require pivots off the diagonal: the best ordering is measured.
   CHECK(cost_of(bars).operations ==
         std::min(cost_by(bars, minimum_degree).operations, cost_by(bars, column_minimum_degree).operations));
 }
@@ -241,7 +241,7 @@ TEST_CASE("factors that forget are those of a new start") {
 }
 
 TEST_CASE("entries that are zero most of the time come into the factors and leave them") {
-  // Blocks of three on the diagonal; what couples them passes.
+  // Blocks of three on the diagonal; the coupling terms are passing.
   Random random(5);
   constexpr int n = 24;
   MatrixX A = random.matrix(n, n);  // every entry in the pattern

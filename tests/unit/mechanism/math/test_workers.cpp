@@ -1,4 +1,4 @@
-// Work that threads share: each piece once, exceptions, callers that meet.
+// Work that threads share: each piece is done once; exceptions; concurrent callers.
 #include <atomic>
 #include <chrono>
 #include <stdexcept>

@@ -1,4 +1,4 @@
-// Events: when a measure crosses a value, which direction counts, what they leave alone, and how they end a run.
+// Events: the crossing of a value by a measure, its direction, its absence of side effects, and the end of a run.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -51,7 +51,7 @@ joints: {slide: {type: prismatic, nodes: [ground, mass], axis: [1, 0, 0], stiffn
 )yaml" + (events.empty() ? "" : "events:\n" + events);
 }
 
-/// What chatters: a force that is turned round whenever the velocity changes its sign, with no other law between.
+/// A chattering model: a force that is reversed whenever the velocity changes its sign, without any other law.
 class Relay final : public Component {
  public:
   Relay(int node, double force) : Component("relay", "relay"), node_(node), force_(force) {}
@@ -76,7 +76,7 @@ class Relay final : public Component {
   double force_;
 };
 
-/// A force that begins in the first accepted step beyond a place, by the component's own account.
+/// A force that begins in the first accepted step beyond a place, which the component detects by itself.
 class LateForce final : public Component {
  public:
   LateForce(int node, double place, double force)
@@ -130,7 +130,7 @@ TEST_CASE("an event stands where the measure crosses its value") {
         std::find_if(events.begin(), events.end(), [&](const Event& e) { return e.name == wanted[k].first; });
     REQUIRE(found != events.end());
     INFO(wanted[k].first);
-    // Less than 1e-10 of a step late; adaptive ones grow up to what is left of 0.6 s.
+    // Events are less than 1e-10 of a step late; adaptive steps grow up to the rest of 0.6 s.
     CHECK(found->time == Approx(wanted[k].second).margin(1e-10 * (tolerance > 0 ? 0.6 : h) + 1e-14).epsilon(0));
     if (k > 0) CHECK(events[k].time >= events[k - 1].time);
   }
@@ -251,7 +251,7 @@ TEST_CASE("an event that stops ends the run there, with a last row") {
   CHECK(sink.read(0, "nodes/stone/position").back() == Approx(1.3).epsilon(1e-9));
   REQUIRE(sink.analyses()[0].events.size() == 1);
   CHECK(sink.analyses()[0].events[0].time == motion.time());
-  // What comes after starts there.
+  // A following motion starts there.
   Motion further = session.dynamics(steps_of(0.1, 0.01));
   CHECK(further.finish());
   CHECK(session.time() == Approx(landed + 0.1).epsilon(1e-10));

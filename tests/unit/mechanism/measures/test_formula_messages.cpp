@@ -1,4 +1,4 @@
-// What users read when a formula of the state names what is not there.
+// Messages about formulas of the state with unknown names.
 #include <catch2/catch.hpp>
 
 #include "mechanism/io/mechanism_file.hpp"
@@ -82,7 +82,7 @@ TEST_CASE("measures that refer to themselves, at once or through others, are ref
   const std::string through =
       message("one", "measures:\n  one: \"2*two\"\n  two: \"three + 1\"\n  three: \"one*main.angle\"\n");
   CHECK_THAT(through, Contains("model.yaml") && Contains("refers to itself") && Contains("'one'"));
-  // Two ways to the same measure are none.
+  // Two references to the same measure are no cycle.
   CHECK(message("one + two", "measures:\n  one: \"2*three\"\n  two: \"3*three\"\n  three: main.angle\n") ==
         "(nothing thrown)");
   CHECK_THAT(message("1", "measures: {one: \"2*t\"}\n"), Contains("formula of the state"));

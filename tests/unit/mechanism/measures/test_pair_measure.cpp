@@ -1,4 +1,4 @@
-// What is recorded of a joint at every step is what its measures with all their derivatives say.
+// The records of a joint at every step equal its measures with all their derivatives.
 #include <catch2/catch.hpp>
 
 #include "mechanism/measures/pair_measure.hpp"

@@ -1,5 +1,4 @@
-// Orientations in model files: every key gives the rotation that it says, and what gives none is refused where it
-// stands.
+// Orientations in model files: every key gives its rotation, and values that give none are refused with their place.
 #include <cmath>
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-// What is left of a run that is killed by SIGKILL, at any moment.
+// The file of a run that is killed by SIGKILL, at any moment.
 #include <chrono>
 #include <cmath>
 #include <functional>
@@ -112,7 +112,7 @@ TEST_CASE("A killed run leaves a readable file with whole rows, whenever it is k
 TEST_CASE("A run that is killed while it makes its datasets leaves a readable file") {
   const TemporaryFolder folder;
   const std::string path = folder / "run.h5";
-  // What is made takes some 100 ms, by names 16 000 datasets: kills are spread over all of it, and beyond.
+  // The file takes some 100 ms to make, with 16 000 datasets by names: kills are spread over this time, and beyond.
   const auto [layout, nodes] =
       GENERATE(table<ResultsLayout, int>({{ResultsLayout::named, 4000}, {ResultsLayout::stacked, 40'000}}));
   CAPTURE(layout_name(layout));

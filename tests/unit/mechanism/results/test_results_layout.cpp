@@ -1,4 +1,4 @@
-// The stacked layout holds what the layout by names holds, bit for bit, whatever the model is made of.
+// The stacked layout contains the same values as the layout by names, bit for bit, for any model.
 #include <cmath>
 #include <filesystem>
 
@@ -68,7 +68,7 @@ void run(const std::string& output, const std::string& path, const std::string& 
   run_analyses(read(output), path, progress, restart);
 }
 
-/// What the stacked file holds under the name of the layout by names: "joints/elbow/rate".
+/// The values in the stacked file for a name of the layout by names: "joints/elbow/rate".
 std::vector<double> by_name(const Hdf5File& file, const ResultsKinds& kinds, const ResultsEntry& entry,
                             const ResultsField& field) {
   const ResultsKind& kind = kinds.kinds()[entry.kind];
@@ -171,7 +171,7 @@ TEST_CASE("a restart in the stacked layout goes on as if nothing had happened") 
   const std::string output = "layout: stacked, checkpoint: 7";
   const MechanismFile file = read(output);
   {
-    // What a run leaves that is killed after some rows that no checkpoint counts.
+    // The file of a run that is killed after some rows that no checkpoint counts.
     Session session(file.model);
     ResultsFile results(folder / "whole.h5", file.model, file.text, file.output.layout);
     results.name_equations(session.system());

@@ -1,4 +1,4 @@
-// Motions of condensed superelements go on from what was saved to the last bit, whatever the number of threads.
+// Motions of condensed superelements continue a saved state to the last bit, for any number of threads.
 #include "swinging_arms.hpp"
 #include <catch2/catch.hpp>
 

@@ -17,7 +17,7 @@ Energy energy(double kinetic, double input = 0, double dissipation = 0) {
   return result;
 }
 
-/// As a summary judges it.
+/// The relative error as in a summary.
 double relative_error(const EnergyBalance& books) {
   return books.largest_error() / std::max(books.largest(), 0.1 * books.largest_turnover());
 }

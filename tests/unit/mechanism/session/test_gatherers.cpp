@@ -1,4 +1,5 @@
-// These tests check the names of gathered values in a results file, and which element speaks for a beam.
+// These tests check the names of gathered values in a results file, and the choice of the element that represents a
+// beam.
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-// Motions step by step: callbacks, stops, what is shown meanwhile, and what ends them.
+// Motions step by step: callbacks, stops, intermediate states, and the end of a motion.
 #include <stdexcept>
 
 #include "swinging_arms.hpp"

@@ -1,4 +1,4 @@
-// Sinks get the same numbers, and who listens does not change them.
+// All sinks get the same numbers, and their presence does not change the numbers.
 #include "swinging_arms.hpp"
 #include <catch2/catch.hpp>
 

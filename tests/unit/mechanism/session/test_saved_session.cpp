@@ -1,4 +1,4 @@
-// What is saved goes on to the last bit, in the same session and in another one.
+// A saved state is continued to the last bit, in the same session and in another one.
 #include "swinging_arms.hpp"
 #include <catch2/catch.hpp>
 
@@ -14,7 +14,7 @@ using bielle::test::swinging_arms;
 using Catch::Contains;
 
 TEST_CASE("a motion that is restored goes on as it did, to the last bit") {
-  // The push begins at 0.1234 s: once after what is saved, once before it. Adaptive steps know their size and norm.
+  // The push begins at 0.1234 s: once after the saved state, once before it. Adaptive steps know their size and norm.
   for (const double tolerance : {0.0, 1e-6})
     for (const double time : {0.1, 0.15}) {
       CAPTURE(tolerance, time);

@@ -1,4 +1,4 @@
-// Models at work without a file: made in memory, assembled, at rest, read.
+// Sessions without a file: models made in memory, assembled, at rest, read.
 #include <cmath>
 
 #include "swinging_arms.hpp"
@@ -74,7 +74,8 @@ loads: {pull: {node: bar, force: [0, 0, -30]}}
   CHECK(session.node("bar").x.z() == Approx(-1.1).epsilon(1e-9));
   CHECK(session.loaded().factor == 1);
 
-  // A callback that stops on the way leaves the session under the load that it has come to; the rest comes from there.
+  // A callback that stops the analysis leaves the session at the load factor reached; the next analysis continues from
+  // there.
   Session again(read_mechanism_text(text, "bar.yaml").model);
   std::vector<double> saved;
   again.on_step([&](Session& at) {

@@ -1,4 +1,4 @@
-// Results say which joints' reactions redundant constraints leave open.
+// Results name the joints whose reactions redundant constraints leave undetermined.
 #include <catch2/catch.hpp>
 
 #include "mechanism/io/run_analyses.hpp"

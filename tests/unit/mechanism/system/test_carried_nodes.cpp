@@ -45,7 +45,7 @@ void add_body(Model& model, int node, const MassProperties& p) {
             Entry{Section::elements, model.node(node).name});
 }
 
-/// Three bodies: a carries b, b carries c. The carried come first, so that no order of the file helps.
+/// Three bodies: a carries b, b carries c. The carried nodes come first, so that the order of the file does not help.
 void three_bodies(Model& model, Hold hold) {
   const Chain chain;
   Node b, c;
@@ -64,7 +64,7 @@ void three_bodies(Model& model, Hold hold) {
   model.environment.gravity = Vector3(1, 2, -9.81);
 }
 
-/// The same as one body.
+/// The three bodies as one body.
 void one_body(Model& model, Hold hold) {
   const Chain chain;
   const Node root = root_node(hold);

@@ -1,4 +1,4 @@
-// What a component may ask of its local matrices, and where its blocks go.
+// Requests of a component to its local matrices, and the places of its blocks.
 #include <catch2/catch.hpp>
 
 #include "mechanism/system/system.hpp"
@@ -7,7 +7,7 @@ using namespace bielle::mechanism;
 
 namespace {
 
-/// A body without rotation whose tangent is one number, written as it is told.
+/// A body without rotation whose tangent is one number, written as its argument says.
 class Body final : public Component {
  public:
   Body(int node, bool claims_blocks, bool asks_dense)

@@ -1,4 +1,4 @@
-// Components that use what belongs to others: the assembled tangent and its parts, one weight at a time.
+// Components that use unknowns of others: the assembled tangent and its parts, one weight at a time.
 #include <catch2/catch.hpp>
 
 #include "mechanism/io/mechanism_file.hpp"
@@ -41,7 +41,7 @@ drives:
   motor: {joint: pivot, rate: "0.4*sin(2*t)"}
 )yaml";
 
-/// Free and fixed ones alone.
+/// A model with free and fixed nodes alone.
 const char* const free_nodes = R"yaml(
 gravity: [1, -2, -9.81]
 nodes:
@@ -188,7 +188,7 @@ TEST_CASE("with references of all kinds on nodes of all kinds the tangent is the
       CHECK(distance(tangent_of(system, environment, point, {0, 0, 1, 0, 0}), d.M) < accurate);
       const MatrixX all = d.K + 3 * d.C + 7 * d.M;
       CHECK(distance(tangent_of(system, environment, point, {1, 3, 7, 3, 1}), all) < accurate);
-      // What is mixed is there: each part of the tangent by each kind of unknown of the others.
+      // The mixed terms exist: each part of the tangent for each kind of unknown of the others.
       const int row = 0, n = system.dofs(), strut = n + system.slots_of(*mixed.strut).first_order_begin,
                 scalar = system.kinematics().unknowns() + system.slots_of(*mixed.scalar).amplitude_begin;
       for (const int column : {strut, scalar}) {
@@ -210,8 +210,8 @@ TEST_CASE("constraints of others and derivatives of forces by multipliers come e
     const Point point = random_point(system);
     const Differences d = differences(system, environment, point);
     const int m = system.multipliers(), n = system.size() - m;
-    // B^T is what multipliers of their owners do: rows of B that multiply rates or increments. (The increments' T(Dq)
-    // is no part of B.)
+    // B^T is the effect of multipliers on their owners: rows of B that multiply rates or increments. (The increments'
+    // T(Dq) is no part of B.)
     MatrixX B = tangent_of(system, environment, point, {0, 0, 0, 0, 1, true}).bottomLeftCorner(m, n);
     const MatrixX by_multipliers = d.K.topRightCorner(n, m);
     // df/dlambda alone.
@@ -228,7 +228,7 @@ TEST_CASE("constraints of others and derivatives of forces by multipliers come e
     const MatrixX alone = dense(system, values);
     CHECK(alone.topLeftCorner(n, n).isZero(0));
     CHECK(distance(alone.topRightCorner(n, m), alone.bottomLeftCorner(m, n).transpose()) < 1e-14);
-    // Nothing else: derivatives by multipliers less those of the forces.
+    // No other terms: derivatives by multipliers less those of the forces.
     CHECK(distance(alone.topRightCorner(n, m), by_multipliers - forces.topRightCorner(n, m)) < accurate);
     // With `reactions` they count in full with any stiffness.
     TangentWeights weights{0, 0, 1, 1, 1, true};
@@ -360,7 +360,7 @@ TEST_CASE("references in a circle are refused by name, and so is a reference to 
              Catch::Contains("element 'three' refers to element 'one', which refers back to it"));
   CHECK_THAT(message_of<InputError>(numbered([](auto& one, auto&, auto&) { one.refer_to(one); })),
              Catch::Contains("element 'one' refers to itself"));
-  // Two ways to the same component are no circle.
+  // Two references to the same component are no cycle.
   CHECK_NOTHROW(numbered([](auto& one, auto& two, auto& three) {
     one.refer_to(two);
     one.refer_to(three);

@@ -24,7 +24,7 @@ State moved(const System& system, double size) {
   return state;
 }
 
-/// All that a system computes, one after the other.
+/// All results of a system, one after the other.
 std::vector<double> everything(const System& system, const Environment& environment, State state) {
   std::vector<double> all, values;
   const auto take = [&](const auto& vector) { all.insert(all.end(), vector.data(), vector.data() + vector.size()); };
@@ -79,7 +79,7 @@ TEST_CASE("a failure is reported alike by any number of threads") {
     system.use_threads(threads);
     for (int round = 0; round < 20; ++round) REQUIRE(message() == alone);
   }
-  // And leaves nothing behind.
+  // A failed evaluation must leave no traces.
   const State whole = moved(system, 0.01);
   VectorX expected(system.size());
   System(file.model).residual(whole, file.model.environment, expected);

@@ -1,4 +1,5 @@
-// The bodies that come with the program: every body file is read, and its geometry has what the file asks for.
+// The bodies that come with the program: every body file is read, and its geometry contains the groups that the file
+// names.
 #include <filesystem>
 #include <set>
 
@@ -25,7 +26,7 @@ TEST_CASE("every body of meshes/ is read and meshed with its groups") {
       CHECK(mesh.groups.at(interface.group).dimension == 2);
     for (const LoadRequest& load : body.options.loads) CHECK(mesh.groups.at(load.group).dimension == 2);
     for (const auto& [region, material] : body.options.regions) CHECK(mesh.groups.at(region).dimension == 3);
-    // Fillets are straightened here and there, everything else is exact to the order of the elements.
+    // Some fillets are straightened, everything else is exact to the order of the elements.
     CHECK(mesh_volume(mesh) == Approx(geometry_volume(body.mesh.path, body.mesh.length_unit)).epsilon(1e-3));
     names.insert(entry.path().stem().string());
   }

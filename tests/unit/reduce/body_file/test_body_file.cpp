@@ -1,4 +1,4 @@
-// Body files: every key, and what users read when one is wrong.
+// Body files: every key, and the messages about wrong ones.
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
@@ -13,7 +13,7 @@ using Catch::Contains;
 
 namespace {
 
-// A small body file, of which single lines are replaced.
+// A small body file in which single lines are replaced.
 std::string body(const std::string& from = "", const std::string& to = "") {
   std::string text =
       "body: rod\n"                                                                // 1

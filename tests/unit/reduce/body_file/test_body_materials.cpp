@@ -1,4 +1,4 @@
-// Materials in body files: the stiffness that they mean, and what users read when they are impossible.
+// Materials in body files: their stiffness, and the messages about impossible ones.
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <catch2/catch.hpp>

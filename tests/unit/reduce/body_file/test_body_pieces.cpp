@@ -1,4 +1,4 @@
-// `pieces` in body files: planes, lines and arcs, and what users read when one is wrong.
+// `pieces` in body files: planes, lines and arcs, and the messages about wrong ones.
 #include <cmath>
 
 #include <catch2/catch.hpp>

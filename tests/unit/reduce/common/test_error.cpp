@@ -46,7 +46,7 @@ TEST_CASE("A message offers the nearest name, or the names that exist") {
   CHECK(message.find("'node11'") != std::string::npos);
   CHECK(message.find("'node12'") == std::string::npos);
   CHECK(message.find("and 3 more") != std::string::npos);
-  // If there are many, those that are most like the word are shown.
+  // Only those of the many candidates that are most like the word are shown.
   many.push_back("stiff_point");
   many.emplace_back("end_stiffness_of_the_arm");
   const std::string nearest = did_you_mean("stiffness", many);

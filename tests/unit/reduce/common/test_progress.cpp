@@ -28,7 +28,7 @@ void work(Progress& progress) {
   progress.finish();
 }
 
-/// What `action` prints on standard error, which is a terminal or a pipe.
+/// Returns the output of `action` on standard error, which is a terminal or a pipe.
 std::string printed(bool terminal, const std::function<void()>& action) {
   int ours = -1, theirs = -1, ends[2];
   if (terminal) {

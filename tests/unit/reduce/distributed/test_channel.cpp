@@ -1,4 +1,4 @@
-// What goes in at one end comes out at the other, and an end that is gone is noticed.
+// Data written at one end arrive at the other, and a closed end is noticed.
 #include <array>
 #include <csignal>
 #include <string>

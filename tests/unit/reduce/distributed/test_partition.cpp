@@ -1,4 +1,4 @@
-// Cells shared out: each once, evenly, and the parts together are the solid.
+// Division of cells: each once, evenly, and the parts together are the solid.
 #include <algorithm>
 #include <set>
 

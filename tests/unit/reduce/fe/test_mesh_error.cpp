@@ -33,8 +33,8 @@ TEST_CASE("What the cells can show has no mesh error, on a distorted mesh as wel
   const auto error = [](const Mesh& mesh, const RowMatrix& u) {
     return estimate_mesh_error(make_solid(mesh, {{"m", material}}, {{"all", "m"}}), u, 2).relative(0);
   };
-  // The square of the error is a sum of roundings of 1e-16; terms that regular meshes leave undetermined give way by
-  // 1e-9.
+  // The square of the error is a sum of roundings of 1e-16; terms that regular meshes leave undetermined are stabilised
+  // by 1e-9.
   CHECK(error(quadratic, field(quadratic, bending)) < 1e-6);
   CHECK(error(linear, field(linear, stretch)) < 1e-6);
   CHECK(error(linear, field(linear, bending)) > 0.1);  // one strain in each cell
@@ -60,9 +60,8 @@ TEST_CASE("A jump of stress between two materials is no mesh error") {
 }
 
 TEST_CASE("The estimate is that of the true error of a bent cantilever, within a factor of 1.5, of 2 with few tet4") {
-  // Saint-Venant's flexure by a tip shear, displacements given on the whole boundary, so that the clamp's singularity
-  // is out of the way. Without lateral contraction sigma = E strain: sigma_xx = E (L - x) y, sigma_xy = E (y^2 - h^2/4)
-  // / 2.
+  // Saint-Venant's flexure by a tip shear, displacements given on the whole boundary, so that there is no singularity
+  // at a clamp. Without lateral contraction sigma = E strain: sigma_xx = E (L - x) y, sigma_xy = E (y^2 - h^2/4) / 2.
   constexpr double length = 2, height = 1, width = 0.5;
   const auto exact = [&](const Eigen::Vector3d& x) {
     const double X = x.x(), Y = x.y() - height / 2;

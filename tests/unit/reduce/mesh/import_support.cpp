@@ -51,7 +51,7 @@ std::string msh(const std::vector<std::string>& points, const std::vector<std::s
 void gmsh_convert(const std::string& source, const std::string& target, double size, int order) {
   GmshSession session;
   session.read("test", [&] {
-    gmsh::option::setString("Geometry.OCCTargetUnit", "MM");  // what is written as STEP is in mm
+    gmsh::option::setString("Geometry.OCCTargetUnit", "MM");  // written STEP files are in mm
     gmsh::open(source);
     gmsh::option::setNumber("Mesh.MeshSizeMax", size);
     gmsh::option::setNumber("Mesh.ElementOrder", order);

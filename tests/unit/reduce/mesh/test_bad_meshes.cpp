@@ -1,4 +1,4 @@
-// What users read when a geometry or mesh cannot be reduced.
+// Messages about a geometry or mesh that cannot be reduced.
 #include <cstdio>
 #include <filesystem>
 #include <iostream>

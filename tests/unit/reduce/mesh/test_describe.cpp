@@ -1,4 +1,4 @@
-// `--list`: what a geometry or mesh offers, and that the lines it prints select what they say.
+// `--list`: the contents of a geometry or mesh, and a check that its lines select the surfaces that they describe.
 #include <regex>
 
 #include "import_support.hpp"

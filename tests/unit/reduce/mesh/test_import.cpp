@@ -112,7 +112,7 @@ TEST_CASE("lengths are metres whatever the unit of the file") {
     if (!name.ends_with(".msh") && !name.ends_with(".unv")) wish.size = 0.06;
     const Mesh mesh = import(wish);
     CHECK(mesh.block(CellType::tet10) != nullptr);
-    // UNV files have 17 digits, STEP files have 15: far more than this.
+    // UNV files have 17 digits, STEP files have 15, far more than this tolerance.
     CHECK_THAT(mesh_volume(mesh), WithinRel(0.006, 1e-10));
     CHECK((mesh.points.rowwise().maxCoeff() - Eigen::Vector3d(0.3, 0.2, 0.1)).norm() < 1e-10);
     if (!wish.size || name == "box.geo") {

@@ -31,7 +31,7 @@ Eigen::Vector3d place(const Eigen::Matrix3Xd& x, const Eigen::Vector3d& xi) {
   return result;
 }
 
-// By central differences, which are exact for a quadratic map up to rounding.
+// The determinant by central differences, which are exact for a quadratic map up to rounding.
 double determinant(const Eigen::Matrix3Xd& x, const Eigen::Vector3d& xi) {
   Eigen::Matrix3d jacobian;
   for (int k = 0; k < 3; ++k)

@@ -1,4 +1,4 @@
-// Units of length: names, and what STEP files declare.
+// Units of length: names, and declarations in STEP files.
 #include "import_support.hpp"
 #include <catch2/catch.hpp>
 #include <fmt/format.h>

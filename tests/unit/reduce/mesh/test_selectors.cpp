@@ -36,7 +36,7 @@ MeshRequest plate_request(const std::string& path, bool meshed) {
 TEST_CASE("cylinder, plane and box select the same surfaces of a geometry, of STEP without names and of a mesh") {
   const TemporaryFolder folder;
   const std::string geo = folder.file("plate.geo", plate_geo);
-  // gmsh writes STEP numbers as they are and calls them mm.
+  // gmsh writes numbers to STEP unchanged and declares them as mm.
   const std::string scaled =
       folder.file("plate_mm.geo", std::string(plate_geo) + "Dilate {{0,0,0}, 1000} { Volume{4}; }\n");
   gmsh_convert(scaled, folder / "plate.step", 10, 2);
@@ -98,7 +98,7 @@ TEST_CASE("a selector that finds nothing names the shapes that come nearest") {
   for (const std::string name : {"plate.geo", "plate.msh"}) {
     CAPTURE(name);
     MeshRequest wish = plate_request(folder / name, name.ends_with(".msh"));
-    // On a geometry the search ends before there are solid cells, which tell bores from pins.
+    // On a geometry the search ends before there are solid cells, by which bores and pins are distinguished.
     const std::string bore = name.ends_with(".msh") ? " (a bore)" : "";
     wish.surfaces = {{"bore",
                       {ShapeSelector(CylinderSelector{{0.05, 0.05, 0}, {0, 0, 1}, 0.031})},

@@ -1,4 +1,4 @@
-// Repair of curved elements that are inside out.
+// Repair of curved elements that are inverted.
 #include "import_support.hpp"
 #include <catch2/catch.hpp>
 
@@ -54,7 +54,7 @@ TEST_CASE("the coarse connecting rod has elements inside out at its fillets, and
   wish.length_unit = "mm";
   wish.size = 6e-3;
   CHECK(least_ratio(import(wish)) > 0);
-  // The same mesh as gmsh leaves it: the repair is needed.
+  // The unrepaired mesh of gmsh shows that the repair is needed.
   const std::string raw = std::string(BIELLE_BINARY_DIR) + "/conrod_raw.msh";
   gmsh_convert(wish.path, raw, 6, 2);
   MeshRequest again = request(raw);

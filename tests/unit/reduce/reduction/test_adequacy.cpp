@@ -16,7 +16,7 @@ Adequacy judged(const Mesh& mesh, const ReductionOptions& options) {
   return *body.adequacy;
 }
 
-/// By what part of itself the first of `found` is above the first of `truth`, and so on.
+/// Relative excess of the first of `found` over the first of `truth`, and so on.
 Eigen::VectorXd excess(const Eigen::VectorXd& found, const Eigen::VectorXd& truth) {
   return (found.head(truth.size()).cwiseQuotient(truth).array() - 1).matrix();
 }
@@ -71,7 +71,8 @@ TEST_CASE("Rigid ties stiffen at least by what is said, and not much more") {
 }
 
 TEST_CASE("The mesh's error of frequencies is that of a finer mesh, within a factor of 2, of 2.5 in torsion") {
-  // Of a bar two elements wide the smoothed stress has no more room for the warping of the sections than the elements.
+  // In a bar two elements wide the smoothed stress represents the warping of the sections no better than the elements
+  // do.
   const bool quadratic = GENERATE(true, false);
   const Eigen::Vector3d size(1, 0.2, 0.3);
   const int n = quadratic ? 2 : 4;

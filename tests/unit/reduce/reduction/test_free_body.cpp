@@ -95,7 +95,7 @@ TEST_CASE("The elastic energy to third order does not depend on the frame, whate
   };
   CHECK(objectivity() >= 0);
   CHECK(objectivity() < 1e-10);  // the factorisation's rounding
-  // A tenth of one matrix more is seen.
+  // A tenth of one matrix more must be detected.
   body.load_stiffness[7] *= 1.1;
   CHECK(objectivity() > 1e-4);
 }

@@ -64,7 +64,7 @@ TEST_CASE("The held body is in equilibrium under any load, with its conditions m
   if (averages > 0) {
     CHECK((model.ties.spread.transpose() * u - q).norm() < 1e-10 * u.norm());
   }
-  // What is missing to equilibrium inside must be C^T lambda.
+  // The force that is missing from equilibrium inside must be C^T lambda.
   const Eigen::MatrixXd residual = f - held.restrict(model.stiffness.multiply(u));
   if (averages == 0) {
     CHECK(residual.norm() < 1e-9 * f.norm());

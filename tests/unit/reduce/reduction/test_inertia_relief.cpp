@@ -1,4 +1,4 @@
-// Residual vectors for the body's own inertia, and how much of its answer a reduction says that it has.
+// Residual vectors for the body's own inertia, and the share of its answer that a reduction reports.
 #include <cmath>
 
 #include <Eigen/LU>
@@ -16,7 +16,7 @@ using namespace bielle::reduce;
 namespace test_inertia_relief {
 namespace {
 
-constexpr double young = 210e9, density = 7800;  // of test::steel()
+constexpr double young = 210e9, density = 7800;  // constants of test::steel()
 
 /// Forces of the twelve accelerations that are linear in space, on a mesh.
 RowMatrix inertia_loads(const Solid& solid) {
@@ -48,8 +48,8 @@ Superelement bar(bool relieved, int modes = 16) {
   return test::reduced(test::box_mesh({{1, 0.04, 0.04}, {24, 1, 1}}), options);
 }
 
-/// Largest stress along the bar that spins by w about z through its centre, and where its own closed form
-/// rho w^2 (L^2 - x^2)/2, x from the centre, L half the length, differs most from it, of the largest one.
+/// Largest stress along the bar that spins by w about z through its centre, and the largest relative deviation from its
+/// closed form rho w^2 (L^2 - x^2)/2, x from the centre, L half the length.
 struct SpinningStress {
   double largest = 0, difference = 0;  ///< over the largest of the closed form
 };
@@ -68,7 +68,7 @@ SpinningStress spinning_stress(const Superelement& body) {
   };
   // w along z: (w x v)_x = -w v_y, (w x v)_y = w v_x.
   const Eigen::VectorXd force = w * (S(0, 1) * turning - S(1, 0) * turning);
-  // Held at one end, which the centrifugal forces, in equilibrium, do not load.
+  // The bar is held at one end, which the centrifugal forces, in equilibrium, do not load.
   const Eigen::VectorXd stress = body.stress_recovery * answer(body, force, 6);
   SpinningStress result;
   for (std::size_t k = 0; k < body.stress_nodes.size(); ++k) {

@@ -31,7 +31,7 @@ struct HeldModel {
   HeldModel(const HeldModel&) = delete;
 
   std::optional<ModeCount> count() const { return count_modes(*matrices, held, basis); }
-  /// As if the search had not seen mode k.
+  /// Removes mode k, as if the search had not found it.
   void forget(Index k) {
     std::vector<double> left(basis.eigenvalues.begin(), basis.eigenvalues.end());
     left.erase(left.begin() + k);

@@ -22,8 +22,8 @@ using Catch::Contains;
 namespace {
 
 double difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  // Entries have different units: compare those of coordinates i, j on the scale of the diagonals, some of which may be
-  // zero (a direction that alone holds a rigid motion meets no stiffness).
+  // Entries have different units: those of coordinates i, j are compared on the scale of the diagonals, some of which
+  // may be zero (a direction that alone holds a rigid motion has no stiffness).
   const double largest = a.diagonal().cwiseAbs().maxCoeff();
   const Eigen::VectorXd scale = a.diagonal().cwiseAbs().cwiseMax(1e-6 * largest).cwiseSqrt().cwiseInverse();
   return (scale.asDiagonal() * (a - b) * scale.asDiagonal()).cwiseAbs().maxCoeff();
@@ -55,7 +55,7 @@ TEST_CASE("A reduced body keeps rigid motions, mass properties and inertia integ
     CHECK(check.passed());
     values[check.name] = check.value;
   }
-  // Closer than the limits of the checks, which leave room for slender bodies and fine meshes.
+  // The bounds are closer than those of the checks, which allow for slender bodies and fine meshes.
   for (const char* exact :
        {"rigid_motion_force", "mass_error", "centre_error", "inertia_error", "rigid_motion_recovery",
         "inertia_components_error", "rigid_motion_stress", "mode_orthogonality"}) {

@@ -1,4 +1,4 @@
-// Residual vectors: static answers against those of the full mesh, orthogonality, and what leaves nothing.
+// Residual vectors: static answers against those of the full mesh, orthogonality, and loads without a remainder.
 #include <cmath>
 
 #include <Eigen/LU>
@@ -35,7 +35,7 @@ struct FullMesh {
   }
 };
 
-/// Its interface "b" follows the mesh without stiffening it, so that the full mesh can do without it.
+/// Its interface "b" follows the mesh without stiffening it, so that the full mesh does not need it.
 ReductionOptions body_with_points(const FullMesh& full, Tie tie, int modes, const std::array<bool, 6>& residual) {
   ReductionOptions options = test::steel_body(tie, Tie::average, modes);
   options.points = {test::point_at("inside", full.centre()), test::point_on("pad", "y1")};
@@ -87,7 +87,7 @@ TEST_CASE("With residual vectors the static displacement under forces and moment
 }
 
 TEST_CASE("Residual vectors follow directions that an interface releases") {
-  // With all interfaces held nothing but modes and residual vectors moves: their part of the compliance is the mesh's.
+  // With all interfaces held only modes and residual vectors move: their part of the compliance is the mesh's.
   const FullMesh full;
   ReductionOptions options = test::steel_body(Tie::rigid, Tie::rigid, 5);
   options.interfaces[1].kept = {true, true, true, false, true, false};
@@ -130,9 +130,9 @@ TEST_CASE("Residual vectors are orthogonal in stiffness and mass among themselve
   const Eigen::MatrixXd K = omega.cwiseInverse().asDiagonal() *
                             Eigen::MatrixXd(shapes.transpose() * full.stiffness.multiply(shapes)) *
                             omega.cwiseInverse().asDiagonal();
-  CHECK((K - Eigen::MatrixXd::Identity(m, m)).cwiseAbs().maxCoeff() < 1e-7);  // what the iteration leaves of its modes
+  CHECK((K - Eigen::MatrixXd::Identity(m, m)).cwiseAbs().maxCoeff() < 1e-7);  // error of the iteration in its modes
   CHECK((K - Eigen::MatrixXd::Identity(m, m)).bottomRightCorner(residual, residual).cwiseAbs().maxCoeff() < 1e-9);
-  // Constraint modes meet no force inside.
+  // Constraint modes cause no force inside.
   const RowMatrix constraint = body.displacement_recovery.leftCols(m > 0 ? body.interface_directions() : 0);
   const Eigen::MatrixXd coupling = constraint.transpose() * full.stiffness.multiply(shapes.rightCols(residual));
   CHECK(coupling.cwiseAbs().maxCoeff() <

@@ -93,7 +93,7 @@ inline void check_statistics(const FactorKind& kind) {
   }
 }
 
-/// Two factors at the same time, in turns, each with its own matrix.
+/// Two factors are used at the same time, in turns, each with its own matrix.
 inline void check_two_at_a_time(const FactorKind& kind) {
   CAPTURE(kind.name);
   const SymmetricMatrix a = grid_laplacian({6, 5, 4}), b = shifted(grid_laplacian({9, 7, 1}), -0.5);
@@ -105,7 +105,7 @@ inline void check_two_at_a_time(const FactorKind& kind) {
   }
 }
 
-/// The sentence with which a matrix is refused; empty where it is not.
+/// The message with which a matrix is refused; empty if it is not.
 inline std::string refusal(const FactorKind& kind, const SymmetricMatrix& a, int threads) {
   try {
     kind.make(a, threads);
@@ -181,7 +181,7 @@ inline void check_signs(const FactorKind& kind) {
   CHECK(kind.make(one_unknown(1), 1)->count_signs(one_unknown(-3), {1.0})->negative == 1);
 }
 
-/// A chain held at its middle by a condition as well is two chains of half the length, each eigenvalue twice. The
+/// A chain that a condition holds at its middle as well is two chains of half the length, each eigenvalue twice. The
 /// condition's multiplier adds a negative eigenvalue.
 inline void check_signs_with_a_border(const FactorKind& kind) {
   if (!kind.counts_signs) return;
@@ -199,7 +199,7 @@ inline void check_signs_with_a_border(const FactorKind& kind) {
   }
 }
 
-/// A shift at an eigenvalue leaves one whose sign nobody can know.
+/// A shift at an eigenvalue leaves one whose sign cannot be determined.
 inline void check_lost_signs(const FactorKind& kind) {
   if (!kind.counts_signs) return;
   CAPTURE(kind.name);

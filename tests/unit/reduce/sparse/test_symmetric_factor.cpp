@@ -209,7 +209,7 @@ TEST_CASE("A floating chain of springs is singular to working precision and refu
   }
 }
 
-#ifndef __SANITIZE_ADDRESS__  // which takes more address space than any limit
+#ifndef __SANITIZE_ADDRESS__  // it takes more address space than any limit
 TEST_CASE("A factor that will not fit is refused before it is computed, with the estimate") {
   const SymmetricMatrix a = test::grid_laplacian({30, 30, 30});
   const FactorStatistics whole = SymmetricFactor(a).statistics();
@@ -217,10 +217,10 @@ TEST_CASE("A factor that will not fit is refused before it is computed, with the
   CHECK(whole.estimated_MB < 2.5 * whole.memory_MB());
   rlimit before{};
   REQUIRE(getrlimit(RLIMIT_AS, &before) == 0);
-  // Memory that the heap holds free at its end would go back to the system while the factor is analysed, and more would
-  // be left then than the limit says now.
+  // Free memory at the end of the heap would be returned to the system during the analysis of the factor, and more
+  // would then be available than the limit allows now.
   malloc_trim(0);
-  // Lowers the limit until less is left than the factor needs, yet enough for its symbolic analysis.
+  // Lowers the limit until less remains than the factor needs, but enough for its symbolic analysis.
   const double wanted = 0.9 * whole.estimated_MB;
   rlimit lower = before;
   lower.rlim_cur = address_space() + static_cast<rlim_t>(1e6 * wanted) - mallinfo2().fordblks;

@@ -40,7 +40,7 @@ struct DensePencil {
   }
 };
 
-/// A matrix with these eigenvalues and eigenvectors that are nothing special.
+/// A matrix with these eigenvalues and arbitrary eigenvectors.
 inline Eigen::MatrixXd with_eigenvalues(const Eigen::VectorXd& values) {
   const Eigen::MatrixXd any = StartVectors(values.size()).draw(values.size());
   const Eigen::MatrixXd Q = symmetric_eigenpairs(any + any.transpose()).vectors;

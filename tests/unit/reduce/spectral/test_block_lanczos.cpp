@@ -33,7 +33,7 @@ EigenpairOptions by_arpack() {
   return options;
 }
 
-/// The block method alone, whatever the size, in order.
+/// Uses the block method alone for any size and returns its values in order.
 VectorXd block_values(const ShiftInvertProblem& problem, int count, const EigenpairOptions& options) {
   VectorXd values = block_lanczos_eigenpairs(problem, count, options).values;
   std::sort(values.begin(), values.end());
@@ -135,7 +135,7 @@ TEST_CASE("block Lanczos: springs a million times as stiff as others", "[spectra
 }
 
 TEST_CASE("block Lanczos: a mass that is singular", "[spectral]") {
-  // Two of three freedoms have no mass: 50 eigenvalues in 150 freedoms.
+  // Two of three degrees of freedom have no mass: 50 eigenvalues in 150 degrees of freedom.
   MatrixXd K = test::with_eigenvalues(VectorXd::LinSpaced(150, 1, 60));
   VectorXd masses = VectorXd::Zero(150);
   for (Index k = 0; k < 50; ++k) masses(3 * k) = 1 + 0.1 * static_cast<double>(k);
@@ -154,7 +154,7 @@ TEST_CASE("block Lanczos: a mass that is singular", "[spectral]") {
     CHECK(chosen.method == (count < 50 ? "ARPACK" : "block Lanczos"));
   }
   CHECK_THROWS_WITH(shift_invert_eigenpairs(pencil.problem(), 50, by_arpack()), Catch::Contains("block_lanczos"));
-  // More than exist: all there are.
+  // More are requested than exist: all are found.
   CHECK(difference(block_values(pencil.problem(), 70, with_block(8)), exact) < 1e-10);
   CHECK(
       block_values({150, 0, pencil.problem().solve, [](const MatrixXd& x) { return MatrixXd(0 * x); }}, 3, {}).size() ==
@@ -175,7 +175,7 @@ TEST_CASE("block Lanczos: problems smaller than a block, and all of their eigenv
 
 TEST_CASE("block Lanczos: restarts change nothing", "[spectral]") {
   VectorXd springs = VectorXd::LinSpaced(401, 1, 2);
-  // From far away all eigenvalues look alike.
+  // From a distant shift all eigenvalues look alike.
   const DensePencil pencil{test::chain_of_springs(springs), MatrixXd::Identity(400, 400), -2};
   const VectorXd exact = pencil.values().head(12);
   for (const int block : {1, 3, 8}) {

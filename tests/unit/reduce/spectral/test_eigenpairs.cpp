@@ -93,7 +93,7 @@ TEST_CASE("Every copy of a multiple eigenvalue is found") {
 }
 
 TEST_CASE("Eigenvalues that are far from the shift take restarts, and none is missed") {
-  // Seen from the shift all of them lie close together: the best of a first subspace are far from converged.
+  // From the shift all of them are close together: the best of a first subspace are far from converged.
   const GridProblem cube({11, 11, 11}, 1, -4);
   for (const EigenMethod method : both_methods) {
     const Eigenpairs pairs = shift_invert_eigenpairs(cube.problem(), 11, by(method));

@@ -19,7 +19,7 @@ struct Checked {
   double orthogonality = 0;  // largest entry of X^T M X - I
 };
 
-/// What the Ritz vectors of a basis are, who is used up.
+/// Properties of the Ritz vectors of a basis, which is used up.
 Checked check_ritz_vectors(const test::DensePencil& of, KrylovBasis& basis) {
   const RitzPairs ritz = basis.ritz();
   const Index old = basis.locked();
@@ -89,7 +89,7 @@ TEST_CASE("Krylov basis: the front becomes narrower where directions end, and em
   KrylovBasis basis(problem, 12, 1, [](Index) {});
   basis.start(3);
   basis.expand();
-  CHECK(basis.front() == 3);  // of 1 and 2 three and two directions are left, of 3 none
+  CHECK(basis.front() == 3);  // three directions of eigenvalue 1, two of 2, one of 3: six in all
   basis.expand();
   CHECK(basis.size() == 6);
   CHECK(basis.front() == 0);

@@ -28,7 +28,7 @@ TEST_CASE("a cut body comes back from its file as it was") {
     CHECK(read.pieces[k].stiffness == body.pieces[k].stiffness);
     CHECK(read.pieces[k].interfaces[1].name == body.pieces[k].interfaces[1].name);
     CHECK(read.pieces[k].loads.size() == body.pieces[k].loads.size());
-    // A piece stands in its group as a superelement in a file of its own.
+    // A piece in its group equals a superelement in a file of its own.
     const Superelement alone = read_superelement(SuperelementPlace(folder / "beam.h5", group_of_piece(k)));
     CHECK(alone.mass == body.pieces[k].mass);
   }

@@ -96,7 +96,7 @@ std::string written(const TemporaryFolder& folder, const Superelement& body) {
   return folder / "body.h5";
 }
 
-/// Why a sample whose file was changed is refused.
+/// The reason why a sample whose file was changed is refused.
 std::string why_refused(const std::function<void(Hdf5File&)>& damage) {
   const TemporaryFolder folder;
   const std::string path = written(folder, sample());

@@ -1,5 +1,5 @@
-// Residuals and tangents of beams, bodies, line loads, loads and joints, assembled by the system, do not touch the heap
-// once they have been made.
+// Residuals and tangents of beams, bodies, line loads, loads and joints, assembled by the system, do not allocate after
+// their first evaluation.
 #include <catch2/catch.hpp>
 
 #include "tests/support/allocations.hpp"
@@ -11,7 +11,7 @@ using bielle::test::ReadyModel;
 
 namespace {
 
-/// Everything at once: free, held, partly held, driven and carried nodes, curved, tapered and damped beams, loads by
+/// The model contains free, held, partly held, driven and carried nodes, curved, tapered and damped beams, loads by
 /// formulas of place and time, a joint of each kind, drives.
 const char* const model_text = R"yaml(
 gravity: [0, 0, -9.81]

@@ -91,7 +91,7 @@ TEST_CASE("a column buckles at the cubic beam's load as one element, and converg
   // One element: 135 p^2 - 156 p + 12 = 0 with p = P L^2/(30 EI).
   CHECK_THAT(buckling_force(1, 1e9), Catch::WithinRel(30 * (156 - std::sqrt(156.0 * 156 - 6480)) / 270, 1e-6));
   // J. Haringx, Philips Res. Rep. 3 (1948) 401: P = GA/2 (sqrt(1 + 4 P_E/GA) - 1), of a force across the sections.
-  // Shear that varies along a pressed element is taken as constant, so that the fourth order is that of slender
+  // Varying shear along a compressed element is treated as constant, so that the fourth order is that of slender
   // columns.
   const double euler = std::numbers::pi * std::numbers::pi / 4;
   const auto order = [&](double shear) {

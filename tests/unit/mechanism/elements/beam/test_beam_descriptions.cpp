@@ -88,8 +88,8 @@ std::string reversed_beam(int elements) {
       first.reversed().text());
 }
 
-/// What does not depend on the description: six eigenvalues of the beam as drawn and loaded, the tip under load, the
-/// energy, and the stretch and the stress at the point of the elements `stressed` (from 0).
+/// Quantities that do not depend on the description: six eigenvalues of the beam as drawn and loaded, the tip under
+/// load, the energy, and the stretch and the stress at the point of the elements `stressed` (from 0).
 VectorX signature(const std::string& elements, const std::vector<std::size_t>& stressed,
                   const std::string& more_nodes = "") {
   StaticModel beam(nodes(more_nodes) + elements);

@@ -81,7 +81,7 @@ TEST_CASE("the residual bending flexibility softens the shear of the section") {
   Matrix6 C = one_to_six;
   C(1, 1) = 72.0 / 37;
   C(2, 2) = 20.0 / 7;
-  // The parts of the shear that are bending, 1 of 37 and 1 of 21, stretch the element.
+  // The bending parts of the shear, 1 of 37 and 1 of 21, stretch the element.
   const double bent = Vector2(eps[1] / 37, eps[2] / 21).squaredNorm(), chord = std::hypot(1 + eps[0], std::sqrt(bent));
   eps[0] = chord + 0.1 * bent / chord - 1;
   CHECK_THAT(element.dense->energy(element.state).elastic, Catch::WithinAbs(0.5 * eps.dot(C * eps), 1e-14));
@@ -194,7 +194,7 @@ TEST_CASE("an element whose ends turn too far refuses with the advice to refine"
       element.stiffness(),
       "t = 0.25 s: beam 'shaft', element 2 of 5: its ends have turned past 180 degrees against each other, and one "
       "element follows up to 171: give the beam more `elements`, or take smaller steps");
-  // In statics the load factor is what tells when.
+  // In statics the load factor takes the place of the time.
   element.dense->environment.statics = true;
   element.dense->environment.load_factor = 0.5;
   CHECK_THROWS_WITH(element.stiffness(), Catch::StartsWith("load factor 0.5: beam 'shaft', element 2 of 5: "));

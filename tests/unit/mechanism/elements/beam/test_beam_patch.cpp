@@ -1,5 +1,5 @@
-// What a beam must represent exactly: constant strains on curved and twisted elements, rolling up, rigid rotation of a
-// bent beam, and the way back.
+// States that a beam must represent exactly: constant strains on curved and twisted elements, rolling up, rigid
+// rotation of a bent beam, and the way back.
 #include <cmath>
 #include <numbers>
 
@@ -23,7 +23,8 @@ using std::numbers::pi;
 namespace {
 
 /// Four elements of unequal length, free of stress on the helix of tangent e_x and curvature `K0`, brought to the
-/// strain eps. @returns the largest force left at their inner nodes, and how far the force in the first is from `f`
+/// strain eps. @returns the largest remaining force at their inner nodes, and the difference of the force in the first
+/// element from `f`
 double patch_error(const Vector3& K0, const Vector6& eps, const Matrix6& C, const Vector6& f, BeamBending bending) {
   Vector6 reference = Vector6::Unit(0);
   reference.tail<3>() = K0;
@@ -138,7 +139,7 @@ std::string loaded_arc(bool follower) {
          (follower ? "true" : "false") + "}\n";
 }
 
-/// Follows the loads from where the state is to `end` in steps of t.
+/// Follows the loads from the present state to `end` in steps of t.
 void follow(StaticModel& model, double end, int steps) {
   const double from = model.state.time;
   for (int k = 1; k <= steps; ++k) {

@@ -1,5 +1,5 @@
-// Beams of unsymmetric section: how shear centre and inclined principal axes couple their displacements. And their
-// damping.
+// Beams of unsymmetric section: the coupling of their displacements by the shear centre and inclined principal axes.
+// Their damping is tested as well.
 #include <cmath>
 
 #include <Eigen/LU>

@@ -224,7 +224,7 @@ TEST_CASE("the recorded resultants balance the load in the middle of every eleme
       const NodeState& node = beam.state.nodes[static_cast<std::size_t>(nodes[i])];
       Matrix3 R = node.R;
       if (i == 0 || i == 4) {
-        const double angle = i == 0 ? 0 : pi / 4;  // of the arc; the section's y is the inertial x of the start
+        const double angle = i == 0 ? 0 : pi / 4;  // angle of the arc; the section's y is the inertial x of the start
         Matrix3 start;
         start << 0, 1, 0, 1, 0, 0, 0, 0, -1;
         R = node.R * exp_so3(Vector3(0, 0, -angle)) * start;

@@ -60,7 +60,7 @@ TEST_CASE("a tapered bar has its mass, centre and inertia exactly") {
   VectorX move = VectorX::Zero(model.dense.size()), turn = move;
   for (const char* node : {"root", "tip"}) move[model.unknown(node, 1)] = turn[model.unknown(node, 5)] = 1;
   turn[model.unknown("tip", 1)] = 2;
-  const auto moment = [](int k) {  // of (1 + x)^2 x^k over [0, 2]
+  const auto moment = [](int k) {  // integral of (1 + x)^2 x^k over [0, 2]
     const auto power = [](int n) { return std::pow(2.0, n + 1) / (n + 1); };
     return pi * (power(k) + 2 * power(k + 1) + power(k + 2));
   };

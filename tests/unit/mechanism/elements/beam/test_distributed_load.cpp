@@ -101,7 +101,7 @@ TEST_CASE("the weight of a beam and an equal force per length are the same at an
   Random random(5);
   State state = weight.start();
   weight.move(state, 0.5 * random.vector(weight.size()));
-  // The inertia has a further mass without weight (beam_inertia.hpp); at rest it is silent.
+  // The inertia contains an additional mass without weight (beam_inertia.hpp), which has no effect at rest.
   CHECK((weight.residual(state) - load.residual(state)).cwiseAbs().maxCoeff() < 1e-13);
 }
 
@@ -149,7 +149,8 @@ TEST_CASE("a ring buckles at 3 EI/R^3 under pressure that follows it and at 4 EI
     for (int elements : {4, 8, 16}) errors.push_back(buckling_pressure(elements, follower) / exact - 1);
     CAPTURE(follower, errors);
     CHECK(std::abs(errors.back()) < 1e-3);
-    // Dead forces act as exactly as the line is; the direction of followers is that of the helix.
+    // Dead forces are integrated as exactly as the line is represented; the direction of followers is that of the
+    // helix.
     CHECK_THAT(std::log2(errors[1] / errors[2]), WithinAbs(follower ? 2 : 4, 0.1));
   }
 }

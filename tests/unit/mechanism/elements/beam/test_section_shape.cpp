@@ -85,7 +85,7 @@ TEST_CASE("the grid of sections made of walls is fine enough for an error of 2e-
 }
 
 TEST_CASE("thin walls have the constants of the theory of thin walls") {
-  // Walls of 1/100 of the height: what that theory neglects is of the order of 1 %.
+  // Walls of 1/100 of the height: the terms that the theory neglects are about 1 %.
   const SectionConstants box = shape("box", "{width: 60, height: 100, thickness: [0.5, 1]}")->constants();
   const double b = 59.5, h = 99;  // between the middles of the walls
   CHECK_THAT(box.J, WithinRel(4 * b * b * h * h / (2 * b / 1 + 2 * h / 0.5), 1e-2));  // Bredt
@@ -116,9 +116,10 @@ TEST_CASE("thin walls have the constants of the theory of thin walls") {
 }
 
 TEST_CASE("thin walls go over into the theory of thin walls down to the thinnest that are accepted") {
-  // What that theory neglects is of the order of t/h: the deviation over t/h is the same at every thickness.
+  // The terms that the theory neglects are of the order of t/h: the deviation over t/h is the same at every thickness.
   const double b = 0.6, h = 1;                                       // between the middles of the walls
-  const auto integral = [](const auto& f, double from, double to) {  // of a quartic: Gauss would do, Simpson halved
+  const auto integral = [](const auto& f, double from, double to) {  // Gauss's rule is exact for a quartic; so is
+                                                                     // Simpson's with two halves
     double sum = 0;
     constexpr int parts = 512;
     for (int k = 0; k < parts; ++k) {
@@ -179,7 +180,7 @@ TEST_CASE("walls that are too thin for the finite elements are refused with the 
   for (const auto& [name, dimensions] :
        {std::pair{"i", "{width: 1, height: 1, web: 9e-6, flange: 0.1}"},
         {"i", "{width: 0.5, height: 1, web: 0.1, flange: [9e-6, 0.1]}"},
-        {"t", "{width: 1, height: 1, web: 0.999995, flange: 0.1}"},  // what stands out beside the web
+        {"t", "{width: 1, height: 1, web: 0.999995, flange: 0.1}"},  // the part that projects beside the web
         {"l", "{width: 1, height: 2, thickness: 1e-5}"},
         {"box", "{width: 1, height: 1, thickness: 1e-6}"},
         {"box", "{width: 1, height: 1, thickness: 0.499999}"}})  // the hollow

@@ -1,4 +1,4 @@
-// What users read when a state is written wrong.
+// Messages about states that are written wrongly.
 #include <catch2/catch.hpp>
 
 #include "tests/support/hinged_rotor.hpp"

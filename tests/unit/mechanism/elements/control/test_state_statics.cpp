@@ -1,4 +1,5 @@
-// States in static analyses: rates are zero where that determines states, and those that it does not stay.
+// States in static analyses: rates are zero if that determines the states; states that are not determined do not
+// change.
 #include <cmath>
 
 #include <catch2/catch.hpp>

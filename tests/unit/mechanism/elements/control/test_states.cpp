@@ -1,4 +1,5 @@
-// States in motion: closed forms, equivalent ways to write the same thing, where they begin, and going on from a save.
+// States in motion: closed forms, equivalent forms of the same equations, start values, and continuation of a saved
+// state.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -184,7 +185,7 @@ joints: {main: {type: hinge, nodes: [ground, rotor], axis: [0, 0, 1], second_axi
 states: {load: {filter: main.reaction.x, time_constant: 0.1}}
 )yaml";
   Session session = session_of(text);
-  session.assemble();  // which knows no reactions
+  session.assemble();  // it knows no reactions
   CHECK(session.read("measures/load")[0] == 0);
   Motion motion = session.dynamics(steps_of(0.1, 0.01));
   CHECK(session.read("measures/load")[0] == Approx(9.81).epsilon(1e-11));

@@ -1,4 +1,4 @@
-// Nodes that ride on points inside a superelement: where they are, and what loads on them do.
+// Nodes that are fixed to points inside a superelement: their positions, and the effect of loads on them.
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
@@ -25,7 +25,7 @@ BeamSuperelement body_with_mesh(const BeamChain& chain) {
   return reduced;
 }
 
-/// Gives the body's file a point, with the rows that `at` gives it.
+/// Adds a point to the body's file, with the rows that `at` gives for it.
 void name_point(Superelement& body, const std::string& name, const Vector3& place,
                 const std::array<bool, 6>& residual = {}) {
   body.points[name] = {place, point_shapes(body, place), residual};
@@ -58,7 +58,7 @@ TEST_CASE("points of a rigidly moved body move rigidly, on its mesh and between 
     expected.topRightCorner<3, 3>() = -skew(point);
     CHECK(error(shapes * U, expected) < 1e-9);
   }
-  // At a node, its own displacement: others count by a millionth.
+  // At a node the displacement is the node's: others count by a millionth.
   const MatrixX at_node = point_shapes(reduced.body, reduced.body.mesh.points.col(17));
   const MatrixX own = reduced.body.displacement_recovery.middleRows<3>(3 * 17);
   CHECK(error(at_node.topRows<3>(), own) < 1e-4 * own.cwiseAbs().maxCoeff());
@@ -66,8 +66,8 @@ TEST_CASE("points of a rigidly moved body move rigidly, on its mesh and between 
 
 TEST_CASE("a load on a point does what it does on an interface there, but for the compliance that the basis lacks") {
   // Small loads at the middle of a cantilever of length 1, EIz = 1: deflection 1/24, slope 1/8 at the middle under a
-  // force, 5/48 at the tip. The basis has the modes of the beam clamped at both ends, which give the rest of the
-  // middle's compliance 1/192 and a part of 1/16 of its turning under a moment.
+  // force, 5/48 at the tip. The basis contains the modes of the beam clamped at both ends, which give the rest of the
+  // middle's compliance 1/192 and a part of 1/16 of its rotation under a moment.
   TemporaryFolder folder;
   BeamChain chain = straight_beam({}, 12);
   write_superelement(body_with_mesh(chain).body, folder / "beam.h5");
@@ -77,7 +77,7 @@ TEST_CASE("a load on a point does what it does on an interface there, but for th
                     fmt::format("loads: {{p: {{node: middle, force: [0, {}, 0]}}}}\n", force));
   for (int k = model.dense.multiplier_begin(); k < model.dense.size(); ++k) model.free.push_back(k);
   REQUIRE(model.load(1, 1e-10) >= 0);  // rounding of EA = 1e5
-  // The point stands between the mesh's nodes, of which those a twentieth of the length away count as well: some 1e-3.
+  // The point is between the mesh's nodes, including those at a twentieth of the length: the error is some 1e-3.
   CHECK(model.node("middle").x.y() == Approx(force / 24).epsilon(3e-3));
   CHECK(model.node("it.b").x.y() == Approx(force * 5 / 48).epsilon(2e-3));  // interfaces answer exactly to what acts
   CHECK(log_so3(model.node("middle").R).z() == Approx(force / 8).epsilon(5e-3));

@@ -1,4 +1,5 @@
-// A superelement's forces: exact tangents, invariance under rigid motions, power, and what loads and prestress do.
+// A superelement's forces: exact tangents, invariance under rigid motions, power, and the effect of loads and
+// prestress.
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
@@ -31,7 +32,7 @@ State carried(const State& state, const Frame& motion, const Vector3& v = Vector
   return result;
 }
 
-/// The residual seen from the node axes, where rigid motions do not show.
+/// The residual in the node axes, in which rigid motions have no effect.
 VectorX turned_back(const VectorX& r, const Matrix3& R, int nodes) {
   VectorX result = r;
   for (int k = 0; k < nodes; ++k) result.segment<3>(6 * k) = R.transpose() * r.segment<3>(6 * k);
@@ -269,8 +270,8 @@ TEST_CASE("an axial force changes the bending stiffness at once") {
                                      MatrixX(tangent.M(free_unknowns, free_unknowns)))
             .value();
     const double k = M_PI;
-    // Modes beyond the retained ones: some 1e-5 of the bending term. A bar that is longer by N/EA bends more easily, by
-    // four times that; a third-order energy does not know how much of it.
+    // Modes beyond the retained ones: some 1e-5 of the bending term. A bar that is longer by N/EA has a lower bending
+    // stiffness, by four times that; a third-order energy does not determine how much.
     const double tolerance = 5e-3 + 4 * std::abs(N) / properties.EA * properties.EIy * std::pow(k, 4);
     CHECK_THAT(eigen.values[0], Catch::WithinAbs(properties.EIz * std::pow(k, 4) + N * k * k, tolerance));
     CHECK_THAT(eigen.values[1], Catch::WithinAbs(properties.EIy * std::pow(k, 4) + N * k * k, tolerance));

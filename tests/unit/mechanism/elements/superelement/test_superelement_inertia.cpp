@@ -1,4 +1,4 @@
-// The inertia of a superelement against references that know nothing of its formulas: the mass points of the reduced
+// The inertia of a superelement against references that are independent of its formulas: the mass points of the reduced
 // field, followed through space by differences, and Lagrange's equations of their energies.
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -47,7 +47,7 @@ struct Reference {
 
   struct Rates {
     Eigen::Matrix3Xd points;
-    Vector3 Om;  // of the frame, body axes
+    Vector3 Om;  // angular velocity of the frame, body axes
     VectorX q;
     Vector3 momentum, angular_momentum;
     double kinetic;

@@ -1,4 +1,5 @@
-// Coordinates that are locked for a time: what the inelastic impulse leaves, what the lock holds, when it opens.
+// Coordinates that are locked for a time: the velocities after the inelastic impulse, the force of the lock, its
+// release.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -117,8 +118,8 @@ joints: {pair: {type: )yaml") +
   }
   const double dissipated = session.energy().dissipation;
   if (turns) {
-    // The impulse is the least change of velocity that stops the coordinate: something is lost, not all of it, and what
-    // is lost is that. Books of energy hold up to the scheme's error of order 2 in a turn of 1.5 rad/s.
+    // The impulse is the least change of velocity that stops the coordinate: some energy is lost, not all of it, and
+    // the loss is booked. The energy balance is closed up to the scheme's error of order 2 in a turn of 1.5 rad/s.
     CHECK(dissipated > 0.01 * before);
     CHECK(dissipated < 0.99 * before);
     CHECK(session.balance() == Approx(0).margin(1e-5 * before));
@@ -150,7 +151,7 @@ loads: {pull: {node: body, force: [")yaml") +
   REQUIRE(motion.finish());
   REQUIRE(events.size() == 1);
   CHECK(events[0].name == "joint 'path': displacement is released");
-  // The force is linear in t, and the lock's is what holds it.
+  // The force is linear in t, and the lock balances it.
   CHECK(events[0].time == Approx(0.4).margin(1e-10 * h + 1e-13).epsilon(0));
   CHECK(session.read("joints/path/lock_force")[0] == 0);
   // Linear accelerations: the velocity of a step is exact, its position off by h^3 j/12 or less, adding up to
@@ -221,7 +222,7 @@ TEST_CASE("a four-bar linkage is stopped by the lock of a hinge, held, and let g
   // y, from upright) the weight's potential is G cos a, G = (m_1/2 + m_3/2 + m_2) g, and J = J_1 + J_3 + m_2 about the
   // bearings. Three constraints are redundant: the motion of hinges with parallel axes is planar.
   const auto form = GENERATE(ConstraintForm::position, ConstraintForm::corrected, ConstraintForm::stabilised);
-  const bool second_lock = GENERATE(false, true);  // of the rocker: it repeats the first one
+  const bool second_lock = GENERATE(false, true);  // lock of the rocker: it repeats the first one
   CAPTURE(static_cast<int>(form), second_lock);
   const std::string text = R"yaml(
 gravity: [0, 0, -10]
@@ -259,7 +260,7 @@ joints:
     CHECK(redundant_in(session) == (second_lock && motion.time() > 0.3 + 1e-9 ? 4 : 3));
     CHECK(angle() == Approx(at).epsilon(1e-10));
     CHECK(std::abs(rate()) < 1e-9);
-    // What locks hold, the two together where there are two: the one moment that is left to them.
+    // The forces of the locks, together if there are two: the single moment that they transmit.
     const double other = second_lock ? session.read("joints/d/lock_force")[0] : 0;
     CHECK(session.read("joints/a/lock_force")[0] + other == Approx(-G * std::sin(at)).epsilon(1e-6));
   }

@@ -42,7 +42,7 @@ End run(const std::string& text, double duration, double h, double tolerance = 0
           session.read("joints/main/drive_force")[0]};
 }
 
-/// The closed loop with all that a controller may have. z: angle, rate, integral, filtered error, time.
+/// The closed loop with all features of a controller. z: angle, rate, integral, filtered error, time.
 struct ClosedLoop {
   double kp, ki, kd, filter, limit, tracking;
   double (*target)(double);
@@ -109,8 +109,8 @@ TEST_CASE("at a limit the torque stays there, and the integral follows it") {
   // The right side has kinks: the reference is of second order there, its steps of 3 us.
   loop.advance(end, 400000);
   const std::string pid = "drives: {motor: {joint: main, pid: {target: 1, kp: 60, ki: 90, kd: 6, limit: 5";
-  // Where in its step a limit is met makes errors scatter by a factor of two: the worst of several sizes of steps is
-  // compared with the worst of steps an eighth as long. Two in three halvings are 0.3 in the order.
+  // The place in a step at which a limit is met makes errors scatter by a factor of two: the worst of several sizes of
+  // steps is compared with the worst of steps an eighth as long. Two in three halvings are 0.3 in the order.
   const auto worst = [&](double part) {
     double most = 0;
     for (const double h : {0.01, 0.0091, 0.0083, 0.0076, 0.0069, 0.0063}) {
@@ -201,7 +201,7 @@ drives: {motor: {joint: main, pid: {target: "0.2*sin(20*t)", kp: 1e5, ki: 1e5, k
 }
 
 TEST_CASE("a controller may act on one coordinate to bring about something else") {
-  // A screw: the motor turns a rotor whose angle a filter sees, and the filter is what is controlled.
+  // A screw: the motor turns a rotor, a filter measures its angle, and the filter's output is controlled.
   const std::string text = rotor(R"yaml(
 states: {seen: {filter: "0.2*main.angle", time_constant: 0.05}}
 drives: {motor: {joint: main, pid: {measure: seen, target: "0.1*t", kp: 100, kd: 30, filter: 0.01}}}

@@ -1,4 +1,4 @@
-// Drives that let go of their joints: at a time, at an event, where a measure crosses a value.
+// Drives that release their joints: at a time, at an event, when a measure crosses a value.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -53,7 +53,7 @@ TEST_CASE("after its release a joint moves freely, whatever has driven it") {
 }
 
 TEST_CASE("a drive lets go where a measure crosses a value, once") {
-  // 1.5 N m up to 0.5 rad, which a spring brings back there: the drive has gone all the same.
+  // 1.5 N m up to 0.5 rad, to which a spring brings it back: the drive remains released.
   constexpr double turned = 0.5, w = std::sqrt(2 * 1.5 / inertia * turned);
   const std::string torque_drive = "drives: {motor: {joint: main, torque: 1.5, release: ";
   const std::string kind =
@@ -80,7 +80,7 @@ drives: {motor: {joint: main, torque: 20, release: {when: main.angle, crosses: 0
   Motion motion = session.dynamics(steps_of(2, 0.005));
   motion.finish();
   CHECK(motion.log().crossings == 1);
-  // Half of 50 q^2 + 0.5 w^2 is what the drive has put in: 20*0.5 J.
+  // The drive's work is half of 50 q^2 + 0.5 w^2: 20*0.5 J.
   CHECK(25 * angle(session) * angle(session) + 0.25 * rate(session) * rate(session) == Approx(10).epsilon(2e-3));
 }
 
@@ -132,7 +132,7 @@ drives: {motor: {joint: main, angle: "t", release: 0.25}}
     CHECK(angle(other) == angle(session));
     CHECK(rate(other) == rate(session));
     compute_statics(session, {});
-    CHECK(angle(session) == Approx(0.1).epsilon(1e-9));  // where the spring is free
+    CHECK(angle(session) == Approx(0.1).epsilon(1e-9));  // place at which the spring is free
     Motion motion = session.dynamics(steps_of(0.1, 0.01));
     motion.finish();
     CHECK(angle(session) == Approx(0.1).epsilon(1e-8));

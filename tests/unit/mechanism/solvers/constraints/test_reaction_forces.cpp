@@ -1,5 +1,5 @@
-// Forces that depend on reactions: where a motion starts, how Newton's method fares, and where there is no solution, or
-// more than one.
+// Forces that depend on reactions: the start of a motion, the convergence of Newton's method, and cases with no
+// solution, or more than one.
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
@@ -61,7 +61,7 @@ TEST_CASE("a block slides down a plane with the acceleration that friction on it
         const State later = integrate(model, Scheme::generalized_alpha(0.8), 1e-3, 0.05);
         CHECK((model.node(later, "block").v - (1 + 0.05 * expected) * along).norm() < 1e-8);
       }
-      // The same as a component of its own, which reads multipliers.
+      // A component that applies the same friction and reads multipliers.
       MechanismFile file = bielle::mechanism::read_mechanism_text(incline(angle, ""), "model.yaml");
       file.model.add(std::make_unique<ReactionFriction>("rub", joint(file.model, "guide"), mu),
                      Entry{Section::elements, "rub"}, Recorded::no);
@@ -328,7 +328,7 @@ TEST_CASE("friction on a door with two hinges is that of reactions of smallest n
 }
 
 TEST_CASE("in statics, too, forces read the reactions of smallest norm, those of the state in hand") {
-  // The spring's pull on the door grows with the upper hinge's reaction: only its part of the whole is read.
+  // The spring's pull on the door grows with the upper hinge's reaction; only its own part is read.
   const std::string text = R"yaml(
 gravity: [0, 0, -9.81]
 nodes: {door: {position: [0.4, 0, 0]}}
@@ -341,7 +341,7 @@ drives: {pull: {joint: upper, torque: "0.1*lower.reaction.z"}}
   const ReadyModel model(text);
   REQUIRE(model.system.set_aside().size() == 5);
   State state = model.system.start(0);
-  // What an earlier motion left must not be read.
+  // Values of an earlier motion must not be read.
   state.reaction = VectorX::Constant(model.system.multipliers(), 1e3);
   Environment statics = model.environment();
   statics.statics = true;

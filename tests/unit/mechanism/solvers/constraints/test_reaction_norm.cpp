@@ -84,8 +84,8 @@ std::string bar(const Variant& as) {
                     as.joint("right", "cylindrical", "ground, bar", "[1, 0, 0]", 1.2, 0, 0)});
 }
 
-/// Bennett's loop: four hinges whose axes are skew move all the same, where a/sin(alpha) = b/sin(beta) (G. T. Bennett,
-/// Engineering 76 (1903) 777). Links a, b, a, b with twists alpha, beta; folded by theta at the first hinge.
+/// Bennett's loop: four hinges whose axes are skew can move if a/sin(alpha) = b/sin(beta) (G. T. Bennett, Engineering
+/// 76 (1903) 777). Links a, b, a, b with twists alpha, beta; folded by theta at the first hinge.
 std::string bennett(const Variant& as) {
   const double a = 1, alpha = 0.5, beta = 1.1, b = a * std::sin(beta) / std::sin(alpha), theta = 1.0;
   // tan(theta/2) tan(phi/2) = sin((beta + alpha)/2)/sin((beta - alpha)/2), from hinge to hinge.
@@ -141,8 +141,8 @@ std::string squares(int count, const Variant& as) {
   return as.gravity(1, -9.81, 2) + nodes + elements + as.joints(joints);
 }
 
-/// The wrench of each joint that its multipliers make, in inertial axes about the attachment point on its second node;
-/// from what they add to that node's equations.
+/// The wrench of each joint's multipliers, in inertial axes about the attachment point on its second node, from their
+/// terms in that node's equations.
 MatrixX wrenches(const ReadyModel& model, const State& state) {
   const System& system = model.system;
   std::vector<const Joint*> joints;
@@ -202,7 +202,7 @@ Eigen::Index check_smallest(const ReadyModel& model, const State& state) {
   MatrixX W = wrenches(model, state);
   for (Eigen::Index row = 0; row < W.rows(); ++row)
     if (row % 6 >= 3) W.row(row) /= L;
-  // Moments over the arm: what is small is small relative to forces.
+  // Moments are divided by the arm, so that a small residual is small relative to forces.
   MatrixX Bt = transposed_constraints(model, state);
   for (int i = 0; i < model.system.dofs(); ++i)
     if (model.system.kind(i) == Kind::rotation) Bt.row(i) /= L;
@@ -218,7 +218,7 @@ Eigen::Index check_smallest(const ReadyModel& model, const State& state) {
   CHECK((W * found.reaction - expected).cwiseAbs().maxCoeff() < 1e-8 * expected.cwiseAbs().maxCoeff());
   // The same forces on all.
   CHECK((Bt * (found.reaction - state.multiplier)).cwiseAbs().maxCoeff() < 1e-9 * expected.cwiseAbs().maxCoeff());
-  // Multipliers that are not unique are those that the null space moves.
+  // Multipliers that the null space changes are not unique.
   ReactionNorm norm(model.system);
   std::vector<int> moved;
   for (Eigen::Index k = 0; k < N.rows(); ++k)
@@ -247,7 +247,7 @@ TEST_CASE("reactions of smallest norm are those of dense algebra") {
   for (const Case& each : cases) {
     CAPTURE(each.name);
     const ReadyModel model(each.text({}));
-    // At rest and on the way.
+    // The check is made at rest and during the motion.
     const State start =
         TimeIntegration(model.system, model.environment(), Scheme::generalized_alpha(0.8), model.system.start(0))
             .state();
@@ -356,7 +356,7 @@ joints: {pivot: {type: hinge, nodes: [ground, bob], axis: [0, 0, 1], position: [
   CHECK(state.reaction.size() == 0);
   ReactionNorm norm(model.system);
   State same = state;
-  same.reaction = VectorX::Ones(model.system.multipliers());  // of another state
+  same.reaction = VectorX::Ones(model.system.multipliers());  // reactions of another state
   norm.balance(model.environment(), same);
   CHECK(same.reaction.size() == 0);
   CHECK(norm.not_unique(model.environment(), state).empty());

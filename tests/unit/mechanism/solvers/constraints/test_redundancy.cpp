@@ -60,7 +60,7 @@ TEST_CASE("with the redundant constraints set aside the four-bar moves on its ci
   // The coupler's centre runs on a circle of radius 1 about (0.5, 0) and does not turn.
   CHECK(std::abs((coupler.x - Vector3(0.5, 0, 0)).norm() - 1) < 1e-12);
   CHECK(log_so3(coupler.R).norm() < 1e-12);
-  // Constraints that were set aside hold all the same.
+  // Removed constraints are satisfied nevertheless.
   system.set_aside({});
   VectorX r(system.size());
   system.residual(integration.state(), file.model.environment, r);

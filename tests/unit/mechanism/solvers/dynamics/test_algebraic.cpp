@@ -1,4 +1,4 @@
-// First-order unknowns whose equations hold no rates, compared with closed forms and their elimination: the start,
+// First-order unknowns whose equations contain no rates, compared with closed forms and their elimination: the start,
 // statics and paths. (Time integration: tests/order/test_algebraic_unknown.cpp.)
 #include <cmath>
 

@@ -1,5 +1,5 @@
-// Motions and equilibria with condensed amplitudes against the same equations where a component that adds nothing keeps
-// the amplitudes from being condensed.
+// Motions and equilibria with condensed amplitudes against the same equations with a component that adds nothing and
+// prevents the condensation.
 #include <catch2/catch.hpp>
 
 #include "mechanism/solvers/dynamics/time_integration.hpp"

@@ -1,5 +1,5 @@
-// Where Newton's method starts in a step: exact for polynomials, of an order that noise does not amplify, forgotten
-// after discontinuities, and without influence on where the step ends.
+// The start of Newton's method in a step: exact for polynomials, of an order that does not amplify noise, reset after
+// discontinuities, and without influence on the end of the step.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -107,7 +107,7 @@ TEST_CASE("steps of very different sizes are not extrapolated over in a high ord
   CHECK(extrapolation.highest_order(5) == 4);
   CHECK(extrapolation.highest_order(6) == 2);  // twice as far: weights 15 -40 45 -24 5, then 10 -20 15 -4
   CHECK(extrapolation.highest_order(40) == 0);
-  // An event has cut a step short by almost all of it: its end takes the place of its beginning.
+  // An event has shortened a step to nearly zero: its end replaces its beginning.
   extrapolation.add(4 + 1e-10, values_at(4 + 1e-10));
   VectorX values;
   extrapolation.calc(extrapolation.highest_order(5), 5, values);
@@ -177,7 +177,7 @@ TEST_CASE("where accelerations ring from step to step, extrapolation steps back"
 }
 
 TEST_CASE("multipliers that alternate are not amplified by extrapolation") {
-  // Newmark's rule keeps an alternating error of multipliers for ever.
+  // Newmark's rule keeps an alternating error of multipliers forever.
   const ReadyModel model(double_pendulum);
   const Count without = run(model, 0, 5e-3, 1, ConstraintForm::position, false, Scheme::newmark()),
               with = run(model, 4, 5e-3, 1, ConstraintForm::position, false, Scheme::newmark());
@@ -203,8 +203,8 @@ TEST_CASE("steps that change in size are extrapolated over; after a discontinuit
 }
 
 TEST_CASE("a start that a component refuses is replaced by unchanged accelerations") {
-  // The push rises until it stays. What is extrapolated from its rise would be 1.6538 m/s at t = 0.0105, where the
-  // damper has no force beyond 1.652 m/s; unchanged accelerations give 1.65 m/s, as it is.
+  // The push rises until it stays. An extrapolation of its rise would give 1.6538 m/s at t = 0.0105, beyond the 1.652
+  // m/s at which the damper's force ends; unchanged accelerations give the correct 1.65 m/s.
   const ReadyModel model(R"yaml(
 nodes: {m: {position: [1, 0, 0], fixed: [y, z, rx, ry, rz]}}
 elements:

@@ -1,4 +1,4 @@
-// Steps: where they end, what makes them smaller, and what local error they keep.
+// Steps: their ends, the causes of reduction, and their local error.
 #include <catch2/catch.hpp>
 
 #include "mechanism/solvers/dynamics/error_norm.hpp"
@@ -35,7 +35,7 @@ TEST_CASE("fixed steps keep to their grid and end on a kink between its times") 
 }
 
 TEST_CASE("a force that jumps, at the start or between two times of the grid, leaves the order at 2") {
-  // x = F/k (1 - cos 2 pi (t - t0)) after the jump, nothing before it, whichever side the time of the jump belongs to.
+  // x = F/k (1 - cos 2 pi (t - t0)) after the jump, nothing before it, for either value at the time of the jump itself.
   const double pi = std::acos(-1.0), end = 0.8;
   for (const auto& [law, t0] :
        {std::pair("5*(t>=0.0437)", 0.0437), std::pair("5*(t>0.0437)", 0.0437), std::pair("5*(t>0)", 0.0)}) {
@@ -114,7 +114,8 @@ joints:
 }  // namespace
 
 TEST_CASE("steps that change and change again do not feed on what they left in the accelerations") {
-  // With constraints of index 3 and little dissipation the local error once consisted of that alone: steps of 1e-10 s.
+  // With constraints of index 3 and little dissipation the local error once consisted of dissipation alone, with steps
+  // of 1e-10 s.
   const ReadyModel model(double_pendulum);
   for (const double rho : {0.95, 0.9, 0.8, 0.5}) {
     TimeIntegration integration(model.system, model.environment(), Scheme::generalized_alpha(rho),
@@ -129,8 +130,8 @@ TEST_CASE("steps that change and change again do not feed on what they left in t
 }
 
 TEST_CASE("the true error of each adaptive step is within the tolerance, in stiff and in slow motions") {
-  // From the state at the beginning of a step the step is computed again in 50 parts. The stiff pendulum hangs on a
-  // spring whose own vibration, of 0.1 ms, is 1e4 times faster than its swing: it starts in the length that it keeps.
+  // Each step is computed again in 50 parts from the state at its beginning. The stiff pendulum hangs on a spring whose
+  // own vibration, of 0.1 ms, is 1e4 times faster than its swing: it starts in the length that it keeps.
   const char* const stiff = R"yaml(
 gravity: [0, 0, -9.81]
 nodes: {bob: {position: [1, 0, 0], fixed: [y, rx, ry, rz]}}
@@ -181,7 +182,7 @@ TEST_CASE("adaptive steps shorten for a short push, end on its kinks and lengthe
 }
 
 TEST_CASE("a step that cannot be solved is halved, and its grid is kept") {
-  // A spring whose law exists up to 0.15 m only. From 0.1 m the mass never gets there, but the predictor of so long a
+  // A spring whose law exists up to 0.15 m only. The mass never gets there from 0.1 m, but the predictor of such a long
   // step does.
   const ReadyModel model(R"yaml(
 nodes: {m: {position: [1.1, 0, 0], fixed: [y, z, rx, ry, rz]}}

@@ -1,4 +1,4 @@
-// Newton's method within a step: tangents that serve several iterations, steps that are shortened, what is reported.
+// Newton's method within a step: tangents that serve several iterations, shortened steps, reports.
 #include <catch2/catch.hpp>
 
 #include "mechanism/solvers/statics/statics.hpp"
@@ -77,7 +77,7 @@ TEST_CASE("a step that makes the residual larger is shortened") {
 }
 
 TEST_CASE("a way far off and back leaves nothing in velocities and accelerations") {
-  // A mass flies into a spring with factors that do not know of it: Newton's first step leads 1e5 m away.
+  // A mass flies into a spring with factors that do not contain it: Newton's first step leads 1e5 m away.
   const ReadyModel model(R"yaml(
 nodes: {mass: {position: [0.0155, 0, 0], velocity: [-1.0123456789, 0, 0], fixed: [y, z, rx, ry, rz]}}
 elements:

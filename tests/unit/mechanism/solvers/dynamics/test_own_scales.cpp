@@ -1,4 +1,4 @@
-// Unknowns that bring their scale are judged by it: a bristle of a micrometre in one model with a pressure of a hundred
+// Unknowns with their own scale are judged by it: a bristle of a micrometre in one model with a pressure of a hundred
 // bar.
 #include <cmath>
 
@@ -169,7 +169,7 @@ TEST_CASE("an unknown that brings its scale starts from zero without small steps
   const MarchLog with = log(bristle_size), without = log(0);
   CHECK(with.smallest > 5e-4);
   CHECK(with.smallest > 2 * without.smallest);
-  // The first step's error is not known: it does not make the next one larger, only to be refused and begun anew.
+  // The first step's error is unknown: it must not enlarge the next step, which would then be refused.
   CHECK(with.refused_by_error < with.steps / 5);
 }
 

@@ -1,4 +1,4 @@
-// Formulas of time between the ends of steps: adaptive steps feel what happens there, fixed steps tell of it.
+// Formulas of time between the ends of steps: adaptive steps resolve them, fixed steps report them.
 #include <functional>
 
 #include <catch2/catch.hpp>
@@ -34,11 +34,11 @@ struct Struck {
 };
 
 double velocity_of(const ReadyModel& model, const State& state) { return model.node(state, "a").v.x(); }
-/// Beyond what the rest of the load gives.
+/// Velocity beyond that of the rest of the load.
 std::function<double(const ReadyModel&, const State&)> velocity_beyond(double rest) {
   return [=](const ReadyModel& model, const State& state) { return velocity_of(model, state) - rest; };
 }
-/// The amplitude of the motion about a place [m]: with its phase it would hold the errors of the steps after the pulse.
+/// The amplitude of the motion about a place [m]; the phase would contain the errors of the steps after the pulse.
 std::function<double(const ReadyModel&, const State&)> amplitude_about(double x) {
   return [=](const ReadyModel& model, const State& state) {
     const NodeState& node = model.node(state, "a");
@@ -61,7 +61,7 @@ std::string sliding(const std::string& more, const std::string& elements = "", c
   return text + more;
 }
 
-/// 2 kg on a spring of 2000 N/m that is held by what moves: omega^2 = 1000 1/s^2.
+/// 2 kg on a spring of 2000 N/m that is attached to a moving part: omega^2 = 1000 1/s^2.
 std::string carried(const std::string& node, const std::string& more, const std::string& joint = "") {
   return "nodes: {r: {position: [0, 0, 0]" + node + "}, a: {position: [0.3, 0, 0]}}\n" +
          "elements: {n: {type: point_mass, node: r, mass: 1}, m: {type: point_mass, node: a, mass: 2}}\n"
@@ -265,7 +265,7 @@ TEST_CASE("formulas that steps resolve, or that move nothing, make no step small
   const Course motion = march(smooth, 1, options);
   const long rippled = march(model_of(" + 1e-4*sin(5e4*t)"), 1, options).log.steps;
   CHECK(static_cast<double>(rippled) < 1.2 * static_cast<double>(motion.log.steps));
-  // No step that the local error has found good is refused for what it misses of smooth formulas.
+  // No step that the local error accepts is refused because of its error in smooth formulas.
   const ErrorNorm norm(smooth.system, smooth.environment(), motion.end);
   PulseWatch watch(smooth.system, 0, 1, norm.length());
   double before = 0;

@@ -28,7 +28,7 @@ measures: {clock: "t + 0*s.displacement"}
 }
 
 struct Worst {
-  double away = 0;      ///< of the guide from -F/k, once the load is there [m]
+  double away = 0;      ///< distance of the guide from -F/k, once the load acts [m]
   double velocity = 0;  ///< [m/s]
 };
 
@@ -80,7 +80,7 @@ TEST_CASE("a stiff guide stays where its load holds it, wherever an event cuts a
       const Worst with = worst_of(guide(restart_at(0.05 + side * away * h)));
       INFO(side * away << " h: " << with.away << ", without the event " << without.away);
       // Steps that do not resolve the guide leave a velocity in it, which it swings by once a step resolves it. Neither
-      // amplitude grows, but for the scheme's change of step.
+      // amplitude grows, except by the scheme's change of step.
       CHECK(with.away < 3 * (without.away + without.velocity / omega));
     }
 }

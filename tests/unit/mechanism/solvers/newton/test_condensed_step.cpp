@@ -1,5 +1,5 @@
-// Linear solves with condensed amplitudes: the same steps as without, whatever the weights; which amplitudes are
-// condensed; singular ones.
+// Linear solves with condensed amplitudes: the same steps as without, for any weights; the choice of condensed
+// amplitudes; singular ones.
 #include <catch2/catch.hpp>
 
 #include "mechanism/solvers/newton/linear_step.hpp"
@@ -113,7 +113,7 @@ TEST_CASE("amplitudes that others use are not condensed") {
 }
 
 TEST_CASE("amplitudes whose own matrix is singular are solved for with the others") {
-  // The third holds nothing but the node, by a force: K = [k .. c; .. ; c .. 0].
+  // The third amplitude is connected only to the node, by a force: K = [k .. c; .. ; c .. 0].
   Random random(2);
   MatrixX K = random.positive_matrix(amplitudes + 1);
   K.row(3).setZero();

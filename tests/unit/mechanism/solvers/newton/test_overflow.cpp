@@ -1,4 +1,4 @@
-// Numbers beyond all numbers end in a sentence, in statics and in dynamics, from the first iteration on.
+// Overflow ends in a sentence, in statics and in dynamics, from the first iteration on.
 #include <catch2/catch.hpp>
 
 #include "mechanism/solvers/statics/statics.hpp"

@@ -123,7 +123,7 @@ TEST_CASE("a Newton step is as accurate with tiny steps and in tiny units") {
       bielle::test::Random random(3);
       const VectorX x = random.vector(n).cwiseProduct(unknown.cast<double>());
       const VectorX r = -(A * x.cast<long double>()).cast<double>();
-      // Rows and columns of order one, for the reference not to suffer from what is tested.
+      // Rows and columns are scaled to order one, so that the reference is not affected by the tested problem.
       Wide even = A * unknown.asDiagonal();
       const Eigen::Matrix<long double, Eigen::Dynamic, 1> rows = even.cwiseAbs().rowwise().maxCoeff().cwiseInverse();
       even = (rows.asDiagonal() * even).eval();

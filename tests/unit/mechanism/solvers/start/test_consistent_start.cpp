@@ -153,7 +153,8 @@ elements:
   State state = system.start(0);
   make_accelerations_consistent(system, file.model.environment, state);
   const NodeState &body = state.nodes[1], &middle = state.nodes[2];
-  CHECK(std::abs(middle.a.x()) < 1e-2);  // of 40 N over nothing: 1e-12 of the body's mass would leave 1e13 m/s^2
+  CHECK(std::abs(middle.a.x()) < 1e-2);  // residual of 40 N over no mass: 1e-12 of the body's mass would leave 1e13
+                                         // m/s^2
   CHECK(body.a.x() == Approx(-100 * 0.5));
 }
 

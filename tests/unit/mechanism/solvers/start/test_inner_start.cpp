@@ -1,4 +1,4 @@
-// Nodes that elements make between others start with velocities that follow from theirs, whether those are given,
+// Nodes that elements make between others start with velocities that follow from those nodes, whether these are given,
 // carried or driven.
 //
 // Expected values are kinetic energies of rigid rotation, T = 1/2 omega^2 (I_hub + integral of m r^2 along the blade).
@@ -20,7 +20,7 @@ namespace {
 
 constexpr double omega = 1.3, r_0 = 0.4, r_1 = 3, m = 5, Jx = 0.02;
 
-/// Kinetic energy where the motion begins.
+/// Kinetic energy at the start of the motion.
 double kinetic(const std::string& text) {
   Session session(read_mechanism_text(text, "model.yaml").model);
   DynamicsOptions options;
@@ -60,7 +60,7 @@ TEST_CASE("inner nodes of a beam follow a node that is carried, whatever the ord
   const double expected = blade_energy() + hub_energy();
   CHECK(kinetic(model(carried_root, hub + "\n  " + blade)) == Approx(expected).epsilon(1e-4));
   CHECK(kinetic(model(carried_root, blade + "\n  " + hub)) == Approx(expected).epsilon(1e-4));
-  // The same as where nothing is carried, to rounding.
+  // The energy equals that without carried nodes, to rounding.
   const std::string own = fmt::format(
       "hub: {{angular_velocity: [{0}, 0, 0]}}\n  root: {{position: [0, 0, {1}], velocity: [0, {2}, 0], "
       "angular_velocity: [{0}, 0, 0]}}",

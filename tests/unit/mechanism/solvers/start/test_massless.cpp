@@ -35,7 +35,7 @@ TEST_CASE("a node without mass starts where its forces balance, at the velocity 
   // 1000 (x - 0.5) = 3000 (2.3 - x - 1.5)
   CHECK(model.node(state, "p").x.x() == Approx(0.725).epsilon(1e-12));
   CHECK(model.node(state, "p").v.x() == Approx(0.75).epsilon(1e-8));
-  // What has mass is held by 1e13 times the stiffness.
+  // Parts with mass are held by 1e13 times the stiffness.
   CHECK(model.node(state, "m").x.x() == Approx(2.3).epsilon(1e-12));
   CHECK(model.node(state, "m").v.x() == 1);
   CHECK(model.node(state, "m").a.x() == Approx(-225).epsilon(1e-10));

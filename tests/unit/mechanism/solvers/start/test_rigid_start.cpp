@@ -1,7 +1,7 @@
-// Joints that carry all behind them at the start (`carries: all`): one rigid body, whatever it is made of.
+// Joints that carry all parts behind them at the start (`carries: all`) as one rigid body, of any composition.
 //
-// Proofs: kinetic energy T = 1/2 omega^2 I of rigid rotation, momentum and angular momentum of rigid bodies, and that
-// nothing vibrates but what centrifugal forces stretch.
+// Checks: kinetic energy T = 1/2 omega^2 I of rigid rotation, momentum and angular momentum of rigid bodies, and no
+// vibration except the stretch by centrifugal forces.
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -124,7 +124,7 @@ TEST_CASE("a slide and a screw carry all, too") {
       rotor("  main: {type: cylindrical, nodes: [ground, hub], axis: [1, 0, 0], start_rate: {angle: 7, "
             "displacement: 3}, carries: all}"));
   CHECK(both.kinetic == Approx(0.5 * mass * v * v + 0.5 * 49 * rotor_inertia()).epsilon(1e-4));
-  // A coordinate of which nothing is said is at rest.
+  // A coordinate without a given rate is at rest.
   const Start turning(rotor(
       "  main: {type: cylindrical, nodes: [ground, hub], axis: [1, 0, 0], start_rate: {angle: 7}, carries: all}"));
   CHECK(turning.kinetic == Approx(0.5 * 49 * rotor_inertia()).epsilon(1e-4));

@@ -83,7 +83,7 @@ TEST_CASE("without start values a loop closes next to its drawing") {
     Session session(read_mechanism_text(four_bar(seed, fits), "bar.yaml").model);
     const State drawn = session.state();
     session.assemble();
-    // It fits somewhere at 0.05 m and 20 degrees: the nearest place may be farther by the freedom of the metric alone.
+    // It fits somewhere within 0.05 m and 20 degrees: the nearest place may be farther only because of the metric.
     for (std::size_t k = 1; k < drawn.nodes.size(); ++k) {
       CHECK((session.state().nodes[k].x - drawn.nodes[k].x).norm() < 0.2);
       CHECK(log_so3(Matrix3(session.state().nodes[k].R.transpose() * drawn.nodes[k].R)).norm() < 3 * turn_off);
@@ -109,7 +109,7 @@ TEST_CASE("the start value of the rocker chooses the branch of a four-bar that i
     const std::string start = fmt::format(", start: {{angle: {:.17g}}}", angle);
     Session session(read_mechanism_text(four_bar(5, between, "", start), "bar.yaml").model);
     session.assemble();
-    // Of the two places of the crank for this rocker, the one next to the drawing.
+    // The crank has two positions for this rocker; the one next to the drawing is expected.
     check_four_bar(session, fits, 1e-9);
     CHECK(std::abs(session.read("joints/d/coordinate")[0] - angle) < 1e-11);
   }
@@ -119,7 +119,7 @@ TEST_CASE("a delta robot drawn 5 % and 20 degrees off comes to the platform of i
   // Base hinges on a circle of 0.2 m, arms of 0.25, rods of 0.6 in pairs 0.08 apart, platform joints on a circle of
   // 0.06.
   constexpr double base = 0.2, arm = 0.25, rod = 0.6, half = 0.04, platform = 0.06;
-  const std::array<double, 3> angles = {0.3, -0.1, 0.45};  // of the arms below the horizontal
+  const std::array<double, 3> angles = {0.3, -0.1, 0.45};  // angles of the arms below the horizontal
   std::array<Vector3, 3> radial, tangential, elbow, centre;
   for (std::size_t k = 0; k < 3; ++k) {
     const double a = 2 * M_PI * static_cast<double>(k) / 3;

@@ -1,4 +1,4 @@
-// `start: equilibrium` of what nothing holds, and with coordinates that are held while the rest settles.
+// `start: equilibrium` for models that are not held, and with coordinates that are held while the rest settles.
 #include <cmath>
 #include <exception>
 
@@ -32,7 +32,7 @@ joints: {{pivot: {{type: hinge, nodes: [ground, bar], axis: [0, 1, 0], start_rat
                      1 + farther, 100 / g, 100 / g);
 }
 
-/// The angle of the bar where it has settled, and the report.
+/// The angle of the bar after settling, and the report.
 double settled_angle(const std::string& text, std::string& report) {
   Session session(read_mechanism_text(text, "model.yaml").model);
   DynamicsOptions options;

@@ -1,4 +1,4 @@
-// Loops that cannot close: what stays open, by how much, and what it disagrees with.
+// Loops that cannot close: the open joint, its gap, and the joint that contradicts it.
 #include <cmath>
 
 #include <catch2/catch.hpp>

@@ -28,7 +28,7 @@ const double L0 = std::hypot(b, h);
 
 double truss_load(double w) { return 2 * EA * (h - w) * (1 / std::hypot(b, h - w) - 1 / L0); }
 
-/// Where P(w) + k w is largest (sign 1) or least (-1): dP/dw = -k.
+/// Load at which P(w) + k w is largest (sign 1) or least (-1): dP/dw = -k.
 double truss_limit(int sign, double k = 0) {
   return h - sign * std::sqrt(std::pow(b * b / (k / (2 * EA) + 1 / L0), 2.0 / 3) - b * b);
 }
@@ -107,7 +107,7 @@ TEST_CASE("a path ends exactly at a load factor, before and past limit points, a
   const double first = truss_load(truss_limit(1)) / load;
   CHECK(follow(model, until(0.999 * first)).end.factor == 0.999 * first);
   CHECK(follow(model, until(-0.3)).end.factor == -0.3);  // sets off the other way
-  // The path goes on from where it stopped: over both limit points to the rising branch.
+  // The path continues from its last point: over both limit points to the rising branch.
   Followed path = follow(model, until(model, "apex", -Vector3::UnitY(), 1.9));
   REQUIRE(path.limits.size() == 2);
   const Loaded end = follow_path(model.system, model.environment(), path.end, until(1), NewtonOptions{}, path.state);

@@ -1,4 +1,4 @@
-// Fixed points of linear maps: those that plain iteration finds slowly, and those that it runs away from.
+// Fixed points of linear maps: slowly converging ones, and ones for which plain iteration diverges.
 #include <catch2/catch.hpp>
 
 #include "mechanism/solvers/statics/fixed_point.hpp"
@@ -6,7 +6,7 @@
 using namespace bielle::mechanism;
 
 TEST_CASE("a fixed point is found in about as many iterations as it has slow directions") {
-  // G(x) = x* + A (x - x*): plain iteration takes 180 iterations to 1e-8 with 0.9, and runs away with -1.5.
+  // G(x) = x* + A (x - x*): plain iteration takes 180 iterations to 1e-8 with 0.9, and diverges with -1.5.
   const VectorX rates = (VectorX(5) << 0.9, -1.5, 0.4, 1e-3, 0).finished();
   const VectorX solution = VectorX::LinSpaced(5, 1, 3);
   FixedPoint iteration((VectorX(5) << 1, 1, 10, 1, 1).finished());

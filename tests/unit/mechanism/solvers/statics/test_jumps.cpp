@@ -59,14 +59,15 @@ TEST_CASE("an increment that jumps past a limit point says where, and how far") 
       const double y = 0.5 * (low + high);
       (carried(y) > carried(y_limit) ? low : high) = y;
     }
-    // Just below the limit load it has not gone all the way yet, as the root of what is missing: 1e-6 of the load.
+    // Just below the limit load it has not moved all the way yet; the rest is the root of the missing load: 1e-6 of the
+    // load.
     CHECK(jump.distance == Approx(y_limit - low).epsilon(5e-3));
   }
 }
 
 TEST_CASE("a jump is told whatever the load and the steps, in any unit of length") {
-  // Half of the truss: its apex at height h next to a support, on one spring. Some of these loads are such that
-  // Newton's method goes straight to the far equilibrium (a tangent of a cubic meets it once more).
+  // Half of the truss: its apex at height h next to a support, on one spring. For some of these loads Newton's method
+  // goes straight to the far equilibrium (a tangent of a cubic meets it once more).
   constexpr double height = 0.1, stiffness = 1e4;
   const double free = std::hypot(1, height), shortest = std::cbrt(free), y = std::sqrt(shortest * shortest - 1);
   const double limit = stiffness * (free - shortest) * y / shortest;  // 1.9149 N
@@ -89,7 +90,7 @@ TEST_CASE("a jump is told whatever the load and the steps, in any unit of length
 }
 
 TEST_CASE("a jump in one of many members is told, and where the others go on as before") {
-  // The same under a load that bends a cantilever of the same size at the same time.
+  // The truss under a load that bends a cantilever of the same size at the same time.
   const auto both = [](double load) {
     return fmt::format(
         "nodes:\n  a: {{fixed: true}}\n  c: {{position: [1, 0, 0.1], fixed: [x, y, rx, ry, rz]}}\n"

@@ -1,4 +1,4 @@
-// What nothing holds and nothing loads stays as drawn in statics: links between spherical joints, wheels.
+// Parts without support and load stay as drawn in statics: links between spherical joints, wheels.
 #include <cmath>
 
 #include <catch2/catch.hpp>

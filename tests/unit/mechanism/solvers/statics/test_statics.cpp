@@ -72,7 +72,7 @@ TEST_CASE("what a component refuses at every load step is the error of the analy
 }
 
 TEST_CASE("prescribed joint motions grow with the load factor as loads do") {
-  // The crank goes to its angle in equal parts, from where it stands; more than half a turn cannot be taken at once.
+  // The crank moves to its angle in equal parts, from its present one; more than half a turn cannot be made at once.
   const MechanismFile file = read_mechanism_text(R"yaml(
 nodes: {arm: {position: [1, 0, 0]}}
 elements: {arm: {type: rigid_body, node: arm, mass: 2, inertia: [0.1, 0.1, 0.1]}}
@@ -123,7 +123,7 @@ loads: {f: {node: ball, force: [4, 0, 0]}}
     CHECK(steps == 2);
   };
   solve({}, 0.5);
-  // After an assembly the motions are made; from half of everything; from beyond the full load.
+  // After an assembly the motions are complete; from half of everything; from beyond the full load.
   solve({0, 1}, 1);
   solve({0.5, 0.5}, 0.75);
   solve({3, 3}, 2);

@@ -32,7 +32,7 @@ std::string why_unreadable(Action&& action) {
   return message_of<InputError>(action);
 }
 
-/// Runs `action` in a child process; how that ended, as waitpid tells it.
+/// Runs `action` in a child process and returns its status from waitpid.
 template <class Action>
 int status_of_child(Action&& action) {
   const pid_t child = fork();

@@ -73,7 +73,7 @@ TEST_CASE("Functions of names are references") {
   CHECK(found("t - distance(a, 'node 2')/2").replaced == "t - distance_a___node_2__/2");
   CHECK(only("angle( 1 ,b_2 )").subjects == Names{"1", "b_2"});
   CHECK(only("angle(a, b).rate").path == Names{"rate"});
-  CHECK(only("distance(a)").subjects == Names{"a"});  // how many there must be is up to the caller
+  CHECK(only("distance(a)").subjects == Names{"a"});  // the caller checks their number
   CHECK(found("distances(t) + angle", {"t", "angle"}).references.empty());
   CHECK(only("angle*angle(a, b)").function == "angle");
 }

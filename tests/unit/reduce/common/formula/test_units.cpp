@@ -17,7 +17,7 @@ std::string units(const std::string& text, const std::string& folder = ".") {
                            folder);
   return units_of(formula, {"m", "m", "rad", "rad/s", "N", "N m", "m/s", "s", "-", ""});
 }
-/// What a variable's units are read and written as.
+/// The units of a variable after reading and writing.
 std::string read(const std::string& text) { return units_of(Expression("a", {"a"}), {text}); }
 
 }  // namespace

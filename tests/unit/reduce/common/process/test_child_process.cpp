@@ -90,7 +90,7 @@ TEST_CASE("child process: one that may start no other program is ended when it t
           std::raise(SIGSEGV);
         }) == "crashed");
   CHECK(end_of([] { _exit(0); }) == "ended");
-  // Threads, files and memory are none of its business.
+  // Threads, files and memory of the parent do not matter.
   CHECK(in_child_process("lost", {}, [] {
           forbid_other_programs();
           std::string text;
@@ -107,7 +107,7 @@ TEST_CASE("child process: work without end is ended", "[common]") {
   CHECK(ended_by(endless, {.seconds = 1}) == "a.msh: lost");
 }
 
-#ifndef __SANITIZE_ADDRESS__  // whose operator new ends the program where memory is refused
+#ifndef __SANITIZE_ADDRESS__  // its operator new ends the program if memory is refused
 TEST_CASE("child process: an allocation beyond its limit of memory fails", "[common]") {
   const auto allocate = [](std::uint64_t limit) {
     return in_child_process("lost", {.memory = limit},

@@ -1,4 +1,4 @@
-// One rank alone: a program that mpirun did not start. Two and three run in contract/programs/test_distributed.py.
+// A single rank: a program that mpirun did not start. Two and three run in contract/programs/test_distributed.py.
 #include <cstdlib>
 
 #include <catch2/catch.hpp>
@@ -32,7 +32,7 @@ reduce::Entries entries_of(const SymmetricMatrix& a) {
   return entries;
 }
 
-/// MUMPS's factor as a `Factor`, as bielle-reduce sees it over its channel, here without the channel.
+/// MUMPS's factor as a `Factor`, as bielle-reduce uses it over its channel, here without the channel.
 class FactorOfRanks : public Factor {
  public:
   explicit FactorOfRanks(const SymmetricMatrix& a) {
