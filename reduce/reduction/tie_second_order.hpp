@@ -1,4 +1,4 @@
-// What ties add to the geometric stiffness: the second-order displacement of tied surfaces and of the arms to their
+// Contribution of ties to the geometric stiffness: the second-order displacement of tied surfaces and of the arms to their
 // nodes.
 //
 // Per interface, with theta (3,n) the rotation of its surface in terms of q, body axes:

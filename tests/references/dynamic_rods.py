@@ -22,10 +22,10 @@ class Element:
         D[np.diag_indices(nodes)] = 0
         D[0, 0], D[-1, -1] = -nodes * (nodes - 1) / 4, nodes * (nodes - 1) / 4
         self.D = 2 / length * D
-        self.back = -self.D.T * self.weight  # of the integration by parts
+        self.back = -self.D.T * self.weight  # from the integration by parts
 
     def value(self, f, s):
-        """Of a polynomial with values at the nodes, at a place."""
+        """Value at a place of the polynomial with these values at the nodes."""
         near = s - self.s
         if np.abs(near).min() < 1e-14:
             return f[np.abs(near).argmin()]
@@ -123,7 +123,7 @@ class Gauss:
                   [5 / 36 + r / 30, 2 / 9 + r / 15, 5 / 36]])
 
     def __init__(self, acceleration, h, tolerance):
-        """@param acceleration  of (times, rows of q, rows of v) @param tolerance  of accelerations, absolute"""
+        """@param acceleration  function of (times, rows of q, rows of v) @param tolerance  absolute, for accelerations"""
         self.a, self.h, self.tolerance, self.factor = acceleration, h, tolerance, None
         self.AA = self.A @ self.A
         self.stages = None

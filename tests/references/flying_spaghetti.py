@@ -87,7 +87,7 @@ class Space:
 
 
 def add(rows, name, kind, EI, peak, times, nodes, within):
-    """@param nodes  of the reference, and of a coarser one that must not be further away than is claimed"""
+    """@param nodes  numbers of nodes of the reference and of a coarser mesh, which must agree within the claim"""
     model, rough = kind(EI, nodes[0]), kind(EI, nodes[1])
     found, others = model.fly(peak, times), rough.fly(peak, times)
     for t in times:

@@ -128,7 +128,7 @@ class Curve:
 
 
 def add_point(rows, name, model, u, P=1e-9, displacement=1e-7):
-    """@param P,displacement  what is claimed"""
+    """@param P,displacement  claimed accuracy"""
     rows.add(f"{name}.P", u[-1], P, "load")
     for component, moved in zip("uv", model.moved(u)):
         if not (component == "u" and isinstance(model, ShallowArch)):

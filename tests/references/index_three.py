@@ -74,7 +74,7 @@ class Pendulum:
 
 
 def pendulum_errors(scheme, h):
-    """Of place, velocity and tension at 1 s, released from (1, 0)."""
+    """Errors of place, velocity and tension at 1 s, released from (1, 0)."""
     run = Integrator(Pendulum(), scheme, h, np.array([1.0, 0]), np.zeros(2), np.array([0, -9.81]))
     for _ in range(round(1 / h)):
         run.step()
@@ -112,7 +112,7 @@ class Top:
         force = -multipliers
         own = np.einsum("ijn,in->jn", R, force)
         arm = np.zeros_like(own)
-        arm[1] = -1  # of the tip, from the centre
+        arm[1] = -1  # place of the tip relative to the centre
         Omega = v[3:]
         spin = (np.cross(arm, own, axis=0) - np.cross(Omega, self.J * Omega, axis=0)) / self.J
         return np.concatenate([force / self.m - np.array([[0], [0], [9.81]]), spin])

@@ -75,7 +75,7 @@ class Path:
         while gone < length:
             last = self.points[-1]
             try:
-                with np.errstate(all="ignore"):  # where the step is too long
+                with np.errstate(all="ignore"):  # the step may be too long
                     u = self.at(last, step, iterations=6)
             except ArithmeticError:
                 step /= 3

@@ -10,7 +10,7 @@ import table
 
 
 def mechanism(gravity, centre):
-    """@param centre  of the crank's mass along it [m]; its inertia about the pivot is 0.002727 kg m^2"""
+    """@param centre  place of the crank's centre of mass along it [m]; its inertia about the pivot is 0.002727 kg m^2"""
     link = linkage.Linkage(gravity)
     crank = link.body(0.36, 0.002727 - 0.36 * centre**2)
     rod = link.body(0.151104, 0.00113328)

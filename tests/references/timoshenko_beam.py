@@ -13,7 +13,7 @@ E = 210e9
 
 
 class Beam:
-    """@param side  of the square, in a length of 1 m"""
+    """@param side  side of the square; the length is 1 m"""
 
     def __init__(self, side, density):
         A, I = side**2, side**4 / 12

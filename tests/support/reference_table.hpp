@@ -13,7 +13,7 @@ namespace bielle::test {
 
 class ReferenceTable {
  public:
-  /// @param subject  of tests/references/<subject>.csv
+  /// @param subject  names tests/references/<subject>.csv
   explicit ReferenceTable(const std::string& subject)
       : path_(std::string(BIELLE_SOURCE_DIR) + "/tests/references/" + subject + ".csv") {
     std::ifstream file(path_);

@@ -3,14 +3,14 @@
 A rotation has many rotation vectors, (phi + 2 pi n) e, two sets of Euler or Bryant angles up to whole turns, and two
 unit quaternions. These functions take rows of any of them and give those that continue the row before:
 
-- Angles count turns. Of the two sets that one is taken which is nearer to the row before, also where the middle angle
+- Angles count turns. They are the one of the two sets that is nearer to the row before, also where the middle angle
   goes through its singularity. Within `LOCKED` of the singularity the first and last angle are not told apart: each
   takes half of what their sum (or difference) changes. Rows that begin there take the values of the first row that
   tells them.
 - The rotation vector goes through half a turn and counts turns about an axis that moves by less than a right angle
   from row to row. Within `LOCKED` of full turns the axis is not determined: that of the row before is kept.
 
-Where rows are more than half a turn apart no rule can tell the number of turns. Source: A. Cardona, An Integrated
+No rule can tell the number of turns between rows that are more than half a turn apart. Source: A. Cardona, An Integrated
 Approach to Mechanism Analysis (thesis, Liege, 1989), ch. 1, on complements of rotation vectors; what is done at the
 singularities of angles is this module's own.
 """
@@ -46,7 +46,7 @@ def continuous_vectors(psi, keep_first=False):
         return principal
     rows = np.flatnonzero(known)
     signs = np.where(np.einsum("ij,ij->i", axis[rows[1:]], axis[rows[:-1]]) < 0, -1.0, 1.0)
-    last = np.maximum(np.cumsum(known) - 1, 0)  # of the known rows, which one a row continues
+    last = np.maximum(np.cumsum(known) - 1, 0)  # the known row that a row continues
     axis = (axis[rows] * np.cumprod(np.concatenate([[1.0], signs]))[:, None])[last]
     angle = np.einsum("ij,ij->i", principal, axis)
     if keep_first and known[0]:
@@ -99,7 +99,7 @@ def _continuous_angles(angles, zero, sign, mirror, keep_first):
 
 
 def _nearer_ones(angles, mirror, before):
-    """Of each row the angles or their complement, whatever is nearer to the row before, plus turns."""
+    """Returns the angles of each row or their complement, whichever is nearer to the row before, plus turns."""
     rows = angles if before is None else np.vstack([before, angles])
     other = np.column_stack([rows[:, 0] + np.pi, mirror - rows[:, 1], rows[:, 2] + np.pi])
     # The two sets of a row are as far from one set of the row before as, exchanged, from its other set: a change from one

@@ -141,7 +141,7 @@ class Results:
 
     @_told
     def shape(self, place):
-        """Of a dataset over time, (nt,...)."""
+        """Shape of a dataset over time, (nt,...)."""
         quantity, place = made_of(place)
         found = self._found(place)
         shape = self.root[place].shape if found is None else self._stacked.shape(found)
@@ -192,7 +192,7 @@ class Results:
 
     @_told
     def rows(self, place, index=None):
-        """A dataset over time, clipped to the rows that count; `index` picks rows. What is no number, or beyond all bounds, is nan."""
+        """A dataset over time, clipped to the rows that count; `index` picks rows. A value that is no number, or is beyond all bounds, is nan."""
         quantity, source = made_of(place)
         if quantity:
             values = rotation_quantity(quantity, self.rows(source))

@@ -7,14 +7,14 @@ import numpy as np
 
 from .continuous_rotations import continuous_bryant, continuous_euler, continuous_vectors
 
-# Of nodes, made of their `rotation` and continuous over turns; with the attributes of a dataset.
+# Quantities of nodes, made of their `rotation` and continuous over turns, with the attributes of a dataset.
 ROTATION_QUANTITIES = {
     "rotation_vector": {"units": "rad",
                         "description": "axis times angle of R (node -> inertial axes), over turns: x, y, z"},
     "bryant": {"units": "rad", "description": "R = Rx(a) Ry(b) Rz(c) (node -> inertial axes), over turns: a, b, c"},
     "euler": {"units": "rad", "description": "R = Rz(a) Rx(b) Rz(c) (node -> inertial axes), over turns: a, b, c"},
 }
-SMALLEST_SINE = 4e-16  # of the middle angle: below it nothing but rounding tells the first angle from the last
+SMALLEST_SINE = 4e-16  # sine of the middle angle below which nothing but rounding tells the first angle from the last
 
 
 def made_of(place):

@@ -15,8 +15,8 @@ A model is the same as in a file of bielle-mechanism: a YAML file, a text, or a 
     run.time, run["nodes/pin/position"]                # arrays of NumPy, row by row
 
 `load` and `read` make a `Model`, `Model.session` a `Session`, `Session.dynamics` a `Motion`; `run` gives a `Run` of
-`Results`. Units are SI and radians. What cannot be done raises `InputError` or `ComputationError`, with the sentences of
-the programs. mechanism/README.md describes the model, mechanism/io/README.md the names of results.
+`Results`. Units are SI and radians. A request that cannot be satisfied raises `InputError` or
+`ComputationError`, with the messages of the programs. mechanism/README.md describes the model, mechanism/io/README.md the names of results.
 `bielle.rotations` has the parametrisations of rotations, with their rates.
 """
 

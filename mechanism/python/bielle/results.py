@@ -66,9 +66,8 @@ class Results(Mapping):
     they are copies of what there is so far.) Others are arrays or numbers, "peaks/rod/all/von_mises/value", or lists of texts,
     "eigen/nodes".
 
-    Of nodes whose "nodes/pin/rotation" is recorded there are also (rows, 3) "nodes/pin/rotation_vector", "nodes/pin/bryant" and
-    "nodes/pin/euler" [rad], continuous over turns (`bielle.rotations.continuous`). They are made when they are asked for, and not
-    listed.
+    If "nodes/pin/rotation" is recorded, (rows, 3) "nodes/pin/rotation_vector", "nodes/pin/bryant" and "nodes/pin/euler"
+    [rad] can be read too, continuous over turns (`bielle.rotations.continuous`). They are computed on demand, and not listed.
     """
 
     def __init__(self, recorder: _core.Recorder | NothingKept, number: int, found: tuple[str, dict, int] | None = None):

@@ -58,12 +58,12 @@ _apply = _core.rotations
 
 
 class Singularity(NamedTuple):
-    """Where a parametrisation fails."""
+    """A place at which a parametrisation fails."""
 
     angle: str  # which one: "phi" of the rotation, or "b", the middle one of three
     values: tuple[float, ...]  # [rad] the first ones; empty: it never fails
     period: float  # [rad] they repeat with it
-    fails: str  # what there is not
+    fails: str  # the functions that have no value there
     remedy: str
 
 
@@ -139,8 +139,8 @@ def compose(parametrisation: str, first: ArrayLike, second: ArrayLike) -> Number
 def continuous(parametrisation: str, p: ArrayLike) -> Numbers:
     """Parameters of the same rotations that continue each other along the first dimension: rows over time.
 
-    Angles count turns. Rotation vectors go through half a turn and beyond it. Of the two sets of Euler or Bryant
-    angles that one is taken which is nearer to the row before, also through the singularity of the middle angle.
+    Angles count turns. Rotation vectors go through half a turn and beyond it. Euler or Bryant angles
+    are the one of their two sets that is nearer to the row before, also through the singularity of the middle angle.
     Quaternions keep their sign. The first row is `principal`. Rows have to be less than half a turn apart.
     """
     _check_continuous(parametrisation)
@@ -156,7 +156,7 @@ def continuous(parametrisation: str, p: ArrayLike) -> Numbers:
 
 
 def nearest(parametrisation: str, p: ArrayLike, reference: ArrayLike) -> Numbers:
-    """Of all parameters of the same rotations those that continue `reference`, as in `continuous`."""
+    """Returns those parameters of the same rotations that continue `reference`, as in `continuous`."""
     _check_continuous(parametrisation)
     p, reference = _fitting(parametrisation, {"p": p, "reference": reference})
     rows = _apply(parametrisation, "principal", [p])
@@ -252,7 +252,7 @@ def parameter_acceleration(parametrisation: str, p: ArrayLike, velocity: ArrayLi
 
 # -- arguments
 
-# What arguments are: dimensions of an item, where they are not those of parameters.
+# Dimensions of an item of an argument, if they are not those of parameters.
 _ITEMS = {"R": (3, 3), "velocity": (3,)}
 
 

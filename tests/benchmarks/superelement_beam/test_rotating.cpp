@@ -121,7 +121,7 @@ TEST_CASE("A rotating cantilever's flap and lag frequencies are those of Wright 
     CHECK(lagging(0) == Approx(std::sqrt(flap * flap - eta * eta)).epsilon(3e-3));
     CHECK(lagging(1) == Approx(flap).epsilon(3e-3));
   }
-  // What the tension is for: without it flap does not feel the spin, and lag loses its stiffness at eta = mu1.
+  // The tension matters: without it flap does not feel the spin, and lag loses its stiffness at eta = mu1.
   CHECK(lowest(3, false, false)(0) == Approx(exact("0.flap_1")).epsilon(2e-3));
   CHECK(lowest(3, true, false)(0) == Approx(std::sqrt(std::pow(exact("0.flap_1"), 2) - 9)).epsilon(1e-2));
 }

@@ -131,7 +131,7 @@ class Threads(CommandTest):
     program = "bielle-reduce"
 
     def environment_of(self, **more):
-        """What OpenMP says of its settings when it is loaded, and what the program prints."""
+        """Returns the settings that OpenMP displays when it is loaded; the program has to print its version."""
         environment = {name: value for name, value in os.environ.items() 
                        if name not in ("OMP_WAIT_POLICY", "GOMP_SPINCOUNT", "GLIBC_TUNABLES")}
         done = subprocess.run([os.path.join(PROGRAMS, self.program), "--version"], text=True, capture_output=True,
