@@ -1,4 +1,4 @@
-// Six ways to write a rotation in numbers, all with the same functions.
+// Six parametrisations of rotations with the same interface.
 //
 //   struct            parameters p                     singular                         there
 //   RotationVector    psi = phi e                      |psi| = 2 pi, 4 pi, ...: T^-1    throws; `principal` avoids it
@@ -7,7 +7,8 @@
 //   ConformalVector   4 tan(phi/4) e                   full turns have no p             `principal`: never
 //   EulerAngles       a, b, c: Rz(a) Rx(b) Rz(c)       sin b = 0: a and c alike         R -> p: c = 0; T^-1 throws
 //   BryantAngles      a, b, c: Rx(a) Ry(b) Rz(c)       cos b = 0: a and c alike         R -> p: c = 0; T^-1 throws
-// e is the axis and phi the angle of R = exp(phi e~). "Throws" is a ComputationError that names parameters and place.
+// The axis is e and the angle is phi: R = exp(phi e~). "Throws" means a ComputationError that names parameters and
+// singularity.
 //
 // Each struct offers
 //   rotation(p)                            R
@@ -18,7 +19,7 @@
 //   tangent_inverse(p)                     T^-1: pdot = T^-1 Omega
 //   tangent_derivative(p, u)               derivative of T along u
 //   tangent_inverse_derivative(p, u)       derivative of T^-1 along u
-// and the templates below take rates and accelerations both ways.
+// The templates below convert rates and accelerations in both directions.
 //
 // References: M. Geradin, A. Cardona, Flexible Multibody Dynamics (Wiley, 2001), ch. 4; O. A. Bauchau, L. Trainelli,
 // Nonlinear Dynamics 32 (2003) 71 (vectorial parametrisations, rescaling).
@@ -28,7 +29,7 @@
 
 namespace bielle::mechanism {
 
-/// psi = phi e [rad]; principal: |psi| <= pi, where at pi the sign of the axis is arbitrary.
+/// psi = phi e [rad]; principal: |psi| <= pi; at pi the sign of the axis is arbitrary.
 struct RotationVector {
   using Parameters = Vector3;
   using Tangent = Matrix3;
@@ -43,8 +44,8 @@ struct RotationVector {
   static Matrix3 tangent_inverse_derivative(const Vector3& psi, const Vector3& u);
 };
 
-/// Euler parameters (w, x, y, z) = (cos(phi/2), sin(phi/2) e); principal: length 1, w >= 0.
-/// Any other length stands for the same rotation: T is that of p/|p|, and T^-1 gives rates that keep the length.
+/// Euler parameters (w, x, y, z) = (cos(phi/2), sin(phi/2) e); principal: length 1, w >= 0. A quaternion of any other
+/// length represents the same rotation: T is that of p/|p|, and T^-1 gives rates that preserve the length.
 struct UnitQuaternion {
   using Parameters = Eigen::Vector4d;
   using Tangent = Eigen::Matrix<double, 3, 4>;
@@ -59,8 +60,8 @@ struct UnitQuaternion {
   static Inverse tangent_inverse_derivative(const Parameters& p, const Parameters& u);
 };
 
-/// g = tan(phi/2) e: no trigonometry anywhere, but half turns lie at infinity (and 1/(pi - phi) digits are lost
-/// before); principal: all.
+/// g = tan(phi/2) e: it needs no trigonometric functions, but half turns are at infinity (and log10 of 1/(pi - phi)
+/// digits are lost near them); principal: all.
 struct RodriguesVector {
   using Parameters = Vector3;
   using Tangent = Matrix3;
@@ -75,8 +76,8 @@ struct RodriguesVector {
   static Matrix3 tangent_inverse_derivative(const Vector3& g, const Vector3& u);
 };
 
-/// Wiener-Milenkovic: c = 4 tan(phi/4) e; principal: |c| <= 4 (phi <= pi). A motion that leaves this ball enters it
-/// again at the shadow -16 c/|c|^2 of the same rotation: with that rescaling it is free of singularities.
+/// Wiener-Milenkovic: c = 4 tan(phi/4) e; principal: |c| <= 4 (phi <= pi). A motion that leaves this ball re-enters it
+/// at the shadow vector -16 c/|c|^2 of the same rotation: with this rescaling it has no singularities.
 struct ConformalVector {
   using Parameters = Vector3;
   using Tangent = Matrix3;
@@ -91,8 +92,8 @@ struct ConformalVector {
   static Matrix3 tangent_inverse_derivative(const Vector3& c, const Vector3& u);
 };
 
-/// (a, b, c) [rad] with R = Rz(a) Rx(b) Rz(c); principal: a, c in (-pi, pi], b in [0, pi].
-/// At b = 0 and pi only a + c or a - c is determined: `parameters` gives it to a. T is singular there.
+/// (a, b, c) [rad] with R = Rz(a) Rx(b) Rz(c); principal: a, c in (-pi, pi], b in [0, pi]. At b = 0 and pi only a + c
+/// or a - c is determined: `parameters` assigns it to a. T is singular there.
 struct EulerAngles {
   using Parameters = Vector3;
   using Tangent = Matrix3;
@@ -107,8 +108,8 @@ struct EulerAngles {
   static Matrix3 tangent_inverse_derivative(const Vector3& angles, const Vector3& u);
 };
 
-/// Cardan angles (a, b, c) [rad] with R = Rx(a) Ry(b) Rz(c); principal: a, c in (-pi, pi], b in [-pi/2, pi/2].
-/// At b = +-pi/2 only a +- c is determined: `parameters` gives it to a. T is singular there.
+/// Cardan angles (a, b, c) [rad] with R = Rx(a) Ry(b) Rz(c); principal: a, c in (-pi, pi], b in [-pi/2, pi/2]. At b =
+/// +-pi/2 only a +- c is determined: `parameters` assigns it to a. T is singular there.
 struct BryantAngles {
   using Parameters = Vector3;
   using Tangent = Matrix3;
@@ -136,13 +137,13 @@ Vector3 angular_acceleration(const typename P::Parameters& p, const typename P::
   return P::tangent(p) * acceleration + P::tangent_derivative(p, rate) * rate;
 }
 
-/// pdot = T^-1 Omega. @throws ComputationError where T is singular
+/// pdot = T^-1 Omega. @throws ComputationError if T is singular
 template <class P>
 typename P::Parameters parameter_rate(const typename P::Parameters& p, const Vector3& Omega) {
   return P::tangent_inverse(p) * Omega;
 }
 
-/// pddot = T^-1 Omegadot + d(T^-1)/dt Omega. @throws ComputationError where T is singular
+/// pddot = T^-1 Omegadot + d(T^-1)/dt Omega. @throws ComputationError if T is singular
 template <class P>
 typename P::Parameters parameter_acceleration(const typename P::Parameters& p, const Vector3& Omega,
                                               const Vector3& Omegadot) {
