@@ -45,7 +45,7 @@ void CondensedPattern::choose_blocks(const std::vector<std::vector<int>>& candid
     if (large(inner)) add_block(inner, rows, taken);
 }
 
-/// @param taken  @param taken  unknowns of blocks, and unknowns that couple to them
+/// @param taken  unknowns of blocks, and unknowns that couple to them
 bool CondensedPattern::add_block(const std::vector<int>& inner, const SparsePattern& rows, std::vector<char>& taken) {
   constexpr char in_block = 1, coupled = 2;
   const auto mark = [&](int unknown) -> char& { return taken[static_cast<std::size_t>(unknown)]; };

@@ -69,8 +69,7 @@ class GroupSizes {
   VectorX sizes_;
 };
 
-constexpr double stiff = 100, give = 1e-12, indifferent = 1e-15;  // c, d and the smallest stiffness, see the head of
-                                                                  // negative_directions.hpp
+constexpr double stiff = 100, give = 1e-12, indifferent = 1e-15;  // see the head of negative_directions.hpp
 /// Unknowns without stiffness of their own have only rounding errors left if B^T B mixes them in oblique axes.
 constexpr double hardly_own = 1e-10, of_none = 1e-12;
 

@@ -111,7 +111,7 @@ struct SparseLU::Factors {
   /// Factorises `scaled` with the ordering; false if the matrix is singular, or the limit of entries is exceeded.
   bool factorise(const SparsePattern& pattern) {
     drop_numeric();
-    // KLU fails if it would have to grow beyond the representable sizes.
+    // Without a limit the memory grows by the default factor; with one, KLU fails as soon as it would have to grow.
     common.memgrow = room > 0 ? 1e30 : defaults().memgrow;
     common.initmem_amd = room > 0 ? 0.5 * room / symbolic->lnz : defaults().initmem_amd;
     numeric = klu_factor(starts(pattern), rows(pattern), scaled.data(), symbolic, &common);
@@ -233,7 +233,7 @@ FactorStatus SparseLU::factor(const std::vector<double>& values, const VectorX& 
       present_values_[k] = values[static_cast<std::size_t>(present_from_[k])];
     present = &present_values_;
   }
-  if (used().entry_count() == 0) {  // KLU does not accept a matrix without entries
+  if (used().entry_count() == 0) {  // KLU accepts no matrix without entries
     singular_column_ = 0;
     return FactorStatus::singular;
   }

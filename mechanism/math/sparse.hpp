@@ -69,8 +69,8 @@ struct FactorCost {
 /// `factor` keeps the pivot sequence as long as its pivots do not degenerate. When pivots are chosen, rows are scaled
 /// to a largest entry of one, for any units.
 ///
-/// Of a pattern with passing entries, only the entries that are not zero or have been nonzero before are factorised,
-/// until these are many: a new entry requires a new ordering and new pivots.
+/// If the pattern has passing entries, only those are factorised that are not zero now or were not zero before, until
+/// these are many: a new entry requires a new ordering and new pivots.
 class SparseLU {
  public:
   explicit SparseLU(const SparsePattern& pattern);  ///< the pattern must outlive the factors
