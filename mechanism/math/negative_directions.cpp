@@ -180,8 +180,7 @@ VectorX group_sizes(const Sparse& K, const Sparse& B, const std::vector<int>& gr
 }
 
 std::optional<int> count_negative_directions(const Sparse& K, const Sparse& B, const VectorX& sizes) {
-  constexpr double harmless = 1e6, most_growth = 1e8;  // square of the element growth: ten digits are left, or half of
-                                                       // them
+  constexpr double harmless = 1e6, most_growth = 1e8;  // squared element growth: ten digits are left, or half of them
   constexpr Eigen::Index small = 600;                  // number of unknowns
   if (K.rows() == 0) return 0;
   const Saddle saddle(K, B, sizes);

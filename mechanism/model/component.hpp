@@ -66,8 +66,7 @@ struct Crossing {
 struct Declaration {
   struct Scalar {
     std::string name;   ///< e.g. "mode 3"
-    std::string units;  ///< units of the unknown (an amplitude has those of the modal amplitude, a multiplier "N" or "N
-                        ///< m")
+    std::string units;  ///< units of the unknown (modal amplitudes have their own, multipliers "N" or "N m")
     double start = 0;   ///< initial value
     ConstraintKind kind = ConstraintKind::holonomic;  ///< kind of the constraint (multipliers only)
     /// A typical size of the unknown, in its units: much smaller values do not matter. 0: not known; the sizes of all
@@ -205,7 +204,7 @@ class Component {
   virtual void write_output(const LocalState& /*state*/, double* /*values*/) const {}
   /// Whether outputs are large, and cheaper to compute for several states at once (write_outputs).
   virtual bool outputs_together() const { return false; }
-  /// Does the same as write_output for each of the states. the output values of each state
+  /// Does the same as write_output for each of the states. @param values  the output values of each state
   virtual void write_outputs(std::span<const LocalState> states, std::span<double* const> values) const;
   /// Further quantities that are recorded only if the user requests them, because they are large.
   virtual std::vector<std::string> optional_fields() const { return {}; }
@@ -221,8 +220,8 @@ class Component {
   /// Requests the largest values of these quantities. The function is called once, while the model is read. @throws
   /// InputError
   virtual void gather_peaks(const std::vector<std::string>& /*quantities*/) {}
-  /// Creates an object that gathers data over all steps of an analysis, if the component needs one. nullptr if not. The
-  /// component must outlive it
+  /// Creates an object that gathers data over all steps of an analysis, if the component needs one. @returns nullptr if
+  /// it needs none. The component must outlive it
   virtual std::unique_ptr<Gatherer> make_gatherer() const;
   /// Attributes of the component's group in the results file (e.g. {"file", "conrod.h5"}).
   virtual std::vector<std::pair<std::string, std::string>> attributes() const { return {}; }

@@ -77,7 +77,7 @@ class LocalMatrix {
   void add(int row, int column, const Matrix3& block) { add<3, 3>(row, column, block); }
   void add_row(int row, int column, const Vector3& entries) { add<1, 3>(row, column, entries.transpose()); }
   void add_column(int row, int column, const Vector3& entries) { add<3, 1>(row, column, entries); }
-  /// Adds `value` times the identity. first column of displacements or constraints, not of rotations
+  /// Adds `value` times the identity. @param column  first column of displacements or constraints, not of rotations
   void add_identity(int row, int column, double value) {
     const double weighted = places_ ? weight_of(row, column) * value : value;
     for (int k = 0; k < 3; ++k) add_entry(row + k, column + k, weighted);

@@ -89,7 +89,7 @@ class Model {
   /// first those that connect components, then those that read formulas and measures.
   enum class Stage { connections, formulas };
   void when_read(Stage stage, std::function<void()> action);
-  /// Call after all entries have been read; runs the deferred actions. the exceptions of the actions
+  /// Call after all entries have been read; runs the deferred actions. @throws the exceptions of the actions
   void connect();
 
   /// Announces a measure that the user has named: it is created when it is first needed, at the latest by connect().

@@ -69,8 +69,7 @@ struct Slots {
   /// for rows that may be set aside as redundant: the redundant constraint of a planar linkage is normal to its plane,
   /// also when that plane turns. Otherwise a component may choose its axes (its forces are the same).
   bool carried_axes = true;
-  std::vector<const Slots*> references;  ///< slots of the components that this one refers to, in the order of its
-                                         ///< declaration
+  std::vector<const Slots*> references;  ///< slots of the components that this one refers to, in the declared order
   std::vector<int> reference_rows;       ///< first local row of each reference
   int referenced = 0;                    ///< number of local rows of all references
   /// Size of the component's local vector.
