@@ -2,10 +2,10 @@
 //
 // Along increments dz (of nodes: dx inertial, dTheta in node axes, R exp(dTheta~)),
 //     df = g . dz,   dg = S dz,   hence along a motion   fdot = g . v,   fddot = g . a + v . S v.
-// S is not symmetric: rotational increments do not commute. The rules of products and compositions hold all the same,
+// S is not symmetric: rotational increments do not commute. The rules of products and compositions nevertheless hold,
 //     S(f h) = f S_h + h S_f + g_f g_h^T + g_h g_f^T,    S(p(f)) = p' S_f + p'' g_f g_f^T,
-// because each is linear in the second derivatives and symmetric in what it adds. A joint is written as the formula of
-// its constraint, in terms of positions along axes, alignments of axes and angles (pair_measure.hpp).
+// because each term is linear in the second derivatives, and the added terms are symmetric. A joint is defined by the
+// formula of its constraint, in terms of positions along axes, alignments of axes and angles (pair_measure.hpp).
 #pragma once
 
 #include <cmath>
@@ -19,8 +19,8 @@ struct MeasureJet {
   using Vector = Eigen::Matrix<double, N, 1>;
   using Matrix = Eigen::Matrix<double, N, N>;
   double value = 0;
-  Vector gradient = Vector::Zero();  ///< g
-  Matrix second = Matrix::Zero();    ///< S
+  Vector gradient = Vector::Zero();  ///< gradient g
+  Matrix second = Matrix::Zero();    ///< second derivative S
   double rate(const Vector& v) const { return gradient.dot(v); }
   double acceleration(const Vector& v, const Vector& a) const { return gradient.dot(a) + v.dot(second * v); }
 
@@ -73,7 +73,7 @@ MeasureJet<N> operator-(MeasureJet<N> a, double constant) {
   return a += -constant;
 }
 
-/// p(f). @param p,p1,p2  the function and its first two derivatives at f
+/// The composition p(f). @param p,p1,p2  the function and its first two derivatives at f
 template <int N>
 MeasureJet<N> compose(const MeasureJet<N>& f, double p, double p1, double p2) {
   MeasureJet<N> result;
@@ -84,7 +84,7 @@ MeasureJet<N> compose(const MeasureJet<N>& f, double p, double p1, double p2) {
   return result;
 }
 
-/// p(f, h). @param p_f,..  partial derivatives at (f, h)
+/// The composition p(f, h). @param p_f,..  partial derivatives at (f, h)
 template <int N>
 MeasureJet<N> compose(const MeasureJet<N>& f, const MeasureJet<N>& h, double p, double p_f, double p_h, double p_ff,
                       double p_fh, double p_hh) {
@@ -103,7 +103,7 @@ template <int N>
 MeasureJet<N> operator*(const MeasureJet<N>& a, const MeasureJet<N>& b) {
   return compose(a, b, a.value * b.value, b.value, a.value, 0, 1, 0);
 }
-/// @param b  not zero
+/// @param b  must not be zero
 template <int N>
 MeasureJet<N> operator/(const MeasureJet<N>& a, const MeasureJet<N>& b) {
   const double q = a.value / b.value, i = 1 / b.value;
@@ -113,13 +113,13 @@ template <int N>
 MeasureJet<N> square(const MeasureJet<N>& f) {
   return compose(f, f.value * f.value, 2 * f.value, 2);
 }
-/// @param f  positive
+/// @param f  must be positive
 template <int N>
 MeasureJet<N> sqrt(const MeasureJet<N>& f) {
   const double root = std::sqrt(f.value);
   return compose(f, root, 0.5 / root, -0.25 / (root * f.value));
 }
-/// In (-pi, pi]. @param s,c  not both zero
+/// The angle is in (-pi, pi]. @param s,c  not both zero
 template <int N>
 MeasureJet<N> atan2(const MeasureJet<N>& s, const MeasureJet<N>& c) {
   const double w = s.value * s.value + c.value * c.value, s_w = s.value / w, c_w = c.value / w;
