@@ -1,8 +1,8 @@
-// Numbers that carry their gradient, and vectors of them: geometry that is written once gives values, and values with
-// exact derivatives.
+// Numbers with their gradient, and vectors of them: a geometric formula that is written once gives values, or values
+// with exact derivatives.
 //
-// A formula is a template of its number T: of `double`, or of `GradientNumber<N>`, a value with its derivatives along N
-// increments. Where a formula branches it does so by values alone.
+// A formula is a template in its number T, either `double` or `GradientNumber<N>`, a value with its derivatives along N
+// increments. Branches in a formula depend only on values.
 #pragma once
 
 #include <cmath>
@@ -51,20 +51,20 @@ double value_of(const GradientNumber<N>& a) {
   return a.value;
 }
 
-/// p(a). @param p,slope  of the function at a
+/// The composition p(a). @param p,slope  value and slope of the function at a
 inline double composed(double /*a*/, double p, double /*slope*/) { return p; }
 template <int N>
 GradientNumber<N> composed(const GradientNumber<N>& a, double p, double slope) {
   return {p, slope * a.gradient};
 }
 
-/// @param a  positive
+/// @param a  must be positive
 template <class T>
 T root_of(const T& a) {
   const double root = std::sqrt(value_of(a));
   return composed(a, root, 0.5 / root);
 }
-/// a^n. @param a  positive
+/// The power a^n. @param a  must be positive
 template <class T>
 T power_of(const T& a, double n) {
   const double power = std::pow(value_of(a), n);
