@@ -5,10 +5,11 @@
 // Here f_e and L are defined in pair_touches.hpp and h in friction_law.hpp, pdot = -n . v, v_t = v - n (n . v), and v
 // is the velocity of the second body's material at c relative to the first body's. Everything is computed in the axes
 // of the first node, as a function of s = R_1^T (x_2 - x_1), R_12 = R_1^T R_2 and of the rates of both as seen from the
-// first node. The forces act at one point, equal and opposite: momentum and angular momentum are exactly conserved. The
-// derivatives are exact, too. `lugre`: each place in contact has a bristle z, normal to n, which is zero at the
-// beginning of contact. In a step in which the second body's material at c has moved by d, seen from the first, and
-// rotated about n by psi,
+// first node.
+// The forces act at one point, equal and opposite: momentum and angular momentum are exactly conserved. The derivatives
+// are exact, too. `lugre`: each place in contact has a bristle z, normal to n, which is zero at the beginning of
+// contact. In a step in which the second body's material at c has moved by d, seen from the first, and rotated about n
+// by psi,
 //     z = T P (z_before + d)/(1 + sigma_0 |P d|/mu),   P = I - n n^T,   T = exp(psi/2 n~),
 //     F_t = -L max(..) [sigma_0 z + sigma_1 u + sigma_2 v_t],   u = v_t - sigma_0 |v_t| z/mu:
 // This is the implicit Euler method, stable for bristles of any stiffness. T rotates the bristle by the mean rotation

@@ -21,8 +21,7 @@ struct ContactShape {
   Kind kind = Kind::sphere;
   int node = 0;
   std::string node_name;
-  Frame frame;                     ///< frame in the node's axes; normal of a plane, axis of a capsule or cylinder along
-                                   ///< z
+  Frame frame;                     ///< frame in the node's axes; z: normal of a plane, axis of a capsule or cylinder
   double radius = 0;               ///< radius of a sphere, capsule or cylinder [m]
   double half_length = 0;          ///< half length of a cylinder, or of the line between a capsule's ends [m]
   Vector3 half = Vector3::Zero();  ///< half the edges of a box [m]

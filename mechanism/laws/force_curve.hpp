@@ -13,7 +13,8 @@ namespace bielle::mechanism {
 
 class ForceCurve {
  public:
-  /// Reads two columns of a file, with ascending displacements and at least two points. @throws InputError
+  /// Reads two columns of a file, with ascending displacements and at least two points.
+  /// @throws InputError
   static ForceCurve from_file(const std::string& path);
 
   struct Values {

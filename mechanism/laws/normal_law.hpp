@@ -7,8 +7,9 @@
 // Here e is the coefficient of restitution, for any k, n and mass, because m v dv = -F dp and the integral of v/(1 + d
 // v) from v_i to -e v_i is zero. For slow impacts e = 1 - (2/3) d v_i + ..; it decreases with the speed. If
 // `restitution` is given instead of the damping, d = delta(e)/v_i follows from the speed at the beginning of contact: e
-// is then the same at every speed. Reference: K. H. Hunt, F. R. E. Crossley, Coefficient of restitution interpreted as
-// damping in vibroimpact, J. Applied Mechanics 42 (1975) 440-445.
+// is then the same at every speed.
+// Reference: K. H. Hunt, F. R. E. Crossley, Coefficient of restitution interpreted as damping in vibroimpact, J.
+// Applied Mechanics 42 (1975) 440-445.
 #pragma once
 
 #include <optional>

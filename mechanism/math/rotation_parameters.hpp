@@ -44,8 +44,9 @@ struct RotationVector {
   static Matrix3 tangent_inverse_derivative(const Vector3& psi, const Vector3& u);
 };
 
-/// Euler parameters (w, x, y, z) = (cos(phi/2), sin(phi/2) e); principal: length 1, w >= 0. A quaternion of any other
-/// length represents the same rotation: T is that of p/|p|, and T^-1 gives rates that preserve the length.
+/// Euler parameters (w, x, y, z) = (cos(phi/2), sin(phi/2) e); principal: length 1, w >= 0.
+/// A quaternion of any other length represents the same rotation: T is that of p/|p|, and T^-1 gives rates that
+/// preserve the length.
 struct UnitQuaternion {
   using Parameters = Eigen::Vector4d;
   using Tangent = Eigen::Matrix<double, 3, 4>;
@@ -92,8 +93,8 @@ struct ConformalVector {
   static Matrix3 tangent_inverse_derivative(const Vector3& c, const Vector3& u);
 };
 
-/// (a, b, c) [rad] with R = Rz(a) Rx(b) Rz(c); principal: a, c in (-pi, pi], b in [0, pi]. At b = 0 and pi only a + c
-/// or a - c is determined: `parameters` assigns it to a. T is singular there.
+/// (a, b, c) [rad] with R = Rz(a) Rx(b) Rz(c); principal: a, c in (-pi, pi], b in [0, pi].
+/// At b = 0 and pi only a + c or a - c is determined: `parameters` assigns it to a. T is singular there.
 struct EulerAngles {
   using Parameters = Vector3;
   using Tangent = Matrix3;
@@ -108,8 +109,8 @@ struct EulerAngles {
   static Matrix3 tangent_inverse_derivative(const Vector3& angles, const Vector3& u);
 };
 
-/// Cardan angles (a, b, c) [rad] with R = Rx(a) Ry(b) Rz(c); principal: a, c in (-pi, pi], b in [-pi/2, pi/2]. At b =
-/// +-pi/2 only a +- c is determined: `parameters` assigns it to a. T is singular there.
+/// Cardan angles (a, b, c) [rad] with R = Rx(a) Ry(b) Rz(c); principal: a, c in (-pi, pi], b in [-pi/2, pi/2].
+/// At b = +-pi/2 only a +- c is determined: `parameters` assigns it to a. T is singular there.
 struct BryantAngles {
   using Parameters = Vector3;
   using Tangent = Matrix3;

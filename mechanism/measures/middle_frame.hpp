@@ -6,8 +6,8 @@
 // - Exchanging the frames changes the signs of all six (with u_0): no node is preferred.
 // - |u + u_0| is the distance of the points: a force along u, for a stiffness that is equal in all directions, acts
 //   along the line between them, without a moment about either point.
-// - psi has the same components in A, B and M. Relative rotations must stay below half a turn. With h = psi/2, d =
-// R_A^T (p_B - p_A) and T the tangent operator of rotations,
+// - psi has the same components in A, B and M. Relative rotations must stay below half a turn.
+// With h = psi/2, d = R_A^T (p_B - p_A) and T the tangent operator of rotations,
 //     u = exp(-h) d - u_0,   du = exp(-h) dd + (u + u_0) x T(h) dh.
 // Reference for frames between two nodes: P. Masarati, M. Morandini, Intrinsic deformable joints, Multibody System
 // Dynamics 23 (2010) 361-386.

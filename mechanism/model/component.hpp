@@ -221,7 +221,8 @@ class Component {
   /// InputError
   virtual void gather_peaks(const std::vector<std::string>& /*quantities*/) {}
   /// Creates an object that gathers data over all steps of an analysis, if the component needs one. @returns nullptr if
-  /// it needs none. The component must outlive it
+  /// it needs none.
+  /// The component must outlive it
   virtual std::unique_ptr<Gatherer> make_gatherer() const;
   /// Attributes of the component's group in the results file (e.g. {"file", "conrod.h5"}).
   virtual std::vector<std::pair<std::string, std::string>> attributes() const { return {}; }

@@ -201,8 +201,8 @@ void rewind_to(Hdf5File& file, const Checkpoint& checkpoint) {
   // The times are truncated first: rows beyond them do not count.
   file.truncate_rows(group + "/time", checkpoint.rows);
   file.flush();
-  // Events are not rows over time; their number is stored in the checkpoint (ResultsFile::exchange). Results that an
-  // analysis writes at its end (`reaction_unique`) will be written again.
+  // Events are not rows over time; their number is stored in the checkpoint (ResultsFile::exchange).
+  // Results that an analysis writes at its end (`reaction_unique`) will be written again.
   std::vector<std::string> of_the_end;
   for_each_dataset(file, group, [&](const std::string& dataset) {
     if (file.grows(dataset)) {

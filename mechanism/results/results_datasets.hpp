@@ -22,8 +22,8 @@ ResultsLayout layout_for(const ResultsRows& rows, std::optional<ResultsLayout> w
 void create_datasets(Hdf5File& file, const std::string& group, const ResultsRows& rows, ResultsLayout layout,
                      const std::vector<ResultsColumn>& columns, std::size_t rows_per_chunk);
 
-/// Checks that an analysis of the file contains the datasets that would be recorded now, and no others. @throws
-/// InputError
+/// Checks that an analysis of the file contains the datasets that would be recorded now, and no others.
+/// @throws InputError
 void check_same_datasets(const Hdf5File& file, const std::string& group, const Model& model, const ResultsRows& rows,
                          ResultsLayout layout, const std::vector<ResultsColumn>& columns);
 
